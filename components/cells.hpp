@@ -1,0 +1,50 @@
+#pragma once
+/// \file
+/// The dual cells that hold particles, in the order in which particles are sorted: blocks of 4^d dual cells, cells
+/// within a block. Blocks of one colour share no node, so they can be scattered from side by side.
+
+#include "components/types.hpp"
+#include "engine/component.hpp"
+
+#include <span>
+#include <vector>
+
+namespace minamo {
+
+template <int Dim>
+struct OccupiedCells {
+  /// Dual cells per direction of a block. Less than 3 would let the cut cells of two walls share a node.
+  static constexpr int block_width = 4;
+  static constexpr std::size_t colours = power(2, Dim);
+
+  struct Cell {
+    Index<Dim> node;      ///< the node in its middle
+    std::uint32_t begin;  ///< first particle
+    std::uint32_t end;    ///< past the last particle
+  };
+  struct Block {
+    std::uint32_t begin;  ///< first cell
+    std::uint32_t end;    ///< past the last cell
+  };
+  std::vector<Cell> cells;
+  std::array<std::vector<Block>, colours> blocks;  ///< by colour
+  static constexpr ComponentInfo info{"cells", "c", "1", Lifetime::scratch};
+};
+
+/// sum over the particles of a cell of V_p xi^a eta^b (zeta^c), 0 <= a, b, c <= 4, at [a + 5 b + 25 c]; xi, eta, zeta in
+/// units of h from the cell's node. One entry per occupied cell. [m^3; m^2 in 2-D]
+template <int Dim>
+struct Moments {
+  std::vector<std::array<double, stencil_size<Dim>>> of_cell;
+  static constexpr ComponentInfo info{"cells.moments", "M_c", "m^d", Lifetime::scratch};
+};
+
+/// Work space of the sort, kept so that a step does not allocate.
+struct BinBuffer {
+  std::vector<std::uint32_t> key;    ///< of every particle
+  std::vector<std::uint32_t> first;  ///< of every key
+  std::vector<std::uint32_t> place;  ///< which particle comes here
+  static constexpr ComponentInfo info{"cells.bin_buffer", "", "1", Lifetime::cache};
+};
+
+}  // namespace minamo

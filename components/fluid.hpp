@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// The liquid and what drives it.
+
+#include "components/types.hpp"
+#include "engine/component.hpp"
+#include "engine/expression.hpp"
+
+#include <vector>
+
+namespace minamo {
+
+struct Fluid {
+  double density = 0;    ///< rho [kg/m^3]
+  double viscosity = 0;  ///< dynamic viscosity mu [Pa s]
+  static constexpr ComponentInfo info{"fluid", "rho, mu", "kg/m^3, Pa s", Lifetime::constant};
+};
+
+/// Body force per unit mass b, one expression in x, y, z, t per direction. [m/s^2]
+struct BodyForce {
+  std::vector<Expression> of_place_and_time;
+  static constexpr ComponentInfo info{"body_force", "b", "m/s^2", Lifetime::constant};
+};
+
+}  // namespace minamo

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// The Cartesian grid: nodes at low + h (i, j, k), i = 0 .. cells. Around every node lies its dual cell, the points
+/// nearest to it, cut in half at walls. Particles of one dual cell share their 3^d nodes.
+
+#include "components/types.hpp"
+#include "engine/component.hpp"
+
+namespace minamo {
+
+template <int Dim>
+struct Grid {
+  Vec<Dim> low = Vec<Dim>::Zero();   ///< corner of the box [m]
+  Vec<Dim> high = Vec<Dim>::Zero();  ///< opposite corner [m]
+  double spacing = 0;                ///< h, the same in all directions [m]
+  Index<Dim> cells{};                ///< per direction, at least 3
+  static constexpr ComponentInfo info{"grid", "h", "m", Lifetime::constant};
+
+  int nodes(int axis) const { return cells[static_cast<std::size_t>(axis)] + 1; }
+  std::size_t node_count() const {
+    std::size_t count = 1;
+    for (int d = 0; d < Dim; ++d) count *= static_cast<std::size_t>(nodes(d));
+    return count;
+  }
+  /// Row of a node in the tables, x fastest.
+  std::size_t row(const Index<Dim>& node) const {
+    std::size_t row = 0;
+    for (int d = Dim - 1; d >= 0; --d) {
+      row = row * static_cast<std::size_t>(nodes(d)) + static_cast<std::size_t>(node[static_cast<std::size_t>(d)]);
+    }
+    return row;
+  }
+  Vec<Dim> position(const Index<Dim>& node) const {
+    Vec<Dim> x;
+    for (int d = 0; d < Dim; ++d) x[d] = low[d] + spacing * node[static_cast<std::size_t>(d)];
+    return x;
+  }
+};
+
+}  // namespace minamo

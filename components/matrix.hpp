@@ -1,0 +1,71 @@
+#pragma once
+/// \file
+/// The linear system of a step, as data. Rows of the stencil tables belong to active nodes; entry k of a row belongs to
+/// the neighbour at offset (k % 5 - 2, k / 5 % 5 - 2, ...), so that entry 5^d - 1 - k is the way back.
+
+#include "components/types.hpp"
+#include "engine/component.hpp"
+
+#include <vector>
+
+namespace minamo {
+
+/// Active nodes, in the order of their place in the grid.
+struct ActiveNodes {
+  static constexpr std::string_view name = "matrix";
+};
+
+namespace matrix {
+
+/// The node of a row. [1]
+struct Node : Column<ActiveNodes, std::uint32_t> {
+  static constexpr ComponentInfo info{"matrix.node", "I", "1", Lifetime::scratch};
+};
+
+/// D_IJ = sum_p V_p S_I grad S_J, at [Dim k + d]; its transpose is the pressure gradient. [m^(d-1)]
+template <int Dim>
+struct Divergence : Column<ActiveNodes, std::array<double, stencil_size<Dim> * Dim>> {
+  static constexpr ComponentInfo info{"matrix.divergence", "D_IJ", "m^(d-1)", Lifetime::scratch};
+};
+
+/// L_IJ = sum_p V_p grad S_I . grad S_J. [m^(d-2)]
+template <int Dim>
+struct Laplacian : Column<ActiveNodes, std::array<double, stencil_size<Dim>>> {
+  static constexpr ComponentInfo info{"matrix.laplacian", "L_IJ", "m^(d-2)", Lifetime::scratch};
+};
+
+/// K_IJ, force on node I per velocity of node J, at [Dim^2 k + Dim i + j]. [kg/s]
+template <int Dim>
+struct Viscosity : Column<ActiveNodes, std::array<double, stencil_size<Dim> * Dim * Dim>> {
+  static constexpr ComponentInfo info{"matrix.viscosity", "K_IJ", "kg/s", Lifetime::scratch};
+};
+
+/// Where the monolithic matrix has entries: compressed columns, (d + 1) unknowns per row of the tables, pressure last.
+struct Pattern {
+  std::vector<int> outer;      ///< start of every column, and the end
+  std::vector<int> inner;      ///< row of every entry, rising within a column
+  std::int64_t revision = 0;   ///< grows by one whenever the pattern is another than in the step before
+  std::vector<int> next_outer;  ///< work space of the assembly
+  std::vector<int> next_inner;
+  static constexpr ComponentInfo info{"matrix.pattern", "", "1", Lifetime::cache};
+};
+
+/// The entries of the monolithic matrix, in the order of Pattern::inner.
+struct Values {
+  std::vector<double> values;
+  static constexpr ComponentInfo info{"matrix.values", "", "", Lifetime::scratch};
+};
+
+struct RightHandSide {
+  std::vector<double> values;
+  static constexpr ComponentInfo info{"matrix.right_hand_side", "", "", Lifetime::scratch};
+};
+
+/// Displacement and pressure per row of the tables.
+struct Solution {
+  std::vector<double> values;
+  static constexpr ComponentInfo info{"matrix.solution", "", "", Lifetime::scratch};
+};
+
+}  // namespace matrix
+}  // namespace minamo

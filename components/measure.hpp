@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// What is measured after every step, for the history.
+
+#include "components/types.hpp"
+#include "engine/component.hpp"
+
+#include <optional>
+
+namespace minamo::measure {
+
+struct Energy {
+  double kinetic = 0;               ///< sum m_p |v_p|^2 / 2 [J]
+  std::optional<double> potential;  ///< -sum m_p b . (x_p - low corner), for a constant body force [J]
+  static constexpr ComponentInfo info{"measure.energy", "E", "J", Lifetime::scratch};
+};
+
+template <int Dim>
+struct Momentum {
+  Vec<Dim> linear = Vec<Dim>::Zero();  ///< sum m_p v_p [kg m/s]
+  /// About the centre of mass, with what velocity gradients of particles add. [kg m^2/s]
+  Vec<rotations<Dim>> angular = Vec<rotations<Dim>>::Zero();
+  static constexpr ComponentInfo info{"measure.momentum", "P, L", "kg m/s, kg m^2/s", Lifetime::scratch};
+};
+
+/// Largest |v_p|. [m/s]
+struct MaxSpeed {
+  double value = 0;
+  static constexpr ComponentInfo info{"measure.max_speed", "max |v_p|", "m/s", Lifetime::scratch};
+};
+
+/// Largest |(sum_J D_IJ . v_J) / (m_I / rho)| over active nodes. [1/s]
+struct MaxDivergence {
+  double value = 0;
+  static constexpr ComponentInfo info{"measure.max_divergence", "max |div v|", "1/s", Lifetime::scratch};
+};
+
+/// sum_I max(0, V~_I - V_I) / sum_p V_p. [1]
+struct Overlap {
+  double value = 0;
+  static constexpr ComponentInfo info{"measure.overlap", "overlap", "1", Lifetime::scratch};
+};
+
+}  // namespace minamo::measure

@@ -1,0 +1,92 @@
+#pragma once
+/// \file
+/// What grid nodes carry. One row per node of the whole grid, x fastest (grid.hpp).
+/// A node is empty (no mass), light (too little mass for a pressure; it moves freely), or active (a row of the matrix).
+
+#include "components/types.hpp"
+#include "engine/component.hpp"
+
+namespace minamo {
+
+struct Nodes {
+  static constexpr std::string_view name = "node";
+};
+
+namespace node {
+
+/// Components of the displacement that a wall holds at zero: bit d for direction d. [1]
+struct Fixed : Column<Nodes, std::uint8_t> {
+  static constexpr ComponentInfo info{"node.fixed", "", "1", Lifetime::constant};
+};
+
+/// Row in the matrix tables, -1 for a node that is not active. [1]
+struct Row : Column<Nodes, std::int32_t> {
+  static constexpr ComponentInfo info{"node.row", "", "1", Lifetime::scratch};
+};
+
+/// Mass m_I. [kg]
+struct Mass : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.mass", "m_I", "kg", Lifetime::scratch};
+};
+
+/// Velocity v_I^n at the start of the step. [m/s]
+template <int Dim>
+struct Velocity : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.velocity", "v_I^n", "m/s", Lifetime::scratch};
+};
+
+/// Acceleration a_I^n at the start of the step. [m/s^2]
+template <int Dim>
+struct Acceleration : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.acceleration", "a_I^n", "m/s^2", Lifetime::scratch};
+};
+
+/// Body force per unit mass b_I. [m/s^2]
+template <int Dim>
+struct BodyForce : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.body_force", "b_I", "m/s^2", Lifetime::scratch};
+};
+
+/// Part of the velocity in the balances that does not depend on the unknown displacement. [m/s]
+template <int Dim>
+struct KnownVelocity : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.known_velocity", "v^_I", "m/s", Lifetime::scratch};
+};
+
+/// Part of the acceleration in the balances that does not depend on the unknown displacement. [m/s^2]
+template <int Dim>
+struct KnownAcceleration : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.known_acceleration", "a^_I", "m/s^2", Lifetime::scratch};
+};
+
+/// Displacement u_I over the step. [m]
+template <int Dim>
+struct Displacement : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.displacement", "u_I", "m", Lifetime::scratch};
+};
+
+/// Pressure p_I; zero at nodes that are not active. [Pa]
+struct Pressure : Column<Nodes, double> {
+  // State, because output samples it after the step.
+  static constexpr ComponentInfo info{"node.pressure", "p_I", "Pa", Lifetime::state};
+};
+
+/// Volume V~_I of the particles around a node at the end of the step. [m^3; m^2 in 2-D]
+struct Volume : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.volume", "V~_I", "m^d", Lifetime::scratch};
+};
+
+/// Velocity v_I^{n+1} at the end of the step. [m/s]
+template <int Dim>
+struct NewVelocity : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.new_velocity", "v_I^{n+1}", "m/s", Lifetime::scratch};
+};
+
+/// Acceleration a_I^{n+1} at the end of the step. [m/s^2]
+template <int Dim>
+struct NewAcceleration : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.new_acceleration", "a_I^{n+1}", "m/s^2", Lifetime::scratch};
+};
+
+}  // namespace node
+}  // namespace minamo

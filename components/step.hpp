@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// What a step is made of beside its length (engine/clock.hpp).
+
+#include "engine/component.hpp"
+
+namespace minamo {
+
+/// How velocity and acceleration in the balances follow from the displacement: v = c_v u + v^, a = c_a u + a^.
+struct Rates {
+  double velocity = 0;      ///< c_v [1/s]
+  double acceleration = 0;  ///< c_a [1/s^2]
+  double time = 0;          ///< instant at which the momentum balance holds [s]
+  static constexpr ComponentInfo info{"step.rates", "c_v, c_a", "1/s, 1/s^2", Lifetime::scratch};
+};
+
+/// Parameters of the newmark integrator.
+struct NewmarkParameters {
+  double beta = 0.25;  ///< [1]
+  double gamma = 0.5;  ///< [1]
+  static constexpr ComponentInfo info{"newmark", "beta, gamma", "1", Lifetime::constant};
+};
+
+/// Share alpha of FLIP in the blend of FLIP and PIC. [1]
+struct FlipBlend {
+  double alpha = 1;
+  static constexpr ComponentInfo info{"flip_blend", "alpha", "1", Lifetime::constant};
+};
+
+/// Stabilization time over density, tau. [m^3 s/kg]
+struct StabilizationTime {
+  double tau = 0;
+  static constexpr ComponentInfo info{"stabilization.tau", "tau", "m^3 s/kg", Lifetime::scratch};
+};
+
+/// Particles that a step would have carried out of the box, so far. [1]
+struct PutBack {
+  std::int64_t count = 0;
+  static constexpr ComponentInfo info{"put_back", "", "1", Lifetime::state};
+};
+
+}  // namespace minamo

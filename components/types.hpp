@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Small fixed-size vectors and matrices, and powers known at compile time.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace minamo {
+
+// Not aligned: columns are plain arrays of doubles, and 2-D vectors pack without gaps.
+template <int Dim>
+using Vec = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
+template <int Dim>
+using Mat = Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign>;
+template <int Dim>
+using Index = std::array<int, static_cast<std::size_t>(Dim)>;
+
+/// base^exponent.
+constexpr std::size_t power(std::size_t base, int exponent) {
+  return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
+
+/// Nodes that carry a particle: 3 per direction.
+template <int Dim>
+inline constexpr std::size_t support_size = power(3, Dim);
+
+/// Nodes that share a particle with a node: 5 per direction.
+template <int Dim>
+inline constexpr std::size_t stencil_size = power(5, Dim);
+
+/// Components of an angular momentum: 1 in the plane, 3 in space.
+template <int Dim>
+inline constexpr int rotations = Dim == 2 ? 1 : 3;
+
+}  // namespace minamo

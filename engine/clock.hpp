@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// Where a run stands in time.
+
+#include "engine/component.hpp"
+
+namespace minamo {
+
+struct Clock {
+  double time = 0;         ///< at the start of the step [s]
+  double step = 0;         ///< length of the step [s]
+  double end_of_step = 0;  ///< time + step, without rounding that adds up [s]
+  std::int64_t index = 0;  ///< steps done
+  static constexpr ComponentInfo info{"clock", "t, dt", "s", Lifetime::state};
+};
+
+}  // namespace minamo

@@ -1,0 +1,72 @@
+#pragma once
+/// \file
+/// What a component is: a column of a table or a resource, with a name, a symbol, a unit and a lifetime.
+/// Where components are stored: world.hpp. Who may touch them: system.hpp.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+namespace minamo {
+
+/// How long the content of a component means something.
+enum class Lifetime {
+  constant,  ///< written while the run is set up, only read afterwards
+  state,     ///< carried from step to step; the checkpoint is made of these
+  scratch,   ///< written anew in every step before it is read
+  cache,     ///< kept between steps to save work; no result depends on it
+};
+
+struct ComponentInfo {
+  std::string_view name;    ///< unique, `table.quantity`
+  std::string_view symbol;  ///< as in systems/EQUATIONS.md
+  std::string_view unit;    ///< SI; "1" is dimensionless
+  Lifetime lifetime;
+};
+
+/// Base of a column component: one `Value` per row of `Table`. A table is an empty struct with a `name`.
+template <class Table, class Value>
+struct Column {
+  using table = Table;
+  using value_type = Value;
+};
+
+template <class C>
+concept Described = requires {
+  { C::info } -> std::convertible_to<const ComponentInfo&>;
+};
+
+template <class C>
+concept ColumnComponent = Described<C> && requires {
+  typename C::table;
+  typename C::value_type;
+};
+
+/// One value per world, of the component's own type.
+template <class C>
+concept ResourceComponent = Described<C> && !ColumnComponent<C> && std::default_initializable<C>;
+
+/// A zero of any value type. `T{}` of a fixed-size matrix type would stay uninitialised.
+template <class T>
+T zero() {
+  if constexpr (requires { T::Zero(); }) {
+    return T::Zero();
+  } else {
+    return T{};
+  }
+}
+
+namespace detail {
+std::size_t next_component_id();
+}
+
+/// A small number per component type, the same for the life of the program.
+template <Described C>
+std::size_t component_id() {
+  static const std::size_t id = detail::next_component_id();
+  return id;
+}
+
+}  // namespace minamo

@@ -1,0 +1,107 @@
+#include "engine/hdf5.hpp"
+
+#include <array>
+#include <stdexcept>
+
+#include <hdf5.h>
+
+namespace minamo {
+
+namespace {
+
+/// An HDF5 identifier that closes itself.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
+    if (id < 0) throw std::runtime_error(what);
+  }
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+hid_t open(const std::string& path, Hdf5File::Access access) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
+  switch (access) {
+    case Hdf5File::Access::create:
+      return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    case Hdf5File::Access::extend:
+      return H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    case Hdf5File::Access::read:
+      return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  }
+  return -1;
+}
+
+void write_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type, const void* value,
+                     const std::string& what) {
+  const Handle target(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, what);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, what);
+  const Handle attribute(H5Acreate2(target, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
+  if (H5Awrite(attribute, type, value) < 0) throw std::runtime_error(what);
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(std::string path, Access access) : path_(std::move(path)), file_(open(path_, access)) {
+  if (file_ < 0) throw std::runtime_error(path_ + ": cannot be opened as an HDF5 file");
+}
+
+Hdf5File::~Hdf5File() { H5Fclose(file_); }
+
+void Hdf5File::write(const std::string& dataset, const void* values, std::int64_t type,
+                     std::span<const std::size_t> shape) {
+  const std::string what = path_ + ": dataset " + dataset + " cannot be written";
+  std::array<hsize_t, 2> extent{};
+  for (std::size_t k = 0; k < shape.size(); ++k) extent[k] = shape[k];
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
+  H5Pset_create_intermediate_group(links, 1);
+  const Handle space(H5Screate_simple(static_cast<int>(shape.size()), extent.data(), nullptr), H5Sclose, what);
+  const Handle data(H5Dcreate2(file_, dataset.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, what);
+  if (H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) throw std::runtime_error(what);
+}
+
+void Hdf5File::write(const std::string& dataset, std::span<const double> values, std::size_t width) {
+  const std::array<std::size_t, 2> shape{values.size() / width, width};
+  write(dataset, values.data(), H5T_NATIVE_DOUBLE, std::span(shape).first(width == 1 ? 1 : 2));
+}
+
+void Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> values) {
+  const std::array<std::size_t, 1> shape{values.size()};
+  write(dataset, values.data(), H5T_NATIVE_INT64, shape);
+}
+
+void Hdf5File::write(const std::string& dataset, std::span<const std::byte> values) {
+  const std::array<std::size_t, 1> shape{values.size()};
+  write(dataset, values.data(), H5T_NATIVE_UINT8, shape);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
+  write_attribute(file_, object, name, H5T_NATIVE_DOUBLE, &value, path_ + ": attribute " + name);
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name, const std::string& value) {
+  const std::string what = path_ + ": attribute " + name;
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, what);
+  H5Tset_size(type, value.empty() ? 1 : value.size());
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  write_attribute(file_, object, name, type, value.c_str(), what);
+}
+
+std::vector<std::byte> Hdf5File::read_bytes(const std::string& dataset) const {
+  const std::string what = path_ + ": dataset " + dataset + " cannot be read";
+  const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose, what);
+  const Handle type(H5Dget_type(data), H5Tclose, what);
+  const Handle space(H5Dget_space(data), H5Sclose, what);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type));
+  if (H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0) throw std::runtime_error(what);
+  return bytes;
+}
+
+}  // namespace minamo

@@ -1,0 +1,260 @@
+#include "engine/input.hpp"
+
+#include "engine/input_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// The value under a key, checked; the fallback if it is absent; nothing, with the problem noted, if it is missing or
+/// wrong.
+template <class Value, class Check>
+std::optional<Value> read_key(InputPlace& place, KeyShape shape, const std::optional<Value>& fallback,
+                              const Check& check) {
+  const KeyShape key = place.declare(std::move(shape));
+  const Json* value = place.find(key.name);
+  if (value) {
+    place.echo[key.name] = *value;
+    return check(place.pointer_to(key.name), *value);
+  }
+  if (key.fallback) place.echo[key.name] = *key.fallback;
+  if (key.presence == KeyShape::Presence::required)
+    place.note_missing({key.name}, {{}, place.pointer_to(key.name), "missing key", key.expected, {}, {}});
+  return fallback;
+}
+
+/// The list under a key, each element checked.
+template <class Value, class Check>
+std::optional<std::vector<Value>> read_elements(InputPlace& place, KeyShape shape, std::size_t size,
+                                                const std::optional<Value>& fallback, const Check& check) {
+  const std::string expected = shape.expected;
+  const auto check_all = [&](const std::string& at, const Json& list) -> std::optional<std::vector<Value>> {
+    if (!list.is_array() || list.size() != size) {
+      place.note(at, list.is_array() ? "wrong length" : "wrong type", expected, list);
+      return {};
+    }
+    std::vector<Value> values;
+    for (std::size_t i = 0; i < size; ++i)
+      if (auto value = check(at + "/" + std::to_string(i), list[i])) values.push_back(std::move(*value));
+    return values.size() == size ? std::optional(std::move(values)) : std::nullopt;
+  };
+  std::optional<std::vector<Value>> all;
+  if (fallback) all.emplace(size, *fallback);
+  return read_key(place, std::move(shape), all, check_all);
+}
+
+KeyShape key_shape(std::string_view key, std::string expected, Json schema, std::string_view doc,
+                   std::optional<Json> fallback) {
+  schema["description"] = doc;
+  if (fallback) schema["default"] = *fallback;
+  const auto presence = fallback ? KeyShape::Presence::optional : KeyShape::Presence::required;
+  return {std::string(key), std::move(expected), {}, std::move(schema), std::move(fallback), presence, {}};
+}
+
+KeyShape list_shape(std::string_view key, const Phrase& words, Json element, std::size_t size, std::string_view doc,
+                    const std::optional<Json>& fallback) {
+  Json schema{{"type", "array"}, {"items", std::move(element)}, {"minItems", size}, {"maxItems", size}};
+  std::optional<Json> all;
+  if (fallback) all = Json(Json::array_t(size, *fallback));
+  KeyShape shape = key_shape(key, "a list of " + std::to_string(size) + " " + words.many, std::move(schema), doc, all);
+  shape.items = words.many;
+  return shape;
+}
+
+std::optional<Json> json_of(const std::optional<double>& value) {
+  return value ? std::optional(json_number(*value)) : std::nullopt;
+}
+
+template <class T>
+std::optional<Json> json_of(const std::optional<T>& value) {
+  return value ? std::optional(Json(*value)) : std::nullopt;
+}
+
+std::optional<double> check_number(InputPlace& place, const std::string& at, const Json& value, const Number& rule) {
+  if (!value.is_number())
+    place.note(at, "wrong type", phrase(rule).one, value);
+  else if (!fits(rule, value.get<double>()))
+    place.note(at, "out of range", phrase(rule).one, value);
+  else
+    return value.get<double>();
+  return {};
+}
+
+std::optional<std::int64_t> check_integer(InputPlace& place, const std::string& at, const Json& value,
+                                          const Integer& rule) {
+  const double number = value.is_number() ? value.get<double>() : 0;
+  const bool representable = number >= -0x1p63 && number < 0x1p63;
+  if (!value.is_number())
+    place.note(at, "wrong type", phrase(rule).one, value);
+  else if (std::trunc(number) != number)
+    place.note(at, "not a whole number", phrase(rule).one, value);
+  else if (!representable || !fits(rule, value.get<std::int64_t>()))
+    place.note(at, "out of range", phrase(rule).one, value);
+  else
+    return value.get<std::int64_t>();
+  return {};
+}
+
+std::optional<Expression> parsed(InputPlace& place, const std::string& at, const Json& value,
+                                 const ExpressionScope& scope, const Number& rule) {
+  try {
+    return Expression(value.get<std::string>(), scope);
+  } catch (const ExpressionError& error) {
+    const auto names = known_names(scope);
+    const std::string closest = error.token.empty() ? "" : closest_name(error.token, names);
+    place.note(at, std::string("not an expression: ") + error.what(), phrase(rule, scope).one, value, closest);
+    return {};
+  }
+}
+
+std::optional<Expression> check_expression(InputPlace& place, const std::string& at, const Json& value,
+                                           const ExpressionScope& scope, const Number& rule) {
+  std::optional<Expression> expression;
+  if (value.is_string())
+    expression = parsed(place, at, value, scope, rule);
+  else if (value.is_number())
+    expression = Expression(value.get<double>());
+  else
+    place.note(at, "wrong type", phrase(rule, scope).one, value);
+  if (!expression || !expression->is_constant() || fits(rule, (*expression)({}))) return expression;
+  place.note(at, "out of range", phrase(rule, scope).one, value);
+  return {};
+}
+
+Json expression_schema(const Number& rule) {
+  Json schema = schema_of(rule);
+  schema["type"] = Json::array({"number", "string"});
+  return schema;
+}
+
+std::optional<Expression> constant(const std::optional<double>& value) {
+  return value ? std::optional(Expression(*value)) : std::nullopt;
+}
+
+}  // namespace
+
+double Input::number(std::string_view key, const Number& rule) {
+  return read_key(*place_, key_shape(key, phrase(rule).one, schema_of(rule), rule.doc, json_of(rule.fallback)),
+                  rule.fallback,
+                  [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); })
+      .value_or(harmless(rule));
+}
+
+std::optional<double> Input::optional_number(std::string_view key, const Number& rule) {
+  KeyShape shape = key_shape(key, phrase(rule).one, schema_of(rule), rule.doc, {});
+  shape.presence = KeyShape::Presence::optional;
+  return read_key(*place_, std::move(shape), std::optional<double>(),
+                  [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); });
+}
+
+std::int64_t Input::integer(std::string_view key, const Integer& rule) {
+  return read_key(*place_, key_shape(key, phrase(rule).one, schema_of(rule), rule.doc, json_of(rule.fallback)),
+                  rule.fallback,
+                  [&](const std::string& at, const Json& value) { return check_integer(*place_, at, value, rule); })
+      .value_or(harmless(rule));
+}
+
+std::string Input::text(std::string_view key, const Text& rule) {
+  const auto check = [&](const std::string& at, const Json& value) -> std::optional<std::string> {
+    if (value.is_string()) return value.get<std::string>();
+    place_->note(at, "wrong type", "a string", value);
+    return {};
+  };
+  KeyShape shape = key_shape(key, "a string", {{"type", "string"}}, rule.doc, json_of(rule.fallback));
+  return read_key(*place_, std::move(shape), rule.fallback, check).value_or(rule.fallback.value_or(""));
+}
+
+bool Input::flag(std::string_view key, std::string_view doc, std::optional<bool> fallback) {
+  const auto check = [&](const std::string& at, const Json& value) -> std::optional<bool> {
+    if (value.is_boolean()) return value.get<bool>();
+    place_->note(at, "wrong type", "true or false", value);
+    return {};
+  };
+  KeyShape shape = key_shape(key, "true or false", {{"type", "boolean"}}, doc, json_of(fallback));
+  return read_key(*place_, std::move(shape), fallback, check).value_or(fallback.value_or(false));
+}
+
+std::optional<std::string> read_name(InputPlace& place, std::string_view key, std::span<const std::string> names,
+                                     std::string_view doc, const std::optional<std::string>& fallback) {
+  const std::string expected = "one of " + listed(names);
+  const auto check = [&](const std::string& at, const Json& value) -> std::optional<std::string> {
+    const std::string name = value.is_string() ? value.get<std::string>() : std::string();
+    if (!value.is_string())
+      place.note(at, "wrong type", expected, value);
+    else if (std::find(names.begin(), names.end(), name) == names.end())
+      place.note(at, "unknown name", expected, value, closest_name(name, names));
+    else
+      return name;
+    return {};
+  };
+  const Json schema{{"enum", Json(std::vector<std::string>(names.begin(), names.end()))}};
+  return read_key(place, key_shape(key, expected, schema, doc, json_of(fallback)), fallback, check);
+}
+
+std::string Input::choice(std::string_view key, std::span<const std::string> names, std::string_view doc,
+                          const std::optional<std::string>& fallback) {
+  return read_name(*place_, key, names, doc, fallback).value_or(fallback.value_or(names.front()));
+}
+
+std::vector<double> Input::numbers(std::string_view key, std::size_t size, const Number& rule) {
+  const auto check = [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); };
+  KeyShape shape = list_shape(key, phrase(rule), schema_of(rule), size, rule.doc, json_of(rule.fallback));
+  return read_elements(*place_, std::move(shape), size, rule.fallback, check)
+      .value_or(std::vector<double>(size, harmless(rule)));
+}
+
+std::vector<std::int64_t> Input::integers(std::string_view key, std::size_t size, const Integer& rule) {
+  const auto check = [&](const std::string& at, const Json& value) { return check_integer(*place_, at, value, rule); };
+  KeyShape shape = list_shape(key, phrase(rule), schema_of(rule), size, rule.doc, json_of(rule.fallback));
+  return read_elements(*place_, std::move(shape), size, rule.fallback, check)
+      .value_or(std::vector<std::int64_t>(size, harmless(rule)));
+}
+
+Expression Input::expression(std::string_view key, const ExpressionScope& scope, const Number& rule) {
+  const auto check = [&](const std::string& at, const Json& value) {
+    return check_expression(*place_, at, value, scope, rule);
+  };
+  KeyShape shape = key_shape(key, phrase(rule, scope).one, expression_schema(rule), rule.doc, json_of(rule.fallback));
+  return read_key(*place_, std::move(shape), constant(rule.fallback), check).value_or(Expression(harmless(rule)));
+}
+
+std::vector<Expression> Input::expressions(std::string_view key, std::size_t size, const ExpressionScope& scope,
+                                           const Number& rule) {
+  const auto check = [&](const std::string& at, const Json& value) {
+    return check_expression(*place_, at, value, scope, rule);
+  };
+  KeyShape shape =
+      list_shape(key, phrase(rule, scope), expression_schema(rule), size, rule.doc, json_of(rule.fallback));
+  return read_elements(*place_, std::move(shape), size, constant(rule.fallback), check)
+      .value_or(std::vector<Expression>(size, Expression(harmless(rule))));
+}
+
+std::map<std::string, double> Input::named_numbers(std::string_view key, std::string_view doc) {
+  using Named = std::map<std::string, double>;
+  const auto check = [&](const std::string& at, const Json& value) -> std::optional<Named> {
+    if (!value.is_object()) place_->note(at, "wrong type", "an object of numbers", value);
+    if (!value.is_object()) return {};
+    Named named;
+    const Number any{.unit = ""};
+    for (const auto& [name, number] : value.items())
+      if (const auto x = check_number(*place_, at + "/" + pointer_token(name), number, any)) named[name] = *x;
+    return named;
+  };
+  const Json schema{{"type", "object"}, {"additionalProperties", {{"type", "number"}}}};
+  return read_key(*place_, key_shape(key, "an object of numbers", schema, doc, Json::object()), std::optional(Named()),
+                  check)
+      .value_or(Named());
+}
+
+Json Input::raw(std::string_view key, const Json& schema, const Json& fallback) {
+  KeyShape shape = key_shape(key, {}, schema, schema.value("description", ""),
+                             fallback.is_null() ? std::nullopt : std::optional(fallback));
+  shape.presence = KeyShape::Presence::optional;
+  const auto as_it_stands = [](const std::string&, const Json& value) { return std::optional(value); };
+  return read_key(*place_, std::move(shape), std::optional<Json>(), as_it_stands).value_or(Json());
+}
+
+}  // namespace minamo

@@ -1,0 +1,117 @@
+#pragma once
+/// \file
+/// Reading a JSON document strictly: every key is read through one call that states its type, unit, default and range.
+/// From these calls come the values, all problems at once, the document as understood (defaults filled in), and the
+/// JSON Schema and key table. There is no second list of keys anywhere.
+
+#include "engine/expression.hpp"
+#include "engine/input_rule.hpp"
+#include "engine/input_text.hpp"
+#include "engine/problem.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace minamo {
+
+struct InputPlace;
+struct InputRecord;
+
+/// A place in the document: an object (or the element of a list) with its pointer.
+/// Reading never throws on bad content: it notes the problem and returns a harmless value, so that all are found.
+/// In description mode there is no document; every call returns its default or a value that fits, every object and
+/// variant is visited, and list callbacks are called once. Reading a key again with another size accepts both sizes.
+class Input {
+ public:
+  /// The whole document; `document` must outlive it.
+  class Document;
+
+  double number(std::string_view key, const Number& rule);
+  /// Like number(), for a key that may be absent without a default.
+  std::optional<double> optional_number(std::string_view key, const Number& rule);
+  std::int64_t integer(std::string_view key, const Integer& rule);
+  std::string text(std::string_view key, const Text& rule);
+  bool flag(std::string_view key, std::string_view doc, std::optional<bool> fallback);
+  /// One of a few names.
+  std::string choice(std::string_view key, std::span<const std::string> names, std::string_view doc,
+                     const std::optional<std::string>& fallback = {});
+  /// Exactly `size` numbers, all within the rule; `rule.fallback` fills all of them.
+  std::vector<double> numbers(std::string_view key, std::size_t size, const Number& rule);
+  std::vector<std::int64_t> integers(std::string_view key, std::size_t size, const Integer& rule);
+  /// A number or a string that is an expression.
+  Expression expression(std::string_view key, const ExpressionScope& scope, const Number& rule);
+  std::vector<Expression> expressions(std::string_view key, std::size_t size, const ExpressionScope& scope,
+                                      const Number& rule);
+  /// An object with any keys whose values are numbers, like `constants`.
+  std::map<std::string, double> named_numbers(std::string_view key, std::string_view doc);
+
+  bool has(std::string_view key) const;  ///< true in description mode
+  /// The value under a key as it stands, marked as read, for shapes the other calls cannot state. Null if absent.
+  /// `schema` is its JSON Schema (with "description"), `fallback` what the echo shows if it is absent.
+  Json raw(std::string_view key, const Json& schema, const Json& fallback);
+
+  /// The object under a key, read by `read`; an absent one reads as `{}`, so that defaults apply, unless `required`.
+  enum class Presence { optional, required, only_if_present };
+  void object(std::string_view key, std::string_view doc, Presence presence, const std::function<void(Input&)>& read);
+  /// Every element of the list under a key, each an object. An absent list is empty.
+  void list(std::string_view key, std::string_view doc, std::size_t at_least,
+            const std::function<void(Input&, std::size_t)>& read);
+  /// A name under `key` that decides which further keys of this object there are. A wrong name reads no variant, and
+  /// the fallback or the first name is returned; the same holds for one_of().
+  using Variants = std::vector<std::pair<std::string, std::function<void(Input&)>>>;
+  std::string variant(std::string_view key, std::string_view doc, const std::optional<std::string>& fallback,
+                      const Variants& variants);
+  /// Exactly one of the named sub-objects or values must be there, like shape {box | ball | where}.
+  /// The callback reads the key from this Input.
+  std::string one_of(std::string_view doc, const Variants& variants);
+
+  /// Notes a problem at this place, or at a key of it, that the rules cannot express. Left out if a rule has already
+  /// found one at or under that key, whose value is then not the user's. An empty `got` shows the key's value.
+  void problem(std::string_view key, std::string what, std::string expected = {}, std::string got = {},
+               std::string closest = {});
+  bool describing() const;
+  const std::string& pointer() const;
+
+ private:
+  explicit Input(std::shared_ptr<InputPlace> place);
+  std::shared_ptr<InputPlace> place_;
+};
+
+/// A document, what was understood of it, and what is wrong with it.
+class Input::Document {
+ public:
+  /// \param json  must outlive the document.
+  Document(const Json& json, std::string file);
+  /// Description mode: no document, no problems.
+  static Document describe();
+
+  Input& root();
+  /// Notes a problem for every key that nobody has read, with the closest name that could be meant. A required key that
+  /// is missing while an unknown key is close to it is one problem, not two. Call once, after all is read.
+  void finish();
+  const std::vector<Problem>& problems() const;
+  /// \throws InputError if there are problems.
+  void require_valid();
+  /// The document as understood, defaults filled in, keys in reading order.
+  Json echo() const;
+  /// JSON Schema (draft 2020-12) of what the reading code accepts; units as "x-unit". Complete in description mode.
+  Json schema() const;
+  /// The keys as rows of a Markdown table: pointer, type and unit, default, meaning. Complete in description mode.
+  std::string key_table() const;
+
+ private:
+  explicit Document(std::shared_ptr<InputRecord> record);
+  std::shared_ptr<InputRecord> record_;
+  Input root_;
+};
+
+}  // namespace minamo

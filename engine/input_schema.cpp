@@ -1,0 +1,153 @@
+#include "engine/input_place.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+bool needs_a_key(const ObjectShape& shape);
+
+bool is_required(const KeyShape& key) {
+  if (key.presence != KeyShape::Presence::by_content) return key.presence == KeyShape::Presence::required;
+  return needs_a_key(*key.object);
+}
+
+bool needs_a_key(const ChoiceShape& choice) {
+  if (choice.key.empty()) return true;
+  return std::any_of(choice.alternatives.begin(), choice.alternatives.end(), [&](const Alternative& alternative) {
+    return alternative.name == choice.fallback && needs_a_key(alternative.shape);
+  });
+}
+
+/// Whether `{}` is refused.
+bool needs_a_key(const ObjectShape& shape) {
+  return std::any_of(shape.keys.begin(), shape.keys.end(), is_required) ||
+         std::any_of(shape.choices.begin(), shape.choices.end(),
+                     [](const auto& choice) { return needs_a_key(choice); });
+}
+
+bool is_list(const KeyShape& key) { return !key.items.empty(); }
+
+Json key_schema(const KeyShape& key) {
+  if (!key.object) return key.schema;
+  Json schema{{"type", is_list(key) ? "array" : "object"}};
+  if (is_list(key)) schema["items"] = object_schema(*key.object);
+  if (!is_list(key)) schema = object_schema(*key.object);
+  schema.update(key.schema);
+  return schema;
+}
+
+std::vector<std::string> all_names(const ObjectShape& shape) {
+  std::vector<std::string> names;
+  for (const KeyShape& key : shape.keys) names.push_back(key.name);
+  for (const ChoiceShape& choice : shape.choices)
+    for (const Alternative& alternative : choice.alternatives)
+      for (const std::string& name : all_names(alternative.shape))
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+/// The keys and choices of the shape, open to further keys.
+Json open_schema(const ObjectShape& shape);
+
+/// One alternative: its own keys, and none of the other alternatives'.
+Json alternative_schema(const ChoiceShape& choice, const Alternative& alternative,
+                        const std::vector<std::string>& brought) {
+  Json schema = open_schema(alternative.shape);
+  Json properties = Json::object();
+  if (!choice.key.empty()) properties[choice.key] = Json{{"const", alternative.name}};
+  properties.update(schema["properties"]);
+  const auto own = all_names(alternative.shape);
+  for (const std::string& name : brought)
+    if (std::find(own.begin(), own.end(), name) == own.end()) properties[name] = false;
+  schema["properties"] = std::move(properties);
+  Json& required = schema["required"];
+  const std::string& marker = choice.key.empty() ? alternative.name : choice.key;
+  const bool is_default = !choice.key.empty() && choice.fallback == alternative.name;
+  if (!is_default && std::find(required.begin(), required.end(), marker) == required.end()) required.push_back(marker);
+  return schema;
+}
+
+Json choice_schema(const ChoiceShape& choice, const ObjectShape& outer) {
+  std::vector<std::string> brought;
+  for (const Alternative& alternative : choice.alternatives)
+    for (const std::string& name : all_names(alternative.shape)) {
+      const auto is_name = [&](const KeyShape& key) { return key.name == name; };
+      if (std::none_of(outer.keys.begin(), outer.keys.end(), is_name)) brought.push_back(name);
+    }
+  Json schema{{"description", choice.doc}, {"oneOf", Json::array()}};
+  for (const Alternative& alternative : choice.alternatives)
+    schema["oneOf"].push_back(alternative_schema(choice, alternative, brought));
+  return schema;
+}
+
+Json open_schema(const ObjectShape& shape) {
+  Json schema{{"properties", Json::object()}, {"required", Json::array()}};
+  for (const KeyShape& key : shape.keys) {
+    schema["properties"][key.name] = key_schema(key);
+    if (is_required(key)) schema["required"].push_back(key.name);
+  }
+  for (const ChoiceShape& choice : shape.choices) schema["allOf"].push_back(choice_schema(choice, shape));
+  return schema;
+}
+
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
+
+std::string type_text(const KeyShape& key) {
+  std::string text = key.expected;
+  if (key.schema.contains("maxItems")) {
+    const Json &least = key.schema["minItems"], most = key.schema["maxItems"];
+    text = "list of " + least.dump() + (least == most ? "" : " to " + most.dump()) + " " + key.items;
+  }
+  if (text.empty()) text = key.schema.contains("type") ? one_line(key.schema["type"]) : "see meaning";
+  for (const std::string article : {"a ", "an "})
+    if (text.starts_with(article)) return text.substr(article.size());
+  return text;
+}
+
+std::string default_text(const KeyShape& key) {
+  if (key.fallback) return one_line(*key.fallback);
+  return is_required(key) ? "required" : "optional";
+}
+
+std::string condition_text(const ChoiceShape& choice, const Alternative& alternative, const std::string& outer) {
+  std::string others;
+  for (const Alternative& other : choice.alternatives)
+    if (other.name != alternative.name) others += (others.empty() ? "" : ", ") + other.name;
+  const std::string condition = choice.key.empty() ? others.empty() ? "" : "instead of " + others
+                                                   : "with " + choice.key + " \"" + alternative.name + "\"";
+  return outer + (condition.empty() ? "" : " (" + condition + ")");
+}
+
+}  // namespace
+
+Json object_schema(const ObjectShape& shape) {
+  Json schema{{"type", "object"}};
+  schema.update(open_schema(shape));
+  for (const std::string& name : all_names(shape))  // those of the choices, whose schemas are in the alternatives
+    if (!schema["properties"].contains(name)) schema["properties"][name] = true;
+  schema["additionalProperties"] = false;
+  return schema;
+}
+
+std::string table_rows(const ObjectShape& shape, const std::string& pointer, const std::string& condition) {
+  std::string rows;
+  for (const KeyShape& key : shape.keys) {
+    const std::string here = pointer + "/" + key.name;
+    const std::string meaning = key.schema.value("description", "") + condition;
+    rows += "| " + cell(here) + " | " + cell(type_text(key)) + " | " + cell(default_text(key)) + " | " + cell(meaning) +
+            " |\n";
+    if (key.object) rows += table_rows(*key.object, here + (is_list(key) ? "/*" : ""), "");
+  }
+  for (const ChoiceShape& choice : shape.choices)
+    for (const Alternative& alternative : choice.alternatives)
+      rows += table_rows(alternative.shape, pointer, condition_text(choice, alternative, condition));
+  return rows;
+}
+
+}  // namespace minamo

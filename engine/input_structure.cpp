@@ -1,0 +1,173 @@
+#include "engine/input_place.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+using Standing = InputPlace::Standing;
+
+KeyShape object_key(std::string_view key, std::string_view doc, KeyShape::Presence presence) {
+  KeyShape shape{std::string(key), "an object", {}, Json::object(), {}, presence, std::make_shared<ObjectShape>()};
+  shape.schema["description"] = doc;
+  return shape;
+}
+
+KeyShape::Presence presence_of(Input::Presence presence) {
+  if (presence == Input::Presence::required) return KeyShape::Presence::required;
+  return presence == Input::Presence::optional ? KeyShape::Presence::by_content : KeyShape::Presence::optional;
+}
+
+KeyShape list_key(std::string_view key, std::string_view doc, std::size_t at_least) {
+  const std::string least = std::to_string(at_least) + (at_least == 1 ? " object" : " objects");
+  KeyShape shape = object_key(key, doc, KeyShape::Presence::required);
+  shape.expected = at_least == 0 ? "a list of objects" : "a list of at least " + least;
+  shape.items = "objects";
+  shape.schema["minItems"] = at_least;
+  if (at_least > 0) return shape;
+  shape.fallback = Json::array();
+  shape.schema["default"] = Json::array();
+  shape.presence = KeyShape::Presence::optional;
+  return shape;
+}
+
+void open(InputPlace& place, Standing standing, const Json* object, std::shared_ptr<ObjectShape> shape) {
+  place.standing = standing;
+  place.object = standing == Standing::present ? object : nullptr;
+  place.shape = std::move(shape);
+  place.open_shape = place.shape.get();
+}
+
+/// Whether the value is a list that is long enough; notes the problem if not.
+bool is_list(InputPlace& place, const std::string& at, const Json& value, std::size_t at_least,
+             const std::string& expected) {
+  const bool is_long_enough = value.is_array() && value.size() >= at_least;
+  if (!is_long_enough) place.note(at, value.is_array() ? "too short" : "wrong type", expected, value);
+  return is_long_enough;
+}
+
+std::vector<std::string> names_of(const Input::Variants& variants) {
+  std::vector<std::string> names;
+  for (const auto& [name, read] : variants) names.push_back(name);
+  return names;
+}
+
+ChoiceShape choice_shape(std::string_view key, std::string_view doc, std::optional<std::string> fallback,
+                         const Input::Variants& variants) {
+  ChoiceShape choice{std::string(key), std::string(doc), std::move(fallback), {}};
+  for (const auto& [name, read] : variants) choice.alternatives.push_back({name, {}});
+  return choice;
+}
+
+/// Reads the chosen variants; their keys belong to their alternatives.
+void read_chosen(Input& input, InputPlace& place, ChoiceShape choice, const Input::Variants& variants,
+                 const std::vector<std::string>& chosen) {
+  ObjectShape* const outer = place.open_shape;
+  ChoiceShape& shape = outer->choice(std::move(choice));
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const auto& [name, read] = variants[i];
+    if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) continue;
+    place.open_shape = &shape.alternatives[i].shape;
+    read(input);
+    place.open_shape = outer;
+  }
+}
+
+}  // namespace
+
+void Input::object(std::string_view key, std::string_view doc, Presence presence,
+                   const std::function<void(Input&)>& read) {
+  const auto shape = place_->declare(object_key(key, doc, presence_of(presence))).object;
+  const Json* value = place_->find(key);
+  if (!value && presence == Presence::only_if_present && !describing()) return;
+  Standing standing = value                                  ? Standing::present
+                      : place_->standing == Standing::silent ? Standing::silent
+                                                             : Standing::absent;
+  if (value && !value->is_object()) {
+    place_->note(place_->pointer_to(key), "wrong type", "an object", *value);
+    standing = Standing::silent;
+  } else if (!value && presence == Presence::required) {
+    place_->note_missing({std::string(key)}, {{}, place_->pointer_to(key), "missing key", "an object", {}, {}});
+    standing = Standing::silent;
+  }
+  Input child(place_->child(key, {}));
+  open(*child.place_, standing, value, shape);
+  read(child);
+  place_->echo[std::string(key)] = child.place_->echo;
+}
+
+void Input::list(std::string_view key, std::string_view doc, std::size_t at_least,
+                 const std::function<void(Input&, std::size_t)>& read) {
+  const KeyShape shape = place_->declare(list_key(key, doc, at_least));
+  const std::string at = place_->pointer_to(key);
+  const Json* value = place_->find(key);
+  if (!value && at_least > 0) place_->note_missing({shape.name}, {{}, at, "missing key", shape.expected, {}, {}});
+  Json& echo = place_->echo[shape.name] = Json::array();
+  if (describing()) {
+    Input element(place_->child(key, 0));
+    open(*element.place_, Standing::absent, nullptr, shape.object);
+    read(element, 0);
+  }
+  if (!value || !is_list(*place_, at, *value, at_least, shape.expected)) return;
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    const Json& object = (*value)[i];
+    if (!object.is_object()) {
+      place_->note(at + "/" + std::to_string(i), "wrong type", "an object", object);
+      continue;
+    }
+    Input element(place_->child(key, i));
+    open(*element.place_, Standing::present, &object, shape.object);
+    read(element, i);
+    echo.push_back(element.place_->echo);
+  }
+}
+
+std::string Input::variant(std::string_view key, std::string_view doc, const std::optional<std::string>& fallback,
+                           const Variants& variants) {
+  const auto names = names_of(variants);
+  const auto name = read_name(*place_, key, names, doc, fallback);
+  if (!name) place_->unknown_keys_pass = true;
+  const auto chosen = describing() ? names : name ? std::vector{*name} : std::vector<std::string>{};
+  read_chosen(*this, *place_, choice_shape(key, doc, fallback, variants), variants, chosen);
+  return name.value_or(fallback.value_or(names.front()));
+}
+
+std::string Input::one_of(std::string_view doc, const Variants& variants) {
+  const auto names = names_of(variants);
+  std::vector<std::string> present;
+  for (const std::string& name : names) {
+    if (place_->find(name)) present.push_back(name);
+    if (std::find(place_->known.begin(), place_->known.end(), name) == place_->known.end())
+      place_->known.push_back(name);
+  }
+  const std::string expected = "exactly one of " + listed(names);
+  if (present.empty()) place_->note_missing(names, {{}, pointer(), "missing key", expected, {}, {}});
+  if (present.size() > 1) place_->note({{}, pointer(), "keys that exclude each other", expected, listed(present), {}});
+  const bool decided = present.size() == 1;
+  if (!decided) place_->unknown_keys_pass = true;
+  const auto chosen = describing() ? names : decided ? present : std::vector<std::string>{};
+  read_chosen(*this, *place_, choice_shape({}, doc, {}, variants), variants, chosen);
+  return decided ? present.front() : names.front();
+}
+
+bool Input::has(std::string_view key) const { return describing() || place_->find(key) != nullptr; }
+
+void Input::problem(std::string_view key, std::string what, std::string expected, std::string got,
+                    std::string closest) {
+  const std::string at = key.empty() ? pointer() : place_->pointer_to(key);
+  const auto& problems = place_->record->problems;
+  const bool spoken_of = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
+    return other.pointer == at || other.pointer.starts_with(at + "/");
+  });
+  if (spoken_of && !key.empty()) return;
+  const Json* value = key.empty() ? nullptr : place_->find(key);
+  if (got.empty() && value) got = shown(*value);
+  place_->note({{}, at, std::move(what), std::move(expected), std::move(got), std::move(closest)});
+}
+
+bool Input::describing() const { return place_->record->describing; }
+
+const std::string& Input::pointer() const { return place_->pointer; }
+
+}  // namespace minamo

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// Parallel loops and sums whose result does not depend on the number of threads.
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include <cstddef>
+
+namespace minamo {
+
+/// Rows handed to a thread at a time. Sums are added up in pieces of this size, whatever the number of threads.
+inline constexpr std::size_t grain = 2048;
+
+/// body(row) for every row; it may write what belongs to that row only.
+template <class Body>
+void for_each_row(std::size_t rows, const Body& body, std::size_t rows_per_task = grain) {
+  if (rows <= rows_per_task) {
+    for (std::size_t row = 0; row < rows; ++row) body(row);
+    return;
+  }
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, rows, rows_per_task),
+      [&](const auto& range) {
+        for (std::size_t row = range.begin(); row != range.end(); ++row) body(row);
+      },
+      tbb::simple_partitioner());
+}
+
+/// combine(... combine(start, value(0)) ..., value(rows - 1)) up to the order, which depends on `rows` alone.
+template <class T, class Value, class Combine>
+T reduce_rows(std::size_t rows, const T& start, const Value& value, const Combine& combine) {
+  return tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, rows, grain), start,
+      [&](const auto& range, T sum) {
+        for (std::size_t row = range.begin(); row != range.end(); ++row) sum = combine(sum, value(row));
+        return sum;
+      },
+      combine);
+}
+
+}  // namespace minamo

@@ -1,0 +1,105 @@
+#include "engine/problem.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <numeric>
+
+namespace minamo {
+
+namespace {
+
+std::string joined(const std::vector<Problem>& problems) {
+  std::string all;
+  for (const Problem& problem : problems) all += (all.empty() ? "" : "\n") + problem.text();
+  return all;
+}
+
+std::string lower_case(std::string_view name) {
+  std::string lower(name);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+/// Insertions, deletions, substitutions and swaps of neighbours that turn one string into the other.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  std::iota(above.begin(), above.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, above);
+    std::swap(above, row);
+  }
+  return above[b.size()];
+}
+
+std::string quoted(const std::string& name) { return Json(name).dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// Cut after at most `length` bytes, not within a UTF-8 character.
+std::string cut(std::string text, std::size_t length) {
+  if (text.size() <= length) return text;
+  while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;
+  return text.substr(0, length) + "...";
+}
+
+}  // namespace
+
+std::string Problem::text() const {
+  std::string text;
+  for (const std::string* place : {&file, &pointer})
+    if (!place->empty()) text += *place + ": ";
+  text += what;
+  if (!expected.empty()) text += "\n  expected  " + expected;
+  if (!got.empty()) text += "\n  got       " + got;
+  if (!closest.empty()) text += "\n  closest   " + (Json::accept(closest) ? closest : quoted(closest));
+  return text;
+}
+
+InputError::InputError(std::vector<Problem> problems)
+    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+
+std::string closest_name(std::string_view name, std::span<const std::string> known) {
+  const std::string wanted = lower_case(name);
+  std::string closest;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(wanted, lower_case(candidate));
+    const std::size_t length = std::max(wanted.size(), candidate.size());
+    // A third of the letters may be wrong, but not all: "x" is not near "y".
+    const bool near = distance <= std::max<std::size_t>(1, length / 3) && distance < length;
+    if (near && distance < least) {
+      least = distance;
+      closest = candidate;
+    }
+  }
+  return closest;
+}
+
+std::string shown(const Json& value) {
+  if (value.is_null()) return "null";
+  const std::string text = cut(value.dump(-1, ' ', false, Json::error_handler_t::replace), 60);
+  if (value.is_object()) return text + " (object)";
+  if (value.is_array()) return text + " (list)";
+  if (value.is_string()) return text + " (string)";
+  if (value.is_boolean()) return text + " (boolean)";
+  return text + " (number)";
+}
+
+std::string listed(std::span<const std::string> names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + quoted(name);
+  return "[" + list + "]";
+}
+
+std::string pointer_token(std::string_view key) {
+  std::string token;
+  for (const char c : key) token += c == '~' ? std::string("~0") : c == '/' ? std::string("~1") : std::string(1, c);
+  return token;
+}
+
+}  // namespace minamo

@@ -1,0 +1,53 @@
+#pragma once
+/// \file
+/// What is wrong with an input: where, what, expected, got, closest. Not the reading that finds it (input.hpp).
+
+#include <nlohmann/json.hpp>
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace minamo {
+
+using Json = nlohmann::ordered_json;
+
+/// One thing wrong with an input, in the voice of every message:
+///     dam_break.json: /transfer/scheme: unknown name
+///       expected  one of ["apic", "flip", "pic", "tpic", "xpic"]
+///       got       "apci" (string)
+///       closest   "apic"
+struct Problem {
+  std::string file;
+  std::string pointer;  ///< JSON pointer; empty where the document as a whole is meant
+  std::string what;
+  std::string expected;  ///< this and the next two may be empty
+  std::string got;
+  std::string closest;  ///< a name, which text() quotes, or a JSON value, which it leaves
+  std::string text() const;
+};
+
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<Problem> problems);  ///< what(): all texts, one after the other
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// The known name nearest to `name` by edit distance, case aside; empty if none is near.
+std::string closest_name(std::string_view name, std::span<const std::string> known);
+
+/// A JSON value as the messages show it: `"apci" (string)`, `-3 (number)`, long ones cut.
+std::string shown(const Json& value);
+
+/// Names as the messages list them: `["apic", "flip"]`.
+std::string listed(std::span<const std::string> names);
+
+/// A key as a step of a JSON pointer: `~` and `/` escaped.
+std::string pointer_token(std::string_view key);
+
+}  // namespace minamo

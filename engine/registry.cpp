@@ -1,0 +1,29 @@
+#include "engine/registry.hpp"
+
+#include <stdexcept>
+
+namespace minamo {
+
+System SystemRegistry::make(std::string_view name, int dimension, Input* options) const {
+  const auto found = entries_.find(name);
+  if (found != entries_.end()) return found->second.make(dimension, options);
+
+  const std::vector<std::string> known = names();
+  std::string what = "unknown system\n  expected  one of " + Json(known).dump() + "\n  got       " + shown(Json(name));
+  const std::string closest = closest_name(name, known);
+  if (!closest.empty()) what += "\n  closest   " + Json(closest).dump();
+  throw std::out_of_range(what);
+}
+
+std::vector<std::string> SystemRegistry::names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : entries_) names.push_back(name);
+  return names;
+}
+
+void SystemRegistry::insert(Entry entry) {
+  const auto [position, is_new] = entries_.try_emplace(entry.name, std::move(entry));
+  if (!is_new) throw std::logic_error("system \"" + position->first + "\" is registered twice");
+}
+
+}  // namespace minamo

@@ -1,0 +1,56 @@
+#pragma once
+/// \file
+/// Systems by name, for two and three dimensions at once. Registration is explicit: systems/register.cpp lists the
+/// built-in ones, a program that links minamo adds its own.
+
+#include "engine/input.hpp"
+#include "engine/system.hpp"
+
+#include <map>
+
+namespace minamo {
+
+class SystemRegistry {
+ public:
+  /// What `minamo list systems` shows of a system.
+  struct Entry {
+    std::string name;
+    std::string doc;        ///< `Kernel::doc` where it has one: one line, with the equation's number
+    std::function<System(int dimension, Input* options)> make;  ///< `options` may be null: no options given
+  };
+
+  /// Registers `Kernel<2>` and `Kernel<3>`. A kernel with a constructor from `Input&` reads its options there.
+  /// \throws std::logic_error if the name is taken.
+  template <template <int> class Kernel>
+  void add(std::string name) {
+    std::string doc;
+    if constexpr (requires { Kernel<2>::doc; }) doc = Kernel<2>::doc;
+    insert({name, std::move(doc), [name](int dimension, Input* options) {
+              return dimension == 2 ? instance<Kernel<2>>(name, options) : instance<Kernel<3>>(name, options);
+            }});
+  }
+
+  bool contains(std::string_view name) const { return entries_.contains(name); }
+
+  /// \pre `dimension` is 2 or 3.
+  /// \throws std::out_of_range for an unknown name, with the known ones and the closest.
+  System make(std::string_view name, int dimension, Input* options = nullptr) const;
+
+  std::vector<std::string> names() const;
+  const std::map<std::string, Entry, std::less<>>& entries() const { return entries_; }
+
+ private:
+  template <class Kernel>
+  static System instance(const std::string& name, Input* options) {
+    if constexpr (std::is_constructible_v<Kernel, Input&>) {
+      if (options) return make_system(name, Kernel(*options));
+    }
+    (void)options;
+    return make_system(name, Kernel());
+  }
+  void insert(Entry entry);
+
+  std::map<std::string, Entry, std::less<>> entries_;
+};
+
+}  // namespace minamo

@@ -1,0 +1,234 @@
+#include "engine/schedule.hpp"
+
+#include <oneapi/tbb/flow_graph.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+
+namespace minamo {
+
+namespace {
+
+bool writes(Mode mode) { return mode == Mode::write || mode == Mode::update; }
+
+bool reads(Mode mode) { return mode == Mode::read || mode == Mode::update; }
+
+bool conflict(const System& x, const System& y) {
+  return std::any_of(x.access.begin(), x.access.end(), [&y](const Access& of_x) {
+    return std::any_of(y.access.begin(), y.access.end(), [&of_x](const Access& of_y) { return conflict(of_x, of_y); });
+  });
+}
+
+/// What the scratch check knows of a component that some earlier system has written.
+struct Written {
+  std::string_view table;
+  std::optional<std::string_view> resized_by;  ///< the system that has changed the table's rows since
+};
+using WrittenComponents = std::map<std::string_view, Written>;
+
+void make_stale(WrittenComponents& components, std::string_view table, std::string_view system) {
+  for (auto& [name, written] : components) {
+    if (written.table == table && !written.resized_by) written.resized_by = system;
+  }
+}
+
+std::string unwritten_line(const System& system, const Access& access, const std::optional<Written>& written) {
+  std::string line = "system \"" + system.name + "\" " + (access.mode == Mode::read ? "reads " : "updates ") +
+                     std::string(access.component) + ", which no earlier system of the step writes";
+  if (written) {
+    line += " after \"" + std::string(*written->resized_by) + "\" resizes " + std::string(access.table);
+  }
+  return line;
+}
+
+}  // namespace
+
+bool conflict(const Access& x, const Access& y) {
+  if (x.mode == Mode::resize || y.mode == Mode::resize) return x.table == y.table;
+  return x.component == y.component && (writes(x.mode) || writes(y.mode));
+}
+
+std::vector<Edge> derive_edges(std::span<const System> systems) {
+  const std::size_t n = systems.size();
+  std::vector<Edge> edges;
+  std::vector<std::vector<bool>> waits(n, std::vector<bool>(n, false));  // waits[to][from]: from ends before to begins
+  for (std::size_t to = 0; to < n; ++to) {
+    // Nearest first: a path that makes (from, to) superfluous enters `to` from a system between the two.
+    for (std::size_t from = to; from-- > 0;) {
+      if (waits[to][from] || !conflict(systems[from], systems[to])) continue;
+      edges.push_back({from, to});
+      waits[to][from] = true;
+      for (std::size_t earlier = 0; earlier < from; ++earlier) {
+        if (waits[from][earlier]) waits[to][earlier] = true;
+      }
+    }
+  }
+  return edges;
+}
+
+std::vector<std::string> unwritten_reads(std::span<const System> systems) {
+  std::vector<std::string> lines;
+  WrittenComponents written;
+  for (const System& system : systems) {
+    for (const Access& access : system.access) {
+      if (access.mode == Mode::resize) make_stale(written, access.table, system.name);
+    }
+    for (const Access& access : system.access) {
+      if (!reads(access.mode) || access.info->lifetime != Lifetime::scratch) continue;
+      const auto found = written.find(access.component);
+      if (found == written.end()) {
+        lines.push_back(unwritten_line(system, access, std::nullopt));
+      } else if (found->second.resized_by) {
+        lines.push_back(unwritten_line(system, access, found->second));
+      }
+    }
+    // An update changes nothing here: where it was legal the component was written already.
+    for (const Access& access : system.access) {
+      if (access.mode == Mode::write) written[access.component] = {access.table, std::nullopt};
+    }
+  }
+  return lines;
+}
+
+std::vector<std::string> repeated_accesses(std::span<const System> systems) {
+  std::vector<std::string> lines;
+  for (const System& system : systems) {
+    for (auto access = system.access.begin(); access != system.access.end(); ++access) {
+      const auto is_same = [&access](const Access& earlier) {
+        return earlier.component == access->component && (!access->component.empty() || earlier.table == access->table);
+      };
+      // The second time only, so that a third one is not a second line.
+      if (std::count_if(system.access.begin(), access, is_same) != 1) continue;
+      const std::string_view name = access->component.empty() ? access->table : access->component;
+      lines.push_back("system \"" + system.name + "\" names " + std::string(name) + " twice");
+    }
+  }
+  return lines;
+}
+
+struct Schedule::Impl {
+  Impl(std::vector<System> list, World& world_of_run, Profiler* profiler_of_run, Execution execution);
+
+  void run();
+
+ private:
+  using Message = tbb::flow::continue_msg;
+  using Task = tbb::flow::continue_node<Message>;
+
+  struct Graph {
+    // Isolated, so that an outer parallel algorithm that is cancelled does not leave a step half done.
+    tbb::task_group_context context{tbb::task_group_context::isolated};
+    tbb::flow::graph graph{context};
+    tbb::flow::broadcast_node<Message> start{graph};
+    std::deque<Task> tasks;
+  };
+
+  void build_graph();
+  void run_graph();
+  void run_system(std::size_t place);
+  void run_in_graph(std::size_t place);
+  void note_failure(std::size_t place);
+
+ public:
+  std::vector<System> systems;
+
+ private:
+  World* world_;
+  Profiler* profiler_;
+  std::vector<std::size_t> rows_;     // of the profiler, by place
+  std::unique_ptr<Graph> graph_;      // null for Execution::list
+  std::atomic<std::size_t> end_ = 0;  // systems from this place on do not begin: a failed one's, or the list's end
+  std::mutex failure_mutex_;
+  std::exception_ptr failure_;
+};
+
+Schedule::Impl::Impl(std::vector<System> list, World& world_of_run, Profiler* profiler_of_run, Execution execution)
+    : systems(std::move(list)), world_(&world_of_run), profiler_(profiler_of_run) {
+  std::string problems;
+  for (const auto& lines : {repeated_accesses(systems), unwritten_reads(systems)}) {
+    for (const std::string& line : lines) problems += (problems.empty() ? "" : "\n") + line;
+  }
+  if (!problems.empty()) throw ScheduleError(problems);
+  for (const System& system : systems) system.prepare(*world_);
+  if (profiler_) {
+    for (const System& system : systems) rows_.push_back(profiler_->add_row(system.name));
+  }
+  if (execution == Execution::graph) build_graph();
+}
+
+void Schedule::Impl::build_graph() {
+  graph_ = std::make_unique<Graph>();
+  for (std::size_t place = 0; place < systems.size(); ++place) {
+    graph_->tasks.emplace_back(graph_->graph, [this, place](const Message&) { run_in_graph(place); });
+  }
+  std::vector<bool> waits(systems.size(), false);
+  for (const Edge& edge : derive_edges(systems)) {
+    tbb::flow::make_edge(graph_->tasks[edge.from], graph_->tasks[edge.to]);
+    waits[edge.to] = true;
+  }
+  for (std::size_t place = 0; place < systems.size(); ++place) {
+    if (!waits[place]) tbb::flow::make_edge(graph_->start, graph_->tasks[place]);
+  }
+}
+
+void Schedule::Impl::run() {
+  if (graph_) {
+    run_graph();
+  } else {
+    for (std::size_t place = 0; place < systems.size(); ++place) run_system(place);
+  }
+}
+
+void Schedule::Impl::run_graph() {
+  end_ = systems.size();
+  graph_->graph.reset();  // also moves the graph into the task arena of the caller
+  graph_->start.try_put(Message{});
+  graph_->graph.wait_for_all();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void Schedule::Impl::run_system(std::size_t place) {
+  // Isolated, so that a thread waiting here does not run another system inside this one's time.
+  tbb::this_task_arena::isolate([this, place] {
+    std::optional<ScopedTimer> timer;
+    if (profiler_) timer.emplace(*profiler_, rows_[place]);
+    systems[place].run(*world_);
+  });
+}
+
+void Schedule::Impl::run_in_graph(std::size_t place) {
+  // Systems before the failed one still run: the list would have run them, and one of them may be the first to fail.
+  if (place >= end_) return;
+  try {
+    run_system(place);
+  } catch (...) {
+    // Not passed on to the graph, which would cancel the parallel loops of other systems halfway.
+    note_failure(place);
+  }
+}
+
+void Schedule::Impl::note_failure(std::size_t place) {
+  const std::lock_guard lock(failure_mutex_);
+  if (place >= end_) return;
+  end_ = place;
+  failure_ = std::current_exception();
+}
+
+Schedule::Schedule(std::vector<System> systems, World& world, Profiler* profiler, Execution execution)
+    : impl_(std::make_unique<Impl>(std::move(systems), world, profiler, execution)) {}
+
+Schedule::~Schedule() = default;
+Schedule::Schedule(Schedule&&) noexcept = default;
+Schedule& Schedule::operator=(Schedule&&) noexcept = default;
+
+void Schedule::run() { impl_->run(); }
+
+std::span<const System> Schedule::systems() const { return impl_->systems; }
+
+}  // namespace minamo

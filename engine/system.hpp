@@ -1,0 +1,135 @@
+#pragma once
+/// \file
+/// A system is a struct whose `operator()` parameters are its declaration: `Read<C>`, `Write<C>`, `Update<C>`,
+/// `Resize<Table>`. make_system() turns it into what the schedule runs. It cannot touch what it did not declare.
+
+#include "engine/world.hpp"
+
+#include <functional>
+#include <utility>
+
+namespace minamo {
+
+enum class Mode {
+  read,
+  write,   ///< every row is given a new value; the old ones are not looked at
+  update,  ///< reads and writes
+  resize,  ///< changes the rows of a table: all its columns are touched, its scratch becomes stale
+};
+
+/// One line of a system's declaration.
+struct Access {
+  Mode mode;
+  std::string_view component;  ///< empty for Mode::resize
+  std::string_view table;      ///< empty for a resource
+  const ComponentInfo* info;   ///< null for Mode::resize
+};
+
+namespace detail {
+
+template <Described C>
+constexpr Access access_to(Mode mode) {
+  if constexpr (ColumnComponent<C>) {
+    return {mode, C::info.name, C::table::name, &C::info};
+  } else {
+    return {mode, C::info.name, {}, &C::info};
+  }
+}
+
+/// A column as a system sees it; `Value` is const for a reader. It follows its table when that is resized.
+template <class C, class Value, Mode mode>
+class ColumnView {
+ public:
+  explicit ColumnView(World& world) : storage_(&world.storage<C>()) {}
+  static constexpr Access access() { return access_to<C>(mode); }
+  Value& operator[](std::size_t row) const { return storage_->values()[row]; }
+  std::size_t size() const { return storage_->rows(); }
+  auto begin() const { return span().begin(); }
+  auto end() const { return span().end(); }
+  std::span<Value> span() const { return storage_->values(); }
+
+ private:
+  ColumnStorage<C>* storage_;
+};
+
+/// A resource as a system sees it.
+template <class C, class Value, Mode mode>
+class ResourceView {
+ public:
+  explicit ResourceView(World& world) : value_(&world.resource<C>()) {}
+  static constexpr Access access() { return access_to<C>(mode); }
+  Value& operator*() const { return *value_; }
+  Value* operator->() const { return value_; }
+
+ private:
+  Value* value_;
+};
+
+template <class C, Mode mode>
+struct View {
+  using type = ResourceView<C, std::conditional_t<mode == Mode::read, const C, C>, mode>;
+};
+template <ColumnComponent C, Mode mode>
+struct View<C, mode> {
+  using T = typename C::value_type;
+  using type = ColumnView<C, std::conditional_t<mode == Mode::read, const T, T>, mode>;
+};
+
+}  // namespace detail
+
+template <Described C>
+struct Read : detail::View<C, Mode::read>::type {
+  explicit Read(World& world) : detail::View<C, Mode::read>::type(world) {}
+};
+
+template <Described C>
+struct Write : detail::View<C, Mode::write>::type {
+  explicit Write(World& world) : detail::View<C, Mode::write>::type(world) {}
+};
+
+template <Described C>
+struct Update : detail::View<C, Mode::update>::type {
+  explicit Update(World& world) : detail::View<C, Mode::update>::type(world) {}
+};
+
+/// The right to change the rows of a table.
+/// Views of its columns follow; spans taken from them before do not.
+template <class Table>
+class Resize {
+ public:
+  explicit Resize(World& world) : world_(&world) { world.add_table<Table>(); }
+  static constexpr Access access() { return {Mode::resize, {}, Table::name, nullptr}; }
+  std::size_t rows() const { return world_->rows<Table>(); }
+  void resize(std::size_t rows) const { world_->resize<Table>(rows); }
+  /// Row k becomes what row `order[k]` was.
+  void reorder(std::span<const std::uint32_t> order) const { world_->reorder<Table>(order); }
+
+ private:
+  World* world_;
+};
+
+/// What the schedule runs.
+struct System {
+  std::string name;
+  std::vector<Access> access;
+  std::function<void(World&)> prepare;  ///< creates the components; called once, before anything runs
+  std::function<void(World&)> run;
+};
+
+namespace detail {
+template <class Kernel, class... Args>
+System make_system(std::string name, Kernel kernel, void (Kernel::*)(Args...) const) {
+  return {std::move(name),
+          {Args::access()...},
+          [](World& world) { ((void)Args(world), ...); },
+          [kernel = std::move(kernel)](World& world) { kernel(Args(world)...); }};
+}
+}  // namespace detail
+
+/// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Write, Update or Resize.
+template <class Kernel>
+System make_system(std::string name, Kernel kernel = {}) {
+  return detail::make_system(std::move(name), std::move(kernel), &Kernel::operator());
+}
+
+}  // namespace minamo

@@ -1,0 +1,41 @@
+#include "engine/world.hpp"
+
+#include <atomic>
+
+namespace minamo {
+
+std::size_t detail::next_component_id() {
+  static std::atomic<std::size_t> next{0};
+  return next++;
+}
+
+std::size_t World::rows(std::string_view table) const {
+  const auto found = rows_.find(table);
+  return found == rows_.end() ? 0 : found->second;
+}
+
+void World::insert(std::size_t id, std::unique_ptr<Storage> storage) {
+  const auto [position, is_new] = by_name_.emplace(std::string(storage->info().name), storage.get());
+  if (!is_new) {
+    throw std::logic_error("component \"" + position->first + "\" is defined by two types: " +
+                           position->second->value_type().name() + " and " + storage->value_type().name());
+  }
+  if (id >= by_id_.size()) by_id_.resize(id + 1);
+  if (!storage->table().empty()) storage->resize(rows(storage->table()));
+  by_id_[id] = std::move(storage);
+}
+
+void World::resize(std::string_view table, std::size_t rows) {
+  rows_[std::string(table)] = rows;
+  for (const auto& storage : by_id_) {
+    if (storage && storage->table() == table) storage->resize(rows);
+  }
+}
+
+void World::reorder(std::string_view table, std::span<const std::uint32_t> order) {
+  for (const auto& storage : by_id_) {
+    if (storage && storage->table() == table && storage->info().lifetime != Lifetime::scratch) storage->reorder(order);
+  }
+}
+
+}  // namespace minamo

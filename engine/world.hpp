@@ -1,0 +1,181 @@
+#pragma once
+/// \file
+/// World: the tables of component arrays and the resources of one run. It knows no physics.
+/// Systems do not see it; they see what they declare (system.hpp).
+
+#include "engine/component.hpp"
+
+#include <map>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+#include <vector>
+
+namespace minamo {
+
+/// A stored component, without its type: what the checkpoint and the listings need.
+class Storage {
+ public:
+  Storage(const ComponentInfo& info, std::string_view table) : info_(&info), table_(table) {}
+  virtual ~Storage() = default;
+  Storage(const Storage&) = delete;
+  Storage& operator=(const Storage&) = delete;
+
+  const ComponentInfo& info() const { return *info_; }
+  std::string_view table() const { return table_; }  ///< empty for a resource
+
+  virtual void resize(std::size_t rows) = 0;
+  /// Row k becomes what row `order[k]` was.
+  virtual void reorder(std::span<const std::uint32_t> order) = 0;
+  virtual std::size_t rows() const = 0;             ///< 1 for a resource
+  virtual const std::type_info& value_type() const = 0;
+  virtual std::size_t value_bytes() const = 0;      ///< 0 if the value is not trivially copyable
+  virtual std::span<std::byte> bytes() = 0;         ///< empty if the value is not trivially copyable
+  virtual std::size_t doubles_per_value() const = 0;  ///< 0 unless the value is made of doubles alone
+
+ private:
+  const ComponentInfo* info_;
+  std::string_view table_;
+};
+
+namespace detail {
+
+template <class T>
+constexpr std::size_t doubles_in() {
+  if constexpr (std::is_same_v<T, double>) {
+    return 1;
+  } else if constexpr (requires { typename T::Scalar; { T::SizeAtCompileTime } -> std::convertible_to<int>; }) {
+    return std::is_same_v<typename T::Scalar, double> ? sizeof(T) / sizeof(double) : 0;
+  } else {
+    return 0;
+  }
+}
+
+// Fixed-size matrices of doubles have user-written copies that copy bytes and nothing else.
+template <class T>
+inline constexpr bool bytes_are_value = std::is_trivially_copyable_v<T> || doubles_in<T>() > 0;
+
+template <class T>
+std::span<std::byte> bytes_of(std::span<T> values) {
+  if constexpr (bytes_are_value<T>) {
+    return std::as_writable_bytes(values);
+  } else {
+    return {};
+  }
+}
+
+}  // namespace detail
+
+template <ColumnComponent C>
+class ColumnStorage final : public Storage {
+ public:
+  using T = typename C::value_type;
+  ColumnStorage() : Storage(C::info, C::table::name) {}
+  std::span<T> values() { return values_; }
+  void resize(std::size_t rows) override { values_.resize(rows, zero<T>()); }
+  void reorder(std::span<const std::uint32_t> order) override {
+    spare_.resize(order.size(), zero<T>());
+    for (std::size_t k = 0; k < order.size(); ++k) spare_[k] = values_[order[k]];
+    values_.swap(spare_);
+  }
+  std::size_t rows() const override { return values_.size(); }
+  const std::type_info& value_type() const override { return typeid(T); }
+  std::size_t value_bytes() const override { return detail::bytes_are_value<T> ? sizeof(T) : 0; }
+  std::span<std::byte> bytes() override { return detail::bytes_of(std::span<T>(values_)); }
+  std::size_t doubles_per_value() const override { return detail::doubles_in<T>(); }
+
+ private:
+  std::vector<T> values_;
+  std::vector<T> spare_;  // the second buffer of reorder(), kept so that a step does not allocate
+};
+
+template <ResourceComponent C>
+class ResourceStorage final : public Storage {
+ public:
+  ResourceStorage() : Storage(C::info, {}) {}
+  C& value() { return value_; }
+  void resize(std::size_t) override {}
+  void reorder(std::span<const std::uint32_t>) override {}
+  std::size_t rows() const override { return 1; }
+  const std::type_info& value_type() const override { return typeid(C); }
+  std::size_t value_bytes() const override { return detail::bytes_are_value<C> ? sizeof(C) : 0; }
+  std::span<std::byte> bytes() override { return detail::bytes_of(std::span<C>(&value_, 1)); }
+  std::size_t doubles_per_value() const override { return 0; }
+
+ private:
+  C value_{};
+};
+
+/// The data of one run. Components come into being on first use, filled with zeros.
+/// Not thread safe while components are being created; `System::prepare` creates them before anything runs.
+class World {
+ public:
+  /// The array of a column, one value per row of its table.
+  /// \throws std::logic_error if another component has the same name.
+  template <ColumnComponent C>
+  std::span<typename C::value_type> column() {
+    return storage<C>().values();
+  }
+
+  template <ColumnComponent C>
+  ColumnStorage<C>& storage() {
+    return stored<C, ColumnStorage<C>>();
+  }
+
+  template <ResourceComponent C>
+  C& resource() {
+    return stored<C, ResourceStorage<C>>().value();
+  }
+
+  template <Described C>
+  bool has() const {
+    return component_id<C>() < by_id_.size() && by_id_[component_id<C>()] != nullptr;
+  }
+
+  template <class Table>
+  std::size_t rows() const {
+    return rows(Table::name);
+  }
+  std::size_t rows(std::string_view table) const;
+
+  /// Makes the table known, with no rows, if it is not. Afterwards different tables may be resized at the same time.
+  template <class Table>
+  void add_table() {
+    if (!rows_.contains(Table::name)) rows_.emplace(Table::name, 0);
+  }
+
+  /// Gives every column of the table this many rows; new ones are zero.
+  template <class Table>
+  void resize(std::size_t rows) {
+    resize(Table::name, rows);
+  }
+
+  /// Row k of every column of the table that outlives a step becomes what row `order[k]` was.
+  /// Scratch columns are left as they are: they mean nothing after a structural change.
+  template <class Table>
+  void reorder(std::span<const std::uint32_t> order) {
+    reorder(Table::name, order);
+  }
+
+  /// All stored components by name.
+  const std::map<std::string, Storage*, std::less<>>& components() const { return by_name_; }
+
+ private:
+  template <class C, class StorageType>
+  StorageType& stored() {
+    const std::size_t id = component_id<C>();
+    if (id >= by_id_.size() || !by_id_[id]) insert(id, std::make_unique<StorageType>());
+    return static_cast<StorageType&>(*by_id_[id]);
+  }
+  void insert(std::size_t id, std::unique_ptr<Storage> storage);
+  void resize(std::string_view table, std::size_t rows);
+  void reorder(std::string_view table, std::span<const std::uint32_t> order);
+
+  std::vector<std::unique_ptr<Storage>> by_id_;
+  std::map<std::string, Storage*, std::less<>> by_name_;
+  std::map<std::string, std::size_t, std::less<>> rows_;
+};
+
+}  // namespace minamo

@@ -1,0 +1,50 @@
+#include "systems/grid/basis.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+using Weights = std::array<std::array<double, weight_powers>, 3>;
+
+template <std::size_t N, std::size_t M>
+std::array<double, product_powers> product(const std::array<double, N>& x, const std::array<double, M>& y) {
+  std::array<double, product_powers> xy{};
+  for (std::size_t i = 0; i < N; ++i) {
+    for (std::size_t j = 0; j < M; ++j) xy[i + j] += x[i] * y[j];
+  }
+  return xy;
+}
+
+AxisBasis make_basis(int first, const Weights& weight) {
+  AxisBasis basis{first, weight, {}, {}, {}, {}, {}};
+  for (std::size_t a = 0; a < 3; ++a) basis.slope[a] = {weight[a][1], 2 * weight[a][2]};
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      basis.weight_weight[3 * a + b] = product(weight[a], weight[b]);
+      basis.slope_weight[3 * a + b] = product(basis.slope[a], weight[b]);
+      basis.weight_slope[3 * a + b] = product(weight[a], basis.slope[b]);
+      basis.slope_slope[3 * a + b] = product(basis.slope[a], basis.slope[b]);
+    }
+  }
+  return basis;
+}
+
+}  // namespace
+
+const AxisBasis& axis_basis(int node, int last) {
+  static const AxisBasis inside = make_basis(-1, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
+  static const AxisBasis low_wall = make_basis(0, {{{1, -1, 0}, {0, 1, 0}, {0, 0, 0}}});
+  static const AxisBasis high_wall = make_basis(-2, {{{0, 0, 0}, {0, -1, 0}, {1, 1, 0}}});
+  if (node == 0) return low_wall;
+  return node == last ? high_wall : inside;
+}
+
+double axis_integral(int node, int last) {
+  const int from_wall = std::min(node, last - node);
+  if (from_wall == 0) return 13. / 24;
+  return from_wall == 1 ? 23. / 24 : 1;
+}
+
+}  // namespace minamo

@@ -1,0 +1,121 @@
+#pragma once
+/// \file
+/// The 3^d nodes of a dual cell, the weights of a particle on them, and the loops that all kernels share:
+/// for_each_support() over the nodes, for_each_cell() to gather, for_each_cell_coloured() to scatter.
+
+#include "components/cells.hpp"
+#include "engine/parallel.hpp"
+#include "systems/grid/basis.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+/// Calls body(k, offset) for the 3^d nodes of a support; offset (0 ... 2 per direction) from its first node, x fastest.
+template <int Dim, class Body>
+inline void for_each_support(const Body& body) {
+  std::size_t k = 0;
+  if constexpr (Dim == 3) {
+    for (int c = 0; c < 3; ++c) {
+      for (int b = 0; b < 3; ++b) {
+        for (int a = 0; a < 3; ++a) body(k++, Index<3>{a, b, c});
+      }
+    }
+  } else {
+    for (int b = 0; b < 3; ++b) {
+      for (int a = 0; a < 3; ++a) body(k++, Index<2>{a, b});
+    }
+  }
+}
+
+/// The nodes of a dual cell.
+template <int Dim>
+struct Support {
+  std::array<const AxisBasis*, static_cast<std::size_t>(Dim)> basis;
+  std::array<std::size_t, support_size<Dim>> node;  ///< rows in the node tables
+  Index<Dim> first;                                 ///< lowest node
+  Vec<Dim> centre;                                  ///< the cell's own node [m]
+  Vec<Dim> corner;                                  ///< the lowest node [m]
+  double per_spacing;                               ///< 1/h [1/m]
+
+  Support(const Grid<Dim>& grid, const Index<Dim>& own) : centre(grid.position(own)), per_spacing(1 / grid.spacing) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      basis[d] = &axis_basis(own[d], grid.cells[d]);
+      first[d] = own[d] + basis[d]->first;
+    }
+    corner = grid.position(first);
+    for_each_support<Dim>([&](std::size_t k, Index<Dim> offset) {
+      for (std::size_t d = 0; d < Dim; ++d) offset[d] += first[d];
+      node[k] = grid.row(offset);
+    });
+  }
+};
+
+/// S_Ip and its gradient at a point, for the nodes of a support.
+template <int Dim>
+struct Weights {
+  std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> value;
+  std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> slope;  ///< [1/m]
+
+  Weights(const Support<Dim>& support, const Vec<Dim>& y) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const double xi = (y[axis] - support.centre[axis]) * support.per_spacing;
+      for (std::size_t a = 0; a < 3; ++a) {
+        value[d][a] = support.basis[d]->value(a, xi);
+        slope[d][a] = support.basis[d]->derivative(a, xi) * support.per_spacing;
+      }
+    }
+  }
+  double operator()(const Index<Dim>& offset) const {
+    double product = 1;
+    for (std::size_t d = 0; d < Dim; ++d) product *= value[d][static_cast<std::size_t>(offset[d])];
+    return product;
+  }
+  Vec<Dim> gradient(const Index<Dim>& offset) const {
+    Vec<Dim> gradient;
+    for (std::size_t i = 0; i < Dim; ++i) {
+      double product = slope[i][static_cast<std::size_t>(offset[i])];
+      for (std::size_t d = 0; d < Dim; ++d) {
+        if (d != i) product *= value[d][static_cast<std::size_t>(offset[d])];
+      }
+      gradient[static_cast<Eigen::Index>(i)] = product;
+    }
+    return gradient;
+  }
+};
+
+/// The node in whose dual cell a point lies; a point outside the box counts to the nearest cell.
+template <int Dim>
+Index<Dim> dual_cell(const Grid<Dim>& grid, const Vec<Dim>& y) {
+  Index<Dim> node;
+  for (int d = 0; d < Dim; ++d) {
+    const double r = (y[d] - grid.low[d]) / grid.spacing + 0.5;
+    node[static_cast<std::size_t>(d)] = std::clamp(static_cast<int>(r), 0, grid.cells[static_cast<std::size_t>(d)]);
+  }
+  return node;
+}
+
+/// Calls body(place in cells.cells, cell), side by side. For kernels that write rows of their particles or cells only.
+template <int Dim, class Body>
+void for_each_cell(const OccupiedCells<Dim>& cells, const Body& body) {
+  constexpr std::size_t cells_per_task = 64;
+  for_each_row(cells.cells.size(), [&](std::size_t c) { body(c, cells.cells[c]); }, cells_per_task);
+}
+
+/// The same for kernels that write rows of nodes: one colour of blocks after the other, so that every node gets its
+/// contributions in an order that does not depend on the number of threads.
+template <int Dim, class Body>
+void for_each_cell_coloured(const OccupiedCells<Dim>& cells, const Body& body) {
+  constexpr std::size_t blocks_per_task = 4;
+  for (const auto& blocks : cells.blocks) {
+    for_each_row(
+        blocks.size(),
+        [&](std::size_t b) {
+          for (std::size_t c = blocks[b].begin; c < blocks[b].end; ++c) body(c, cells.cells[c]);
+        },
+        blocks_per_task);
+  }
+}
+
+}  // namespace minamo

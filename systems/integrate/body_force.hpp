@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// Body force per unit mass at the nodes, and the nodes that only it moves.
+
+#include "components/cells.hpp"
+#include "components/fluid.hpp"
+#include "components/grid.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "components/step.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E14)  b_I = b(t), the same everywhere.
+template <int Dim>
+struct UniformBodyForce {
+  static constexpr std::string_view doc = "(E14) b_I, uniform";
+  void operator()(Read<BodyForce> b, Read<Rates> rates, Read<node::Mass> m_i,
+                  Write<node::BodyForce<Dim>> b_i) const;
+};
+
+/// b_p = b(y_p, t).
+template <int Dim>
+struct SampleBodyForce {
+  static constexpr std::string_view doc = "b_p at the particles";
+  void operator()(Read<BodyForce> b, Read<Rates> rates, Read<particle::Configuration<Dim>> y_p,
+                  Write<particle::BodyForce<Dim>> b_p) const;
+};
+
+/// (E14)  b_I = sum_p S_Ip m_p b_p / m_I.
+template <int Dim>
+struct P2GBodyForce {
+  static constexpr std::string_view doc = "(E14) b_I, from the particles";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p, Read<node::Mass> m_i,
+                  Write<node::BodyForce<Dim>> b_i) const;
+};
+
+/// (E15)  Light nodes move freely, a_I = b_I: u_I = (b_I - a^_I)/c_a. Active nodes get zero, to be filled by the solve.
+/// With this every node with mass has a velocity, so that what crosses the surface is not lost: linear momentum is
+/// conserved and a uniform flow has no divergence.
+template <int Dim>
+struct FreeFlight {
+  static constexpr std::string_view doc = "(E15) u_I of light nodes";
+  void operator()(Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+                  Read<node::BodyForce<Dim>> b_i, Read<Rates> rates, Read<node::KnownAcceleration<Dim>> a_known,
+                  Write<node::Displacement<Dim>> u_i) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Where the weights of a step are taken: y_p.
+
+#include "components/grid.hpp"
+#include "components/particle.hpp"
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E9)  y_p = x_p^n + s dt v_p^n, kept inside the box. The share s of the step is what tells these systems apart.
+template <int Dim>
+struct ConfigureAtStart {  // s = 0
+  static constexpr std::string_view doc = "(E9) y_p = x_p, newmark";
+  void operator()(Read<particle::Position<Dim>> x_p, Write<particle::Configuration<Dim>> y_p) const;
+};
+
+template <int Dim>
+struct ConfigureAtMiddle {  // s = 1/2
+  static constexpr std::string_view doc = "(E9) y_p = x_p + dt/2 v_p, midpoint";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Velocity<Dim>> v_p, Write<particle::Configuration<Dim>> y_p) const;
+};
+
+template <int Dim>
+struct ConfigureStepBefore {  // s = -1
+  static constexpr std::string_view doc = "(E9) y_p = x_p - dt v_p, start of newmark";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Velocity<Dim>> v_p, Write<particle::Configuration<Dim>> y_p) const;
+};
+
+template <int Dim>
+struct ConfigureStepAhead {  // s = 1
+  static constexpr std::string_view doc = "(E9) y_p = x_p + dt v_p, initial pressure";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Velocity<Dim>> v_p, Write<particle::Configuration<Dim>> y_p) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,140 @@
+#include "systems/measure/conservation.hpp"
+
+#include "systems/grid/support.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+using Rotation = Vec<rotations<Dim>>;
+
+/// x times v.
+template <int Dim>
+Rotation<Dim> cross(const Vec<Dim>& x, const Vec<Dim>& v) {
+  if constexpr (Dim == 3) {
+    return x.cross(v);
+  } else {
+    return Rotation<2>(x[0] * v[1] - x[1] * v[0]);
+  }
+}
+
+/// sum_d D_dd e_d x dv/dx_d: what a velocity gradient adds to (x_I - x_p) x v on average over the support.
+template <int Dim>
+Rotation<Dim> affine_spin(const Vec<Dim>& spread, const Mat<Dim>& grad_v) {
+  Rotation<Dim> spin = Rotation<Dim>::Zero();
+  for (int d = 0; d < Dim; ++d) {
+    spin += cross<Dim>(spread[d] * Vec<Dim>::Unit(d), Vec<Dim>(grad_v.col(d)));
+  }
+  return spin;
+}
+
+/// The diagonal of D_p. [m^2]
+template <int Dim>
+Vec<Dim> support_spread(const Grid<Dim>& grid, const Vec<Dim>& x) {
+  const Index<Dim> own = dual_cell<Dim>(grid, x);
+  const Vec<Dim> xi = (x - grid.position(own)) / grid.spacing;
+  Vec<Dim> spread;
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    const AxisBasis& basis = axis_basis(own[axis], grid.cells[axis]);
+    double sum = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double distance = basis.first + static_cast<double>(a) - xi[d];
+      sum += basis.value(a, xi[d]) * distance * distance;
+    }
+    spread[d] = sum * grid.spacing * grid.spacing;
+  }
+  return spread;
+}
+
+template <int Dim>
+struct MassPoint {
+  double mass = 0;
+  Vec<Dim> first_moment = Vec<Dim>::Zero();
+};
+
+template <int Dim>
+Vec<Dim> centre_of_mass(std::span<const double> m_p, std::span<const Vec<Dim>> x_p) {
+  const auto sum = reduce_rows(
+      m_p.size(), MassPoint<Dim>{}, [&](std::size_t p) { return MassPoint<Dim>{m_p[p], m_p[p] * x_p[p]}; },
+      [](const MassPoint<Dim>& a, const MassPoint<Dim>& b) {
+        return MassPoint<Dim>{a.mass + b.mass, a.first_moment + b.first_moment};
+      });
+  return sum.first_moment / sum.mass;
+}
+
+template <int Dim>
+measure::Momentum<Dim> add(const measure::Momentum<Dim>& a, const measure::Momentum<Dim>& b) {
+  return {a.linear + b.linear, a.angular + b.angular};
+}
+
+}  // namespace
+
+template <int Dim>
+void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p,
+                                    Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                                    Write<measure::Energy> energy) const {
+  const auto sum = [](double x, double y) { return x + y; };
+  energy->kinetic = reduce_rows(
+      m_p.size(), 0.0, [&](std::size_t p) { return 0.5 * m_p[p] * v_p[p].squaredNorm(); }, sum);
+  energy->potential.reset();
+  Vec<Dim> force;
+  for (int d = 0; d < Dim; ++d) {
+    const Expression& component = b->of_place_and_time[static_cast<std::size_t>(d)];
+    if (!component.is_constant()) return;
+    force[d] = component(std::array<double, 4>{});
+  }
+  energy->potential = reduce_rows(
+      m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force.dot(x_p[p] - grid->low); }, sum);
+}
+
+template <int Dim>
+void MeasureMomentum<Dim>::operator()(Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                                      Read<particle::Velocity<Dim>> v_p,
+                                      Write<measure::Momentum<Dim>> momentum) const {
+  const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span());
+  *momentum = reduce_rows(
+      m_p.size(), measure::Momentum<Dim>{},
+      [&](std::size_t p) {
+        return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * cross<Dim>(x_p[p] - centre, v_p[p])};
+      },
+      add<Dim>);
+}
+
+template <int Dim>
+void MeasureMomentumAffine<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p,
+                                            Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                                            Read<particle::VelocityGradient<Dim>> grad_v_p,
+                                            Write<measure::Momentum<Dim>> momentum) const {
+  const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span());
+  *momentum = reduce_rows(
+      m_p.size(), measure::Momentum<Dim>{},
+      [&](std::size_t p) {
+        const Rotation<Dim> spin = affine_spin<Dim>(support_spread<Dim>(*grid, x_p[p]), grad_v_p[p]);
+        return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * (cross<Dim>(x_p[p] - centre, v_p[p]) + spin)};
+      },
+      add<Dim>);
+}
+
+template <int Dim>
+void MeasureMaxSpeed<Dim>::operator()(Read<particle::Velocity<Dim>> v_p, Write<measure::MaxSpeed> speed) const {
+  speed->value = std::sqrt(reduce_rows(
+      v_p.size(), 0.0, [&](std::size_t p) { return v_p[p].squaredNorm(); },
+      [](double x, double y) { return std::max(x, y); }));
+}
+
+template struct MeasureEnergy<2>;
+template struct MeasureEnergy<3>;
+template struct MeasureMomentum<2>;
+template struct MeasureMomentum<3>;
+template struct MeasureMomentumAffine<2>;
+template struct MeasureMomentumAffine<3>;
+template struct MeasureMaxSpeed<2>;
+template struct MeasureMaxSpeed<3>;
+
+}  // namespace minamo

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// Energy, momentum and largest speed of the particles.
+
+#include "components/fluid.hpp"
+#include "components/grid.hpp"
+#include "components/measure.hpp"
+#include "components/particle.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E28)  K = sum m_p |v_p|^2 / 2;  U = -sum m_p b . (x_p - low corner) for a constant b.
+template <int Dim>
+struct MeasureEnergy {
+  static constexpr std::string_view doc = "(E28) kinetic and potential energy";
+  void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p,
+                  Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                  Write<measure::Energy> energy) const;
+};
+
+/// (E29)  P = sum m_p v_p;  L = sum m_p (x_p - x_c) x v_p.
+template <int Dim>
+struct MeasureMomentum {
+  static constexpr std::string_view doc = "(E29) momentum and angular momentum";
+  void operator()(Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                  Write<measure::Momentum<Dim>> momentum) const;
+};
+
+/// (E30)  L of (E29) plus sum m_p (D_11 dv/dx - D_22 du/dy) in the plane, its cyclic kin in space, with
+/// D_p = sum_I S_I(x_p) (x_I - x_p) (x) (x_I - x_p), which is diagonal.
+template <int Dim>
+struct MeasureMomentumAffine {
+  static constexpr std::string_view doc = "(E30) momentum and angular momentum with velocity gradients";
+  void operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> grad_v_p,
+                  Write<measure::Momentum<Dim>> momentum) const;
+};
+
+/// max |v_p|.
+template <int Dim>
+struct MeasureMaxSpeed {
+  static constexpr std::string_view doc = "largest particle speed";
+  void operator()(Read<particle::Velocity<Dim>> v_p, Write<measure::MaxSpeed> speed) const;
+};
+
+}  // namespace minamo

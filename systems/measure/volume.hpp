@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// How well the volume is kept: divergence of the nodal velocity, overlap of the particles.
+
+#include "components/fluid.hpp"
+#include "components/grid.hpp"
+#include "components/matrix.hpp"
+#include "components/measure.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "components/step.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E31)  max_I |sum_J D_IJ . v_J| / (m_I/rho), v the velocity in the mass balance.
+template <int Dim>
+struct MeasureDivergence {
+  static constexpr std::string_view doc = "(E31) largest divergence";
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node,
+                  Read<matrix::Divergence<Dim>> divergence, Read<node::Mass> m_i,
+                  Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
+                  Write<measure::MaxDivergence> largest) const;
+};
+
+/// (E32)  overlap = sum_I max(0, V~_I - V_I) / sum_p V_p, V~_I = sum_p S_I(x_p) V_p, V_I the integral of S_I.
+template <int Dim>
+struct MeasureOverlap {
+  static constexpr std::string_view doc = "(E32) overlap";
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Mass> m_p, Write<node::Volume> v_i, Write<measure::Overlap> overlap) const;
+};
+
+}  // namespace minamo

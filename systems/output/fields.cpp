@@ -1,0 +1,122 @@
+#include "systems/output/fields.hpp"
+
+#include "engine/hdf5.hpp"
+#include "systems/grid/support.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace minamo {
+
+namespace {
+
+template <int Size>
+std::span<const double> numbers(std::span<const Vec<Size>> values) {
+  return {reinterpret_cast<const double*>(values.data()), values.size() * Size};
+}
+
+std::string h5_path(const FieldsFile& fields) { return fields.folder + "/fields.h5"; }
+
+std::string group(std::size_t frame) { return fmt::format("/particles/{}", frame); }
+
+/// A dataset of fields.h5 as an XDMF data item.
+std::string data_item(std::size_t frame, const std::string& name, std::size_t rows, int width,
+                      std::string_view type = R"(NumberType="Float" Precision="8")") {
+  const std::string shape = width == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, width);
+  return fmt::format(R"(<DataItem Dimensions="{}" {} Format="HDF">fields.h5:{}/{}</DataItem>)", shape, type,
+                     group(frame), name);
+}
+
+std::string attribute(const std::string& name, std::string_view kind, const std::string& item) {
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n          {}\n"
+                     "        </Attribute>\n", name, kind, item);
+}
+
+template <int Dim>
+std::string grid_text(const FieldsFile::Frame& frame, std::size_t k) {
+  const std::size_t n = frame.particles;
+  std::string text = fmt::format(
+      "      <Grid Name=\"particles\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n"
+      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n"
+      "        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
+      frame.time, n, Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
+  text += attribute("velocity", Dim == 2 ? "Matrix" : "Vector", data_item(k, "velocity", n, Dim));
+  text += attribute("pressure", "Scalar", data_item(k, "pressure", n, 1));
+  text += attribute("id", "Scalar", data_item(k, "id", n, 1, R"(NumberType="Int" Precision="8")"));
+  for (const std::string& field : frame.extra_fields) {
+    text += attribute(field, "Matrix", data_item(k, field, n, Dim * Dim));
+  }
+  return text + "      </Grid>\n";
+}
+
+}  // namespace
+
+template <int Dim>
+void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim>> y_p,
+                                     Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const {
+  for_each_row(y_p.size(), [&](std::size_t p) {
+    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, y_p[p]));
+    const Weights<Dim> weights(support, y_p[p]);
+    double sum = 0;
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { sum += weights(offset) * p_i[support.node[k]]; });
+    p_p[p] = sum;
+  });
+}
+
+template <int Dim>
+void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
+                                 Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
+                                 Update<FieldsFile> fields) const {
+  if (fields->folder.empty()) return;
+  const std::size_t frame = fields->frames.size();
+  Hdf5File file(h5_path(*fields), frame == 0 ? Hdf5File::Access::create : Hdf5File::Access::extend);
+  file.write(group(frame) + "/position", numbers<Dim>(x_p.span()), Dim);
+  file.write(group(frame) + "/velocity", numbers<Dim>(v_p.span()), Dim);
+  file.write(group(frame) + "/pressure", p_p.span());
+  file.write(group(frame) + "/id", id.span());
+  file.set_attribute(group(frame), "time", clock->time);
+  fields->frames.push_back({clock->time, x_p.size(), {}});
+}
+
+template <int Dim>
+void WriteVelocityGradient<Dim>::operator()(Read<particle::VelocityGradient<Dim>> grad_v_p,
+                                            Update<FieldsFile> fields) const {
+  if (fields->folder.empty()) return;
+  std::vector<double> rows;
+  rows.reserve(grad_v_p.size() * Dim * Dim);
+  for (const Mat<Dim>& gradient : grad_v_p) {
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j) rows.push_back(gradient(i, j));
+    }
+  }
+  Hdf5File file(h5_path(*fields), Hdf5File::Access::extend);
+  file.write(group(fields->frames.size() - 1) + "/velocity_gradient", rows, Dim * Dim);
+  fields->frames.back().extra_fields.emplace_back("velocity_gradient");
+}
+
+template <int Dim>
+void WriteXdmf<Dim>::operator()(Update<FieldsFile> fields) const {
+  if (fields->folder.empty()) return;
+  const std::string path = fields->folder + "/fields.xdmf";
+  std::ofstream xdmf(path + ".unfinished");
+  xdmf << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
+          "    <Grid Name=\"minamo\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (std::size_t k = 0; k < fields->frames.size(); ++k) xdmf << grid_text<Dim>(fields->frames[k], k);
+  xdmf << "    </Grid>\n  </Domain>\n</Xdmf>\n";
+  xdmf.close();
+  if (!xdmf) throw std::runtime_error(path + ": cannot be written");
+  std::filesystem::rename(path + ".unfinished", path);
+}
+
+template struct SamplePressure<2>;
+template struct SamplePressure<3>;
+template struct WriteFrame<2>;
+template struct WriteFrame<3>;
+template struct WriteVelocityGradient<2>;
+template struct WriteVelocityGradient<3>;
+template struct WriteXdmf<2>;
+template struct WriteXdmf<3>;
+
+}  // namespace minamo

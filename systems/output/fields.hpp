@@ -1,0 +1,59 @@
+#pragma once
+/// \file
+/// fields.h5 and fields.xdmf: what particles carry, at every output time. /particles/{frame}/{position, velocity,
+/// pressure, id, ...}, attribute `time`.
+
+#include "components/grid.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+
+#include <string>
+
+namespace minamo {
+
+/// Where the frames go, and what the XDMF index says of them.
+struct FieldsFile {
+  struct Frame {
+    double time;                            ///< [s]
+    std::size_t particles;
+    std::vector<std::string> extra_fields;  ///< beyond position, velocity, pressure, id
+  };
+  std::string folder;  ///< nothing is written while it is empty
+  std::vector<Frame> frames;
+  static constexpr ComponentInfo info{"fields.file", "", "", Lifetime::cache};
+};
+
+/// (E33)  p_p = sum_I S_I(y_p) p_I.
+template <int Dim>
+struct SamplePressure {
+  static constexpr std::string_view doc = "(E33) p_p";
+  void operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim>> y_p, Read<node::Pressure> p_i,
+                  Write<particle::Pressure> p_p) const;
+};
+
+/// Adds a frame to fields.h5.
+/// \throws std::runtime_error if the file cannot be written.
+template <int Dim>
+struct WriteFrame {
+  static constexpr std::string_view doc = "a frame of fields.h5";
+  void operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p, Update<FieldsFile> fields) const;
+};
+
+/// Adds the velocity gradient to the last frame, rows of d x d numbers, row by row.
+template <int Dim>
+struct WriteVelocityGradient {
+  static constexpr std::string_view doc = "the velocity gradient of a frame of fields.h5";
+  void operator()(Read<particle::VelocityGradient<Dim>> grad_v_p, Update<FieldsFile> fields) const;
+};
+
+/// Rewrites fields.xdmf, the index that ParaView opens.
+template <int Dim>
+struct WriteXdmf {
+  static constexpr std::string_view doc = "fields.xdmf";
+  void operator()(Update<FieldsFile> fields) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,63 @@
+#include "systems/output/history.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+RunTotals::Values values(const measure::Energy& energy, const measure::Momentum<Dim>& momentum) {
+  RunTotals::Values values{.energy = energy.kinetic + energy.potential.value_or(0), .momentum = {}, .angular_momentum = {}};
+  for (int d = 0; d < Dim; ++d) values.momentum[static_cast<std::size_t>(d)] = momentum.linear[d];
+  for (int d = 0; d < rotations<Dim>; ++d) values.angular_momentum[static_cast<std::size_t>(d)] = momentum.angular[d];
+  return values;
+}
+
+}  // namespace
+
+template <int Dim>
+std::string history_header() {
+  const std::string momentum = Dim == 2 ? "momentum_x,momentum_y,angular_momentum"
+                                        : "momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
+                                          "angular_momentum_z";
+  return "step,time,dt,kinetic_energy,potential_energy," + momentum +
+         ",max_speed,max_divergence,overlap,active_nodes,iterations,residual";
+}
+
+template <int Dim>
+void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> energy,
+                                   Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
+                                   Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap,
+                                   Read<matrix::Node> active, Read<SolveReport> solve, Update<RunTotals> totals,
+                                   Update<HistoryFile> history) const {
+  // The row of the start has no step behind it.
+  const bool is_start = totals->rows == 0;
+  totals->last = values<Dim>(*energy, *momentum);
+  if (is_start) totals->first = totals->last;
+  totals->overlap_max = std::max(totals->overlap_max, overlap->value);
+  totals->active_nodes_max = std::max(totals->active_nodes_max, static_cast<std::int64_t>(active.size()));
+  totals->unknowns_max = std::max(totals->unknowns_max, solve->unknowns);
+  ++totals->rows;
+  if (!history->file.is_open()) return;
+
+  fmt::memory_buffer row;
+  const auto out = std::back_inserter(row);
+  fmt::format_to(out, "{},{},{},{},", is_start ? 0 : clock->index + 1, is_start ? clock->time : clock->end_of_step,
+                 is_start ? 0 : clock->step, energy->kinetic);
+  if (energy->potential) fmt::format_to(out, "{}", *energy->potential);
+  for (int d = 0; d < Dim; ++d) fmt::format_to(out, ",{}", momentum->linear[d]);
+  for (int d = 0; d < rotations<Dim>; ++d) fmt::format_to(out, ",{}", momentum->angular[d]);
+  fmt::format_to(out, ",{},{},{},{},{},{}\n", speed->value, divergence->value, overlap->value, active.size(),
+                 solve->iterations, solve->residual);
+  history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
+}
+
+template std::string history_header<2>();
+template std::string history_header<3>();
+template struct WriteHistory<2>;
+template struct WriteHistory<3>;
+
+}  // namespace minamo

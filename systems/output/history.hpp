@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// history.csv: a row per step.
+
+#include "components/fluid.hpp"
+#include "components/matrix.hpp"
+#include "components/measure.hpp"
+#include "engine/clock.hpp"
+#include "engine/linear_solver.hpp"
+#include "engine/system.hpp"
+
+#include <fstream>
+
+namespace minamo {
+
+/// Where the history goes; nothing is written while it is closed.
+struct HistoryFile {
+  std::ofstream file;
+  static constexpr ComponentInfo info{"history.file", "", "", Lifetime::cache};
+};
+
+/// What a summary says of a whole run.
+struct RunTotals {
+  struct Values {
+    double energy = 0;                           ///< kinetic, and potential where it exists [J]
+    std::array<double, 3> momentum{};            ///< [kg m/s]
+    std::array<double, 3> angular_momentum{};    ///< [kg m^2/s]
+  };
+  Values first;
+  Values last;
+  double overlap_max = 0;
+  std::int64_t active_nodes_max = 0;
+  std::int64_t unknowns_max = 0;
+  std::int64_t rows = 0;
+  static constexpr ComponentInfo info{"history.totals", "", "", Lifetime::state};
+};
+
+/// Column names of history.csv.
+template <int Dim>
+std::string history_header();
+
+template <int Dim>
+struct WriteHistory {
+  static constexpr std::string_view doc = "a row of history.csv";
+  void operator()(Read<Clock> clock, Read<measure::Energy> energy, Read<measure::Momentum<Dim>> momentum,
+                  Read<measure::MaxSpeed> speed, Read<measure::MaxDivergence> divergence,
+                  Read<measure::Overlap> overlap, Read<matrix::Node> active, Read<SolveReport> solve,
+                  Update<RunTotals> totals, Update<HistoryFile> history) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,85 @@
+#include "systems/register.hpp"
+
+#include "systems/grid/activate.hpp"
+#include "systems/grid/bin.hpp"
+#include "systems/grid/walls.hpp"
+#include "systems/integrate/body_force.hpp"
+#include "systems/integrate/configuration.hpp"
+#include "systems/integrate/midpoint.hpp"
+#include "systems/integrate/newmark.hpp"
+#include "systems/measure/conservation.hpp"
+#include "systems/measure/volume.hpp"
+#include "systems/output/fields.hpp"
+#include "systems/output/history.hpp"
+#include "systems/solve/assemble.hpp"
+#include "systems/solve/monolithic.hpp"
+#include "systems/solve/pspg.hpp"
+#include "systems/solve/umfpack.hpp"
+#include "systems/transfer/advect.hpp"
+#include "systems/transfer/mass.hpp"
+#include "systems/transfer/pic_flip.hpp"
+#include "systems/transfer/tpic.hpp"
+
+namespace minamo {
+
+void register_systems(SystemRegistry& registry) {
+  registry.add<ConfigureAtStart>("configure_at_start");
+  registry.add<ConfigureAtMiddle>("configure_at_middle");
+  registry.add<ConfigureStepBefore>("configure_step_before");
+  registry.add<ConfigureStepAhead>("configure_step_ahead");
+  registry.add<Bin>("bin");
+
+  registry.add<P2GMass>("p2g_mass");
+  registry.add<P2GVelocityPic>("p2g_velocity_pic");
+  registry.add<P2GAccelerationPic>("p2g_acceleration_pic");
+  registry.add<P2GVelocityTpic>("p2g_velocity_tpic");
+  registry.add<P2GAccelerationTpic>("p2g_acceleration_tpic");
+
+  registry.add<Activate>("activate");
+  registry.add<HoldVelocityAtWalls>("hold_velocity_at_walls");
+  registry.add<HoldAccelerationAtWalls>("hold_acceleration_at_walls");
+
+  registry.add<PredictNewmark>("predict_newmark");
+  registry.add<PredictMidpoint>("predict_midpoint");
+  registry.add<PredictBackwardEuler>("predict_backward_euler");
+  registry.add<CorrectNewmark>("correct_newmark");
+  registry.add<CorrectMidpoint>("correct_midpoint");
+  registry.add<CorrectBackwardEuler>("correct_backward_euler");
+
+  registry.add<UniformBodyForce>("uniform_body_force");
+  registry.add<SampleBodyForce>("sample_body_force");
+  registry.add<P2GBodyForce>("p2g_body_force");
+  registry.add<FreeFlight>("free_flight");
+
+  registry.add<GatherMoments>("moments");
+  registry.add<AssembleDivergence>("divergence_matrix");
+  registry.add<AssembleLaplacian>("laplacian_matrix");
+  registry.add<AssembleViscosity>("viscosity_matrix");
+  registry.add<StabilizePspg>("pspg");
+  registry.add<AssembleMonolithic>("assemble_monolithic");
+  registry.add<AssembleMonolithicViscous>("assemble_monolithic_viscous");
+  registry.add<SolveUmfpack>("solve_umfpack");
+  registry.add<UnpackSolution>("unpack_solution");
+
+  registry.add<G2PVelocityPic>("g2p_velocity_pic");
+  registry.add<G2PVelocityFlip>("g2p_velocity_flip");
+  registry.add<G2PVelocityTpic>("g2p_velocity_tpic");
+  registry.add<G2PAccelerationPic>("g2p_acceleration_pic");
+  registry.add<G2PAccelerationTpic>("g2p_acceleration_tpic");
+  registry.add<Advect>("advect");
+
+  registry.add<MeasureEnergy>("measure_energy");
+  registry.add<MeasureMomentum>("measure_momentum");
+  registry.add<MeasureMomentumAffine>("measure_momentum_affine");
+  registry.add<MeasureMaxSpeed>("measure_max_speed");
+  registry.add<MeasureDivergence>("measure_divergence");
+  registry.add<MeasureOverlap>("measure_overlap");
+
+  registry.add<WriteHistory>("write_history");
+  registry.add<SamplePressure>("sample_pressure");
+  registry.add<WriteFrame>("write_frame");
+  registry.add<WriteVelocityGradient>("write_velocity_gradient");
+  registry.add<WriteXdmf>("write_xdmf");
+}
+
+}  // namespace minamo

@@ -1,0 +1,11 @@
+#pragma once
+/// \file
+/// The one list of built-in systems.
+
+#include "engine/registry.hpp"
+
+namespace minamo {
+
+void register_systems(SystemRegistry& registry);
+
+}  // namespace minamo

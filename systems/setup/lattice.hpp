@@ -1,0 +1,19 @@
+#pragma once
+/// \file
+/// Places of particles at the start.
+
+#include "components/grid.hpp"
+#include "systems/setup/scene.hpp"
+
+namespace minamo {
+
+/// The cell (not dual cell) of a point inside the box, by its lowest node.
+template <int Dim>
+Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x);
+
+/// The particles of a region: per_cell^d in every cell, at the middles of equal parts, or anywhere in these parts if
+/// jittered; those inside the shape. Cells and parts come in the order of the grid, x fastest.
+template <int Dim>
+std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid);
+
+}  // namespace minamo

@@ -1,0 +1,93 @@
+#pragma once
+/// \file
+/// A scene as plain data, and the one place that reads it. Every key is described in scenes/README.md, which is
+/// generated from read_scene().
+
+#include "engine/input.hpp"
+#include "engine/registry.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace minamo {
+
+struct GridScene {
+  std::vector<double> low;   ///< corner of the box [m]
+  std::vector<double> high;  ///< opposite corner [m]
+  std::vector<int> cells;    ///< per direction [1]
+  double spacing = 0;        ///< h [m]
+};
+
+enum class Wall { slip, no_slip };
+
+struct Box {
+  std::vector<double> low;
+  std::vector<double> high;
+};
+struct Ball {
+  std::vector<double> center;
+  double radius = 0;
+};
+/// Wherever the expression is not zero.
+struct Where {
+  Expression inside;
+};
+
+struct ParticleScene {
+  std::variant<Box, Ball, Where> shape;
+  int per_cell = 2;                     ///< per direction
+  std::optional<std::uint64_t> jitter;  ///< seed; none: a lattice
+  std::vector<Expression> velocity;     ///< [m/s]
+};
+
+struct TimeScene {
+  double end = 0;                  ///< [s]
+  std::optional<double> step;      ///< fixed length [s]
+  double cfl = 0;                  ///< largest displacement of a particle in a step, in cells, where step is not given
+  std::optional<double> max_step;  ///< [s]
+};
+
+struct OutputScene {
+  double every = 0;                  ///< simulated time between frames [s]
+  std::optional<double> checkpoint;  ///< simulated time between checkpoints [s]
+};
+
+/// A system that the scene adds to the step.
+struct ExtraSystem {
+  System system;
+  std::string after;  ///< slot
+};
+
+struct Scene {
+  std::string title;
+  int dimension = 2;
+  std::map<std::string, double> constants;
+  GridScene grid;
+  std::vector<std::array<Wall, 2>> walls;  ///< low and high side per axis
+  double density = 0;                      ///< [kg/m^3]
+  double viscosity = 0;                    ///< [Pa s]
+  std::vector<Expression> body_force;      ///< in x, y, z, t [m/s^2]
+  std::vector<ParticleScene> particles;
+  std::string transfer;
+  double flip_blend = 1;
+  std::string integrator;
+  double newmark_beta = 0.25;
+  double newmark_gamma = 0.5;
+  std::string stabilization;
+  std::string volume;
+  std::string solver;
+  TimeScene time;
+  OutputScene output;
+  std::vector<ExtraSystem> systems;
+};
+
+/// Reads a scene; problems are noted in the document that `input` belongs to.
+Scene read_scene(Input& input, const SystemRegistry& registry);
+
+/// x, y, z, t and the constants of a scene, as its expressions see them.
+ExpressionScope scene_scope(const std::map<std::string, double>& constants);
+
+}  // namespace minamo

@@ -1,0 +1,160 @@
+#include "systems/setup/seed.hpp"
+
+#include "components/fluid.hpp"
+#include "components/grid.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "components/step.hpp"
+#include "systems/setup/lattice.hpp"
+#include "systems/transfer/scheme.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+Grid<Dim> make_grid(const GridScene& scene) {
+  Grid<Dim> grid;
+  grid.spacing = scene.spacing;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    grid.low[axis] = scene.low[d];
+    grid.high[axis] = scene.high[d];
+    grid.cells[d] = scene.cells[d];
+  }
+  return grid;
+}
+
+/// The directions that the walls hold at a place of one axis.
+template <int Dim>
+std::uint8_t held_by(const std::array<Wall, 2>& walls, int place, int last, std::size_t axis) {
+  constexpr auto all = static_cast<std::uint8_t>((1 << Dim) - 1);
+  if (place != 0 && place != last) return 0;
+  const Wall wall = walls[place == 0 ? 0 : 1];
+  return wall == Wall::no_slip ? all : static_cast<std::uint8_t>(1U << axis);
+}
+
+template <int Dim>
+void set_walls(const Scene& scene, const Grid<Dim>& grid, World& world) {
+  world.resize<Nodes>(grid.node_count());
+  const auto fixed = world.column<node::Fixed>();
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    std::size_t rest = i;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const int nodes = grid.nodes(static_cast<int>(d));
+      const int place = static_cast<int>(rest % static_cast<std::size_t>(nodes));
+      fixed[i] |= held_by<Dim>(scene.walls[d], place, nodes - 1, d);
+      rest /= static_cast<std::size_t>(nodes);
+    }
+  }
+}
+
+template <int Dim>
+Vec<Dim> velocity_at(const std::vector<Expression>& velocity, const Vec<Dim>& x) {
+  std::array<double, 4> xyzt{};
+  for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = x[d];
+  Vec<Dim> v;
+  for (int d = 0; d < Dim; ++d) v[d] = velocity[static_cast<std::size_t>(d)](xyzt);
+  return v;
+}
+
+/// Central differences.
+template <int Dim>
+Mat<Dim> velocity_gradient_at(const std::vector<Expression>& velocity, const Vec<Dim>& x, double spacing) {
+  const double step = 1e-3 * spacing;
+  Mat<Dim> gradient;
+  for (int d = 0; d < Dim; ++d) {
+    const Vec<Dim> aside = step * Vec<Dim>::Unit(d);
+    gradient.col(d) = (velocity_at<Dim>(velocity, x + aside) - velocity_at<Dim>(velocity, x - aside)) / (2 * step);
+  }
+  return gradient;
+}
+
+/// Positions, and the region that each comes from.
+template <int Dim>
+struct Seeds {
+  std::vector<Vec<Dim>> position;
+  std::vector<std::size_t> region;
+};
+
+template <int Dim>
+Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, const std::string& file, std::vector<Problem>& problems) {
+  Seeds<Dim> seeds;
+  std::vector<double> filled(grid.node_count(), 0.0);
+  for (std::size_t r = 0; r < scene.particles.size(); ++r) {
+    const auto positions = lattice<Dim>(scene.particles[r], grid);
+    const std::string pointer = fmt::format("/particles/{}", r);
+    if (positions.empty()) {
+      problems.push_back({file, pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
+                          fmt::format("none of {} per cell and direction", scene.particles[r].per_cell), ""});
+    }
+    const double share = std::pow(scene.particles[r].per_cell, -Dim);
+    bool overlaps = false;
+    for (const Vec<Dim>& x : positions) {
+      double& cell = filled[grid.row(cell_of<Dim>(grid, x))];
+      cell += share;
+      overlaps = overlaps || cell > 1 + 1e-9;
+      seeds.position.push_back(x);
+      seeds.region.push_back(r);
+    }
+    if (overlaps) {
+      problems.push_back({file, pointer + "/shape", "overlaps an earlier one", "at most one liquid per place", "", ""});
+    }
+  }
+  return seeds;
+}
+
+template <int Dim>
+void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& seeds, const std::string& file,
+                   World& world, std::vector<Problem>& problems) {
+  world.resize<Particles>(seeds.position.size());
+  const bool with_gradient = transfer_scheme(scene.transfer).carries_gradient;
+  const auto x_p = world.column<particle::Position<Dim>>();
+  const auto v_p = world.column<particle::Velocity<Dim>>();
+  const auto m_p = world.column<particle::Mass>();
+  const auto id = world.column<particle::Id>();
+  const auto grad_v_p = with_gradient ? world.column<particle::VelocityGradient<Dim>>() : std::span<Mat<Dim>>{};
+  std::vector<bool> reported(scene.particles.size(), false);
+  for (std::size_t p = 0; p < x_p.size(); ++p) {
+    const std::size_t r = seeds.region[p];
+    const ParticleScene& region = scene.particles[r];
+    x_p[p] = seeds.position[p];
+    id[p] = static_cast<std::int64_t>(p);
+    m_p[p] = scene.density * std::pow(grid.spacing / region.per_cell, Dim);
+    v_p[p] = velocity_at<Dim>(region.velocity, x_p[p]);
+    if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], grid.spacing);
+    const bool finite = v_p[p].allFinite() && (!with_gradient || grad_v_p[p].allFinite());
+    if (finite || reported[r]) continue;
+    reported[r] = true;
+    problems.push_back({file, fmt::format("/particles/{}/velocity", r), "not finite", "a finite velocity [m/s]",
+                        fmt::format("{} at x = {:.6g}, y = {:.6g}", v_p[p].allFinite() ? "an infinite gradient" : "inf or NaN",
+                                    x_p[p][0], x_p[p][1]),
+                        ""});
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void seed_world(const Scene& scene, const std::string& file, World& world) {
+  const Grid<Dim> grid = make_grid<Dim>(scene.grid);
+  world.resource<Grid<Dim>>() = grid;
+  world.resource<Fluid>() = {scene.density, scene.viscosity};
+  world.resource<BodyForce>() = {scene.body_force};
+  world.resource<NewmarkParameters>() = {scene.newmark_beta, scene.newmark_gamma};
+  world.resource<FlipBlend>() = {scene.flip_blend};
+  set_walls<Dim>(scene, grid, world);
+  std::vector<Problem> problems;
+  const Seeds<Dim> seeds = lay_out<Dim>(scene, grid, file, problems);
+  set_particles<Dim>(scene, grid, seeds, file, world, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+template void seed_world<2>(const Scene&, const std::string&, World&);
+template void seed_world<3>(const Scene&, const std::string&, World&);
+
+}  // namespace minamo

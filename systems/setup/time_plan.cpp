@@ -1,0 +1,51 @@
+#include "systems/setup/time_plan.hpp"
+
+#include "components/particle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+double largest_speed(World& world) {
+  double squared = 0;
+  for (const Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) squared = std::max(squared, v.squaredNorm());
+  return std::sqrt(squared);
+}
+
+/// |b| in the middle of the box.
+double force(const Scene& scene, double time) {
+  std::array<double, 4> xyzt{0, 0, 0, time};
+  for (std::size_t d = 0; d < scene.grid.low.size(); ++d) xyzt[d] = 0.5 * (scene.grid.low[d] + scene.grid.high[d]);
+  double squared = 0;
+  for (const Expression& b : scene.body_force) squared += std::pow(b(xyzt), 2);
+  return std::sqrt(squared);
+}
+
+/// The positive root of (v + b dt) dt = distance, in the form that survives b = 0.
+double crossing_time(double v, double b, double distance) {
+  return 2 * distance / (v + std::sqrt(v * v + 4 * b * distance));
+}
+
+}  // namespace
+
+TimePlan make_time_plan(const Scene& scene) {
+  TimePlan plan{.end = scene.time.end,
+                .step = scene.time.step,
+                .choose_step = {},
+                .frame_every = scene.output.every,
+                .checkpoint_every = scene.output.checkpoint,
+                .max_steps = {}};
+  if (plan.step) return plan;
+  plan.choose_step = [scene](World& world) {
+    const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);
+    const double dt = crossing_time(v, force(scene, world.resource<Clock>().time), scene.time.cfl * scene.grid.spacing);
+    return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every});
+  };
+  return plan;
+}
+
+}  // namespace minamo

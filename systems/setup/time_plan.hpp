@@ -1,0 +1,14 @@
+#pragma once
+/// \file
+/// Steps, frames and checkpoints as a scene wants them.
+
+#include "engine/simulation.hpp"
+#include "systems/setup/scene.hpp"
+
+namespace minamo {
+
+/// (E34)  With `cfl`, the step in which the fastest particle, pushed by the body force, crosses `cfl` cells:
+/// (max |v_p| + |b| dt) dt = cfl h, at most `max_step` and the time between two frames.
+TimePlan make_time_plan(const Scene& scene);
+
+}  // namespace minamo

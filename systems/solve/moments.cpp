@@ -1,0 +1,105 @@
+#include "systems/solve/moments.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// 1, xi, ..., xi^4.
+std::array<double, product_powers> powers(double xi) {
+  const double xi2 = xi * xi;
+  return {1, xi, xi2, xi2 * xi, xi2 * xi2};
+}
+
+/// out[9 g + q][r] = sum_k factor[q][k] in[g][k rest + r]: contracts the slowest direction of every group.
+template <std::size_t Rest>
+void contract(std::size_t groups, const AxisBasis::PairProducts& factor, const double* in, double* out) {
+  for (std::size_t g = 0; g < groups; ++g, in += product_powers * Rest) {
+    for (std::size_t q = 0; q < 9; ++q, out += Rest) {
+      for (std::size_t r = 0; r < Rest; ++r) {
+        double sum = 0;
+        for (std::size_t k = 0; k < product_powers; ++k) sum += factor[q][k] * in[k * Rest + r];
+        out[r] = sum;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
+                                    Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                    Write<Moments<Dim>> moments) const {
+  moments->of_cell.resize(cells->cells.size());
+  const double per_density = 1 / fluid->density;
+  for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+    const Vec<Dim> centre = grid->position(cell.node);
+    std::array<double, stencil_size<Dim>> sum{};
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      const Vec<Dim> xi = (y_p[p] - centre) / grid->spacing;
+      const double volume = m_p[p] * per_density;
+      const auto x = powers(xi[0]);
+      const auto y = powers(xi[1]);
+      std::array<double, 25> xy;
+      for (std::size_t b = 0; b < 5; ++b) {
+        for (std::size_t a = 0; a < 5; ++a) xy[5 * b + a] = volume * y[b] * x[a];
+      }
+      if constexpr (Dim == 3) {
+        const auto z = powers(xi[2]);
+        for (std::size_t c3 = 0; c3 < 5; ++c3) {
+          for (std::size_t ab = 0; ab < 25; ++ab) sum[25 * c3 + ab] += z[c3] * xy[ab];
+        }
+      } else {
+        for (std::size_t ab = 0; ab < 25; ++ab) sum[ab] += xy[ab];
+      }
+    }
+    moments->of_cell[c] = sum;
+  });
+}
+
+template <int Dim>
+CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors) {
+  CellMatrix<Dim> matrix;
+  if constexpr (Dim == 2) {
+    std::array<double, 9 * 5> y_done;
+    contract<5>(1, *factors[1], moments.data(), y_done.data());
+    contract<1>(9, *factors[0], y_done.data(), matrix.data());
+  } else {
+    std::array<double, 9 * 25> z_done;
+    std::array<double, 81 * 5> y_done;
+    contract<25>(1, *factors[2], moments.data(), z_done.data());
+    contract<5>(9, *factors[1], z_done.data(), y_done.data());
+    contract<1>(81, *factors[0], y_done.data(), matrix.data());
+  }
+  return matrix;
+}
+
+template <int Dim>
+const PairPlaces<Dim>& pair_places() {
+  static const PairPlaces<Dim> places = [] {
+    PairPlaces<Dim> made;
+    for_each_support<Dim>([&](std::size_t i, const Index<Dim>& at_i) {
+      for_each_support<Dim>([&](std::size_t j, const Index<Dim>& at_j) {
+        int in_cell = 0;
+        int in_stencil = 0;
+        for (std::size_t d = Dim; d-- > 0;) {
+          in_cell = 9 * in_cell + 3 * at_i[d] + at_j[d];
+          in_stencil = 5 * in_stencil + at_j[d] - at_i[d] + 2;
+        }
+        made.in_cell[i][j] = static_cast<std::uint16_t>(in_cell);
+        made.in_stencil[i][j] = static_cast<std::uint16_t>(in_stencil);
+      });
+    });
+    return made;
+  }();
+  return places;
+}
+
+template struct GatherMoments<2>;
+template struct GatherMoments<3>;
+template CellMatrix<2> integrate<2>(const std::array<double, 25>&, const PairFactors<2>&);
+template CellMatrix<3> integrate<3>(const std::array<double, 125>&, const PairFactors<3>&);
+template const PairPlaces<2>& pair_places<2>();
+template const PairPlaces<3>& pair_places<3>();
+
+}  // namespace minamo

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// Moments of the particles of a dual cell, and cell matrices from them.
+///
+/// Within a dual cell every weight is a polynomial of degree 2 in the local coordinate, so a sum over particles of a
+/// product of two weights or slopes is a fixed linear map of the moments up to degree 4 per direction. The loop over
+/// particles costs 5^d multiply-adds instead of 9^d per matrix, exactly; the map is applied direction by direction.
+
+#include "components/cells.hpp"
+#include "components/fluid.hpp"
+#include "components/particle.hpp"
+#include "engine/system.hpp"
+#include "systems/grid/support.hpp"
+
+namespace minamo {
+
+/// (E19)  M_abc = sum_p V_p xi^a eta^b zeta^c over the particles of a cell.
+template <int Dim>
+struct GatherMoments {
+  static constexpr std::string_view doc = "(E19) moments of dual cells";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
+                  Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                  Write<Moments<Dim>> moments) const;
+};
+
+/// sum_p V_p f_I g_J for the node pairs of a cell at [pair_place(I, J)], f and g products of weights and slopes.
+template <int Dim>
+using CellMatrix = std::array<double, power(9, Dim)>;
+
+/// One factor per direction: AxisBasis::weight_weight, slope_weight, ...
+template <int Dim>
+using PairFactors = std::array<const AxisBasis::PairProducts*, static_cast<std::size_t>(Dim)>;
+
+/// (E20)  The cell matrix of a product of pair factors, in units of h.
+template <int Dim>
+CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors);
+
+/// Where the pair of nodes I, J of a support stands in a CellMatrix, and where J stands in the stencil of I.
+template <int Dim>
+struct PairPlaces {
+  std::array<std::array<std::uint16_t, support_size<Dim>>, support_size<Dim>> in_cell;
+  std::array<std::array<std::uint16_t, support_size<Dim>>, support_size<Dim>> in_stencil;
+};
+template <int Dim>
+const PairPlaces<Dim>& pair_places();
+
+}  // namespace minamo

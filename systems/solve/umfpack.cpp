@@ -1,0 +1,75 @@
+#include "systems/solve/umfpack.hpp"
+
+#include "engine/parallel.hpp"
+
+#include <Eigen/UmfPackSupport>
+
+#include <spdlog/fmt/fmt.h>
+
+namespace minamo {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+using Backend = Eigen::UmfPackLU<Matrix>;
+static_assert(SparseBackend<Backend, Matrix>);
+
+std::string place(const Clock& clock, std::size_t unknowns) {
+  return fmt::format("(step {}, t = {:.6g} s, {} unknowns)", clock.index + 1, clock.time, unknowns);
+}
+
+}  // namespace
+
+struct UmfpackFactors::Impl {
+  Backend backend;
+  std::int64_t revision = 0;  ///< of the pattern that was analyzed
+};
+
+UmfpackFactors::UmfpackFactors() : impl(std::make_unique<Impl>()) {}
+UmfpackFactors::~UmfpackFactors() = default;
+
+template <int Dim>
+void SolveUmfpack<Dim>::operator()(Read<Clock> clock, Read<matrix::Pattern> pattern, Read<matrix::Values> values,
+                                   Read<matrix::RightHandSide> right_hand_side, Update<UmfpackFactors> factors,
+                                   Write<matrix::Solution> solution, Write<SolveReport> report) const {
+  const auto size = static_cast<Eigen::Index>(right_hand_side->values.size());
+  const Eigen::Map<const Matrix> matrix(size, size, static_cast<Eigen::Index>(values->values.size()),
+                                        pattern->outer.data(), pattern->inner.data(), values->values.data());
+  const Eigen::Map<const Eigen::VectorXd> b(right_hand_side->values.data(), size);
+  auto& [backend, revision] = *factors->impl;
+  if (revision != pattern->revision) {
+    backend.analyzePattern(matrix);
+    revision = pattern->revision;
+  }
+  backend.factorize(matrix);
+  if (backend.info() != Eigen::Success) {
+    throw std::runtime_error("solve: UMFPACK finds the matrix singular " + place(*clock, right_hand_side->values.size()));
+  }
+  solution->values.resize(right_hand_side->values.size());
+  Eigen::Map<Eigen::VectorXd> x(solution->values.data(), size);
+  x = backend.solve(b);
+  if (!x.allFinite()) {
+    throw std::runtime_error("solve: the solution is not finite " + place(*clock, right_hand_side->values.size()));
+  }
+  const double norm = b.norm();
+  *report = {.unknowns = size, .iterations = 0, .residual = norm > 0 ? (b - matrix * x).norm() / norm : 0};
+}
+
+template <int Dim>
+void UnpackSolution<Dim>::operator()(Read<matrix::Solution> solution, Read<node::Row> row,
+                                     Update<node::Displacement<Dim>> u_i, Write<node::Pressure> p_i) const {
+  for_each_row(row.size(), [&](std::size_t i) {
+    p_i[i] = 0;
+    if (row[i] < 0) return;
+    const double* unknowns = solution->values.data() + (Dim + 1) * static_cast<std::size_t>(row[i]);
+    for (int d = 0; d < Dim; ++d) u_i[i][d] = unknowns[d];
+    p_i[i] = unknowns[Dim];
+  });
+}
+
+template struct SolveUmfpack<2>;
+template struct SolveUmfpack<3>;
+template struct UnpackSolution<2>;
+template struct UnpackSolution<3>;
+
+}  // namespace minamo

@@ -1,0 +1,71 @@
+#include "systems/transfer/pic_flip.hpp"
+
+#include "systems/transfer/gather.hpp"
+#include "systems/transfer/scatter.hpp"
+
+namespace minamo {
+
+template <int Dim>
+void P2GVelocityPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                     Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                     Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i,
+                                     Write<node::Velocity<Dim>> v_i) const {
+  scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, v_p.span(), v_i.span());
+}
+
+template <int Dim>
+void P2GAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                         Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                         Read<particle::Acceleration<Dim>> a_p, Read<node::Mass> m_i,
+                                         Write<node::Acceleration<Dim>> a_i) const {
+  scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, a_p.span(), a_i.span());
+}
+
+template <int Dim>
+void G2PVelocityPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                     Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+                                     Write<particle::Velocity<Dim>> v_p) const {
+  gather<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
+}
+
+template <int Dim>
+void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                      Read<particle::Configuration<Dim>> y_p, Read<FlipBlend> blend,
+                                      Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
+                                      Update<particle::Velocity<Dim>> v_p) const {
+  const double alpha = blend->alpha;
+  // alpha (v_p + S (v_new - v_old)) + (1 - alpha) S v_new = alpha v_p + S (v_new - alpha v_old).
+  for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
+    const Support<Dim> support(*grid, cell.node);
+    std::array<Vec<Dim>, support_size<Dim>> increment;
+    for (std::size_t k = 0; k < increment.size(); ++k) {
+      increment[k] = v_new[support.node[k]] - alpha * v_old[support.node[k]];
+    }
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      const Weights<Dim> weights(support, y_p[p]);
+      Vec<Dim> v = alpha * v_p[p];
+      for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { v += weights(offset) * increment[k]; });
+      v_p[p] = v;
+    }
+  });
+}
+
+template <int Dim>
+void G2PAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                         Read<particle::Configuration<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
+                                         Write<particle::Acceleration<Dim>> a_p) const {
+  gather<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Vec<Dim>& a) { a_p[p] = a; });
+}
+
+template struct P2GVelocityPic<2>;
+template struct P2GVelocityPic<3>;
+template struct P2GAccelerationPic<2>;
+template struct P2GAccelerationPic<3>;
+template struct G2PVelocityPic<2>;
+template struct G2PVelocityPic<3>;
+template struct G2PVelocityFlip<2>;
+template struct G2PVelocityFlip<3>;
+template struct G2PAccelerationPic<2>;
+template struct G2PAccelerationPic<3>;
+
+}  // namespace minamo

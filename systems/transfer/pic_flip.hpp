@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// PIC and FLIP: particles carry a velocity, taken as constant around them.
+/// Newmark's particle acceleration is transferred in the same way by both.
+
+#include "components/cells.hpp"
+#include "components/grid.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "components/step.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E4) for the velocity.
+template <int Dim>
+struct P2GVelocityPic {
+  static constexpr std::string_view doc = "(E4) v_I^n, PIC and FLIP";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i,
+                  Write<node::Velocity<Dim>> v_i) const;
+};
+
+/// (E4) for the acceleration.
+template <int Dim>
+struct P2GAccelerationPic {
+  static constexpr std::string_view doc = "(E4) a_I^n, PIC and FLIP with newmark";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p, Read<node::Mass> m_i,
+                  Write<node::Acceleration<Dim>> a_i) const;
+};
+
+/// (E17)  v_p = sum_I S_Ip v_I^{n+1}.
+template <int Dim>
+struct G2PVelocityPic {
+  static constexpr std::string_view doc = "(E17) v_p, PIC";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p) const;
+};
+
+/// (E16)  v_p = alpha (v_p + sum_I S_Ip (v_I^{n+1} - v_I^n)) + (1 - alpha) sum_I S_Ip v_I^{n+1}.
+template <int Dim>
+struct G2PVelocityFlip {
+  static constexpr std::string_view doc = "(E16) v_p, FLIP blended with PIC";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<FlipBlend> blend, Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
+                  Update<particle::Velocity<Dim>> v_p) const;
+};
+
+/// (E17) for the acceleration.
+template <int Dim>
+struct G2PAccelerationPic {
+  static constexpr std::string_view doc = "(E17) a_p, PIC and FLIP with newmark";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,58 @@
+#include "systems/transfer/tpic.hpp"
+
+#include "systems/transfer/gather.hpp"
+#include "systems/transfer/scatter.hpp"
+
+namespace minamo {
+
+template <int Dim>
+void P2GVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                      Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                      Read<particle::Velocity<Dim>> v_p,
+                                      Read<particle::VelocityGradient<Dim>> grad_v_p, Read<node::Mass> m_i,
+                                      Write<node::Velocity<Dim>> v_i) const {
+  scatter_taylor<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, v_p.span(), grad_v_p.span(), v_i.span());
+}
+
+template <int Dim>
+void P2GAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                          Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                          Read<particle::Acceleration<Dim>> a_p,
+                                          Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<node::Mass> m_i,
+                                          Write<node::Acceleration<Dim>> a_i) const {
+  scatter_taylor<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, a_p.span(), grad_a_p.span(), a_i.span());
+}
+
+template <int Dim>
+void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                      Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+                                      Write<particle::Velocity<Dim>> v_p,
+                                      Write<particle::VelocityGradient<Dim>> grad_v_p) const {
+  gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Sample<Dim>& v) {
+    v_p[p] = v.value;
+    grad_v_p[p] = v.gradient;
+  });
+}
+
+template <int Dim>
+void G2PAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                          Read<particle::Configuration<Dim>> y_p,
+                                          Read<node::NewAcceleration<Dim>> a_i,
+                                          Write<particle::Acceleration<Dim>> a_p,
+                                          Write<particle::AccelerationGradient<Dim>> grad_a_p) const {
+  gather_with_gradient<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Sample<Dim>& a) {
+    a_p[p] = a.value;
+    grad_a_p[p] = a.gradient;
+  });
+}
+
+template struct P2GVelocityTpic<2>;
+template struct P2GVelocityTpic<3>;
+template struct P2GAccelerationTpic<2>;
+template struct P2GAccelerationTpic<3>;
+template struct G2PVelocityTpic<2>;
+template struct G2PVelocityTpic<3>;
+template struct G2PAccelerationTpic<2>;
+template struct G2PAccelerationTpic<3>;
+
+}  // namespace minamo

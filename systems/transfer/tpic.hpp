@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// TPIC: particles carry a velocity and its gradient, the first two terms of a Taylor series around them.
+/// Nakamura, Matsumura, Mizutani, CMAME 403 (2023) 115720, doi:10.1016/j.cma.2022.115720.
+
+#include "components/cells.hpp"
+#include "components/grid.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E5) for the velocity.
+template <int Dim>
+struct P2GVelocityTpic {
+  static constexpr std::string_view doc = "(E5) v_I^n, TPIC";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                  Read<particle::VelocityGradient<Dim>> grad_v_p, Read<node::Mass> m_i,
+                  Write<node::Velocity<Dim>> v_i) const;
+};
+
+/// (E5) for the acceleration.
+template <int Dim>
+struct P2GAccelerationTpic {
+  static constexpr std::string_view doc = "(E5) a_I^n, TPIC with newmark";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p,
+                  Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<node::Mass> m_i,
+                  Write<node::Acceleration<Dim>> a_i) const;
+};
+
+/// (E17), (E18)  v_p = sum_I S_Ip v_I^{n+1}, grad v_p = sum_I v_I^{n+1} (x) grad S_Ip.
+template <int Dim>
+struct G2PVelocityTpic {
+  static constexpr std::string_view doc = "(E17) (E18) v_p and its gradient, TPIC";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
+                  Write<particle::VelocityGradient<Dim>> grad_v_p) const;
+};
+
+/// (E17), (E18) for the acceleration.
+template <int Dim>
+struct G2PAccelerationTpic {
+  static constexpr std::string_view doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p,
+                  Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
+};
+
+}  // namespace minamo

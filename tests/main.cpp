@@ -1,0 +1,53 @@
+/// \file
+/// main() of the test programs: Catch2's, and `--write-ctest-file FILE`, which writes the list of tests for ctest.
+
+#define CATCH_CONFIG_RUNNER
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace {
+
+bool is_quick(const std::string& tag) { return tag == "unit" || tag == "property" || tag == "error"; }
+
+/// The name as Catch2 wants it on the command line, where comma, bracket, quote and backslash mean something.
+std::string as_test_spec(std::string_view name) {
+  std::string spec;
+  for (const char letter : name) {
+    if (std::string_view(",[]\"\\~*").find(letter) != std::string_view::npos) spec += '\\';
+    spec += letter;
+  }
+  return spec;
+}
+
+std::string quoted(const std::string& text) { return "[===[" + text + "]===]"; }
+
+void write_ctest_file(const std::filesystem::path& file, const std::filesystem::path& program) {
+  std::ofstream script(file);
+  const auto& registry = Catch::getRegistryHub().getTestCaseRegistry();
+  for (const Catch::TestCase& test : registry.getAllTests()) {
+    if (test.isHidden()) continue;
+    std::string labels;
+    for (const std::string& tag : test.tags) labels += (labels.empty() ? "" : ";") + tag;
+    // A quick test takes milliseconds; the sanitizers and a busy machine make that seconds.
+    const int timeout_s = std::any_of(test.tags.begin(), test.tags.end(), is_quick) ? 120 : 1200;
+    script << "add_test(" << quoted(test.name) << ' ' << quoted(program.string()) << ' '
+           << quoted(as_test_spec(test.name)) << ")\n"
+           << "set_tests_properties(" << quoted(test.name) << " PROPERTIES LABELS " << quoted(labels) << " TIMEOUT "
+           << timeout_s << ")\n";
+  }
+}
+
+}  // namespace
+
+int main(int argc, char* argv[]) {
+  if (argc == 3 && std::string_view(argv[1]) == "--write-ctest-file") {
+    write_ctest_file(argv[2], std::filesystem::canonical("/proc/self/exe"));
+    return 0;
+  }
+  return Catch::Session().run(argc, argv);
+}

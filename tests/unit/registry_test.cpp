@@ -1,0 +1,81 @@
+#include "engine/registry.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace minamo;
+
+namespace {
+
+struct Count {
+  int dimension = 0;
+  int option = 0;
+  static constexpr ComponentInfo info{"count", "n", "1", Lifetime::state};
+};
+
+template <int Dim>
+struct NoteDimension {
+  static constexpr std::string_view doc = "(E0)  n = Dim.";
+  void operator()(Write<Count> n) const { n->dimension = Dim; }
+};
+
+template <int Dim>
+struct WithOptions {
+  int option = 1;
+  WithOptions() = default;
+  explicit WithOptions(Input&) : option(2) {}
+  void operator()(Write<Count> n) const { n->option = option; }
+};
+
+SystemRegistry two_systems() {
+  SystemRegistry registry;
+  registry.add<WithOptions>("with_options");
+  registry.add<NoteDimension>("note_dimension");
+  return registry;
+}
+
+}  // namespace
+
+TEST_CASE("a registered system is made for the dimension asked for", "[unit]") {
+  const int dimension = GENERATE(2, 3);
+  CAPTURE(dimension);
+  World world;
+  two_systems().make("note_dimension", dimension).run(world);
+  CHECK(world.resource<Count>().dimension == dimension);
+}
+
+TEST_CASE("a made system has the name it was registered under", "[unit]") {
+  CHECK(two_systems().make("note_dimension", 2).name == "note_dimension");
+}
+
+TEST_CASE("a system made without options has its defaults", "[unit]") {
+  World world;
+  two_systems().make("with_options", 2).run(world);
+  CHECK(world.resource<Count>().option == 1);
+}
+
+TEST_CASE("the doc line of a kernel is kept", "[unit]") {
+  CHECK(two_systems().entries().at("note_dimension").doc == "(E0)  n = Dim.");
+  CHECK(two_systems().entries().at("with_options").doc.empty());
+}
+
+TEST_CASE("registered names are listed in alphabetical order", "[unit]") {
+  CHECK(two_systems().names() == std::vector<std::string>{"note_dimension", "with_options"});
+}
+
+TEST_CASE("a registry contains what was added and nothing else", "[unit]") {
+  CHECK(two_systems().contains("with_options"));
+  CHECK_FALSE(two_systems().contains("with_option"));
+}
+
+TEST_CASE("an unknown name is answered with the known ones and the closest", "[unit][error]") {
+  CHECK_THROWS_AS(two_systems().make("with_option", 2), std::out_of_range);
+  CHECK_THROWS_WITH(two_systems().make("with_option", 2),
+                    Catch::StartsWith("unknown system\n  expected  one of [\"note_dimension\",") &&
+                        Catch::Contains("got       \"with_option\"") && Catch::EndsWith("closest   \"with_options\""));
+}
+
+TEST_CASE("a name cannot be registered twice", "[unit][error]") {
+  SystemRegistry registry = two_systems();
+  CHECK_THROWS_AS(registry.add<NoteDimension>("with_options"), std::logic_error);
+  CHECK_THROWS_WITH(registry.add<NoteDimension>("with_options"), "system \"with_options\" is registered twice");
+}

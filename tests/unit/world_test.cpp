@@ -1,0 +1,187 @@
+#include "engine/world.hpp"
+
+#include <Eigen/Core>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+using namespace minamo;
+
+namespace {
+
+struct Rows {
+  static constexpr std::string_view name = "row";
+};
+struct OtherRows {
+  static constexpr std::string_view name = "other";
+};
+struct Height : Column<Rows, double> {
+  static constexpr ComponentInfo info{"row.height", "h", "m", Lifetime::state};
+};
+struct Slope : Column<Rows, double> {
+  static constexpr ComponentInfo info{"row.slope", "s", "1", Lifetime::scratch};
+};
+struct Stress : Column<Rows, Eigen::Matrix<double, 3, 3, Eigen::DontAlign>> {
+  static constexpr ComponentInfo info{"row.stress", "σ", "Pa", Lifetime::state};
+};
+struct Label : Column<Rows, std::string> {
+  static constexpr ComponentInfo info{"row.label", "l", "1", Lifetime::state};
+};
+struct Depth : Column<OtherRows, double> {
+  static constexpr ComponentInfo info{"other.depth", "d", "m", Lifetime::state};
+};
+struct Total {
+  double value = 3;
+  static constexpr ComponentInfo info{"total", "T", "1", Lifetime::state};
+};
+struct SameNameAsTotal {
+  int value = 0;
+  static constexpr ComponentInfo info{"total", "T", "1", Lifetime::state};
+};
+
+World world_with_heights(const std::vector<double>& heights) {
+  World world;
+  world.resize<Rows>(heights.size());
+  std::copy(heights.begin(), heights.end(), world.column<Height>().begin());
+  return world;
+}
+
+template <class Span>
+std::vector<double> values(const Span& span) {
+  return {span.begin(), span.end()};
+}
+
+}  // namespace
+
+TEST_CASE("a column made after its table was resized has the table's rows", "[unit]") {
+  World world;
+  world.resize<Rows>(5);
+  CHECK(world.column<Height>().size() == 5);
+}
+
+TEST_CASE("a column made before its table is resized follows it", "[unit]") {
+  World world;
+  CHECK(world.column<Height>().empty());
+  world.resize<Rows>(5);
+  CHECK(world.column<Height>().size() == 5);
+}
+
+TEST_CASE("a new column of matrices is zero", "[unit]") {
+  World world;
+  world.resize<Rows>(4);
+  for (const auto& stress : world.column<Stress>()) CHECK(stress == Stress::value_type::Zero());
+}
+
+TEST_CASE("growing a table keeps the old rows and adds zeros", "[unit]") {
+  World world = world_with_heights({1, 2});
+  world.resize<Rows>(4);
+  CHECK(values(world.column<Height>()) == std::vector<double>{1, 2, 0, 0});
+}
+
+TEST_CASE("shrinking a table keeps the first rows", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  world.resize<Rows>(2);
+  CHECK(values(world.column<Height>()) == std::vector<double>{1, 2});
+}
+
+TEST_CASE("rows that come back after a table shrank are zero", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  world.resize<Rows>(1);
+  world.resize<Rows>(3);
+  CHECK(values(world.column<Height>()) == std::vector<double>{1, 0, 0});
+}
+
+TEST_CASE("a resize leaves other tables alone", "[unit]") {
+  World world;
+  world.resize<OtherRows>(2);
+  CHECK(world.column<Depth>().size() == 2);
+  world.resize<Rows>(7);
+  CHECK(world.column<Depth>().size() == 2);
+}
+
+TEST_CASE("an unknown table has no rows", "[unit]") { CHECK(World().rows<Rows>() == 0); }
+
+TEST_CASE("making a known table known again keeps its rows", "[unit]") {
+  World world = world_with_heights({1, 2});
+  world.add_table<Rows>();
+  CHECK(world.rows<Rows>() == 2);
+}
+
+TEST_CASE("after a reorder row k is what row order[k] was", "[unit]") {
+  World world = world_with_heights({10, 11, 12, 13});
+  world.reorder<Rows>(std::array<std::uint32_t, 4>{2, 0, 3, 1});
+  CHECK(values(world.column<Height>()) == std::vector<double>{12, 10, 13, 11});
+}
+
+TEST_CASE("a reorder leaves scratch as it is", "[unit]") {
+  World world = world_with_heights({10, 11});
+  world.column<Slope>()[0] = 5;
+  world.reorder<Rows>(std::array<std::uint32_t, 2>{1, 0});
+  CHECK(values(world.column<Slope>()) == std::vector<double>{5, 0});
+}
+
+TEST_CASE("a second reorder of the same length moves no array to new memory", "[unit]") {
+  World world = world_with_heights({10, 11});
+  const std::array<std::uint32_t, 2> order{1, 0};
+  const double* first = world.column<Height>().data();
+  world.reorder<Rows>(order);
+  world.reorder<Rows>(order);
+  CHECK(world.column<Height>().data() == first);
+}
+
+TEST_CASE("a resource starts with its default", "[unit]") {
+  World world;
+  CHECK(world.resource<Total>().value == 3);
+}
+
+TEST_CASE("a resource keeps what was written to it", "[unit]") {
+  World world;
+  world.resource<Total>().value = 7;
+  CHECK(world.resource<Total>().value == 7);
+}
+
+TEST_CASE("two types with one component name are refused", "[unit][error]") {
+  World world;
+  world.resource<Total>();
+  CHECK_THROWS_WITH(world.resource<SameNameAsTotal>(),
+                    Catch::StartsWith("component \"total\" is defined by two types"));
+}
+
+TEST_CASE("a component exists from its first use on", "[unit]") {
+  World world;
+  CHECK_FALSE(world.has<Height>());
+  world.column<Height>();
+  CHECK(world.has<Height>());
+}
+
+TEST_CASE("components are listed by name", "[unit]") {
+  World world;
+  world.column<Height>();
+  world.resource<Total>();
+  std::vector<std::string> names;
+  for (const auto& [name, storage] : world.components()) names.push_back(name);
+  CHECK(names == std::vector<std::string>{"row.height", "total"});
+}
+
+TEST_CASE("the bytes of a column are its values", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  const auto bytes = world.storage<Height>().bytes();
+  CHECK(static_cast<const void*>(bytes.data()) == world.column<Height>().data());
+  CHECK(bytes.size() == 3 * sizeof(double));
+}
+
+TEST_CASE("a matrix column is known to be made of doubles", "[unit]") {
+  World world;
+  CHECK(world.storage<Stress>().doubles_per_value() == 9);
+  CHECK(world.storage<Stress>().value_bytes() == 9 * sizeof(double));
+}
+
+TEST_CASE("a value that owns memory has no bytes to store", "[unit]") {
+  World world;
+  world.resize<Rows>(2);
+  CHECK(world.storage<Label>().value_bytes() == 0);
+  CHECK(world.storage<Label>().bytes().empty());
+}

@@ -1,0 +1,113 @@
+#include "tools/commands.hpp"
+
+#include "engine/schedule.hpp"
+#include "systems/transfer/scheme.hpp"
+#include "tools/scene_file.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <iostream>
+
+namespace minamo {
+
+int check_scenes(const std::vector<std::string>& scenes, const SystemRegistry& registry) {
+  bool valid = true;
+  for (const std::string& path : scenes) {
+    try {
+      const SceneFile file = load_scene(path, {}, registry);
+      World world;
+      seed(file.scene, path, world);
+      Pipeline pipeline = make_pipeline(file.scene, registry);
+      const Schedule step(std::move(pipeline.step), world);
+      std::cout << path << ": valid, " << world.rows("particle") << " particles\n";
+    } catch (const InputError& error) {
+      std::cerr << error.what() << '\n';
+      valid = false;
+    } catch (const ScheduleError& error) {
+      std::cerr << path << ": " << error.what() << '\n';
+      valid = false;
+    }
+  }
+  return valid ? exit_done : exit_bad_input;
+}
+
+int show_graph(const std::string& scene, const std::string& format, const SystemRegistry& registry) {
+  const SceneFile file = load_scene(scene, {}, registry);
+  const Pipeline pipeline = make_pipeline(file.scene, registry);
+  const std::string title = file.scene.title.empty() ? scene : file.scene.title;
+  std::cout << (format == "dot" ? to_dot(pipeline.step, title) : to_json(pipeline.step, title)) << '\n';
+  return exit_done;
+}
+
+namespace {
+
+/// What a system reads and writes, as the catalogue shows it.
+std::string accesses(const System& system, bool writes) {
+  std::string names;
+  for (const Access& access : system.access) {
+    const bool is_write = access.mode != Mode::read;
+    const bool is_read = access.mode == Mode::read || access.mode == Mode::update;
+    if (writes ? !is_write : !is_read) continue;
+    if (!names.empty()) names += ", ";
+    names += access.mode == Mode::resize ? fmt::format("rows of {}", access.table) : std::string(access.component);
+  }
+  return names;
+}
+
+void list_systems(const SystemRegistry& registry) {
+  std::cout << "| system | does | reads | writes |\n|---|---|---|---|\n";
+  for (const auto& [name, entry] : registry.entries()) {
+    const System system = entry.make(2, nullptr);
+    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, entry.doc, accesses(system, false), accesses(system, true));
+  }
+}
+
+void list_components(const SystemRegistry& registry) {
+  std::map<std::string_view, const ComponentInfo*> components;
+  for (const auto& [name, entry] : registry.entries()) {
+    for (const Access& access : entry.make(2, nullptr).access) {
+      if (access.info) components.emplace(access.component, access.info);
+    }
+  }
+  const auto lifetime = [](Lifetime value) {
+    switch (value) {
+      case Lifetime::constant: return "constant";
+      case Lifetime::state: return "state";
+      case Lifetime::scratch: return "scratch";
+      case Lifetime::cache: return "cache";
+    }
+    return "";
+  };
+  std::cout << "| component | symbol | unit | lifetime |\n|---|---|---|---|\n";
+  for (const auto& [name, info] : components) {
+    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, info->symbol, info->unit, lifetime(info->lifetime));
+  }
+}
+
+}  // namespace
+
+int list(const std::string& what, const SystemRegistry& registry) {
+  if (what == "systems") {
+    list_systems(registry);
+  } else if (what == "components") {
+    list_components(registry);
+  } else if (what == "schemes") {
+    for (const TransferScheme& scheme : transfer_schemes()) std::cout << fmt::format("{:6} {}\n", scheme.name, scheme.doc);
+  } else {
+    std::cout << "umfpack  monolithic sparse LU, the reference\n";
+  }
+  return exit_done;
+}
+
+int show_schema(bool as_table, const SystemRegistry& registry) {
+  Input::Document document = Input::Document::describe();
+  read_scene(document.root(), registry);
+  if (as_table) {
+    std::cout << document.key_table();
+  } else {
+    std::cout << document.schema().dump(2) << '\n';
+  }
+  return exit_done;
+}
+
+}  // namespace minamo

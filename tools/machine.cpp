@@ -1,0 +1,50 @@
+#include "tools/machine.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <thread>
+
+#include <malloc.h>
+#include <sys/resource.h>
+
+// There in the program only if its BLAS is OpenBLAS.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+namespace minamo {
+
+int prepare_threads(int wanted) {
+  if (openblas_set_num_threads) openblas_set_num_threads(1);
+  constexpr int gigabyte = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, gigabyte);
+  mallopt(M_TRIM_THRESHOLD, gigabyte);
+  mallopt(M_TOP_PAD, 64 << 20);
+  return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+std::string cpu_model() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const auto colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+std::int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{1024} * usage.ru_maxrss;
+}
+
+double Stopwatch::wall_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+double Stopwatch::cpu_seconds() const {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+}  // namespace minamo

@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// The machine that a run happens on: threads, clocks, memory.
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace minamo {
+
+/// Settles the number of threads (0: one per processor) and keeps BLAS and the allocator from working against it:
+/// one thread in BLAS, since a second pool of threads beside ours only costs; freed memory kept, since a sparse solver
+/// maps and unmaps its work arrays at every call.
+int prepare_threads(int wanted);
+
+std::string cpu_model();
+
+/// Largest resident memory of the process so far. [byte]
+std::int64_t peak_memory();
+
+/// Wall and processor time since its construction.
+class Stopwatch {
+ public:
+  double wall_seconds() const;
+  double cpu_seconds() const;  ///< of the process, all threads
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace minamo

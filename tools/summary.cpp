@@ -1,0 +1,72 @@
+#include "tools/summary.hpp"
+
+#include "components/particle.hpp"
+#include "components/step.hpp"
+#include "systems/output/history.hpp"
+
+#include "minamo_version.hpp"
+
+namespace minamo {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* status(Ending ending) {
+  switch (ending) {
+    case Ending::done: return "done";
+    case Ending::interrupted: return "interrupted";
+    case Ending::failed: return "failed";
+  }
+  return "";
+}
+
+Json system_rows(const Profiler& profiler, double wall_seconds) {
+  Json rows = Json::array();
+  for (const Profiler::Row& row : profiler.rows()) {
+    rows.push_back({{"name", row.name},
+                    {"calls", row.calls},
+                    {"seconds", row.seconds},
+                    {"share", wall_seconds > 0 ? row.seconds / wall_seconds : 0}});
+  }
+  return rows;
+}
+
+Json conserved(const RunTotals::Values& values) {
+  return {{"momentum", values.momentum}, {"angular_momentum", values.angular_momentum}, {"energy", values.energy}};
+}
+
+}  // namespace
+
+Json make_summary(const std::string& scene, const Outcome& outcome, int threads, const Stopwatch& stopwatch,
+                  const Profiler& profiler, World& world) {
+  const Clock& clock = world.resource<Clock>();
+  const RunTotals& totals = world.resource<RunTotals>();
+  const double wall = stopwatch.wall_seconds();
+  Json summary{{"scene", scene}, {"status", status(outcome.ending)}};
+  if (!outcome.message.empty()) summary["message"] = outcome.message;
+  summary.update({{"steps", clock.index},
+                  {"time", clock.time},
+                  {"wall_s", wall},
+                  {"cpu_s", stopwatch.cpu_seconds()},
+                  {"threads", threads},
+                  {"cpu_model", cpu_model()},
+                  {"version", version},
+                  {"particles", world.rows<Particles>()},
+                  {"put_back", world.resource<PutBack>().count},
+                  {"active_nodes_max", totals.active_nodes_max},
+                  {"unknowns_max", totals.unknowns_max},
+                  {"peak_memory_bytes", peak_memory()},
+                  {"systems", system_rows(profiler, wall)}});
+  double mass = 0;
+  for (const double m : world.column<particle::Mass>()) mass += m;
+  Json conservation{{"mass", mass}};
+  conservation.update(conserved(totals.last));
+  conservation["overlap_max"] = totals.overlap_max;
+  conservation["initial"] = conserved(totals.first);
+  summary["conservation"] = conservation;
+  summary["errors"] = Json::object();
+  return summary;
+}
+
+}  // namespace minamo

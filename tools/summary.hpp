@@ -1,0 +1,16 @@
+#pragma once
+/// \file
+/// summary.json: how a run went.
+
+#include "engine/profiler.hpp"
+#include "engine/simulation.hpp"
+#include "tools/machine.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace minamo {
+
+nlohmann::ordered_json make_summary(const std::string& scene, const Outcome& outcome, int threads,
+                                    const Stopwatch& stopwatch, const Profiler& profiler, World& world);
+
+}  // namespace minamo
