@@ -76,6 +76,17 @@ struct Volume : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.volume", "V~_I", "m^d", Lifetime::scratch};
 };
 
+/// Particle volume E_I to be pushed away from a node, or drawn to it. [m^3; m^2 in 2-D]
+struct VolumeExcess : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.volume_excess", "E_I", "m^d", Lifetime::scratch};
+};
+
+/// Displacement d_I that corrects the volume. [m]
+template <int Dim>
+struct Shift : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.shift", "d_I", "m", Lifetime::scratch};
+};
+
 /// Velocity v_I^{n+1} at the end of the step. [m/s]
 template <int Dim>
 struct NewVelocity : Column<Nodes, Vec<Dim>> {

@@ -33,6 +33,12 @@ struct StabilizationTime {
   static constexpr ComponentInfo info{"stabilization.tau", "tau", "m^3 s/kg", Lifetime::scratch};
 };
 
+/// Share of the volume excess that is corrected in a step. [1]
+struct VolumeRate {
+  double rate = 0.1;
+  static constexpr ComponentInfo info{"volume.rate", "r", "1", Lifetime::constant};
+};
+
 /// Particles that a step would have carried out of the box, so far. [1]
 struct PutBack {
   std::int64_t count = 0;

@@ -179,7 +179,7 @@ bool Input::flag(std::string_view key, std::string_view doc, std::optional<bool>
 
 std::optional<std::string> read_name(InputPlace& place, std::string_view key, std::span<const std::string> names,
                                      std::string_view doc, const std::optional<std::string>& fallback) {
-  const std::string expected = "one of " + listed(names);
+  const std::string expected = one_of_text(names);
   const auto check = [&](const std::string& at, const Json& value) -> std::optional<std::string> {
     const std::string name = value.is_string() ? value.get<std::string>() : std::string();
     if (!value.is_string())
@@ -238,9 +238,9 @@ std::map<std::string, double> Input::named_numbers(std::string_view key, std::st
     if (!value.is_object()) place_->note(at, "wrong type", "an object of numbers", value);
     if (!value.is_object()) return {};
     Named named;
-    const Number any{.unit = ""};
+    constexpr double harmless_value = 1;  // the name is known, so that the expressions with it are not at fault
     for (const auto& [name, number] : value.items())
-      if (const auto x = check_number(*place_, at + "/" + pointer_token(name), number, any)) named[name] = *x;
+      named[name] = check_number(*place_, at + "/" + pointer_token(name), number, {}).value_or(harmless_value);
     return named;
   };
   const Json schema{{"type", "object"}, {"additionalProperties", {{"type", "number"}}}};
@@ -254,7 +254,7 @@ Json Input::raw(std::string_view key, const Json& schema, const Json& fallback) 
                              fallback.is_null() ? std::nullopt : std::optional(fallback));
   shape.presence = KeyShape::Presence::optional;
   const auto as_it_stands = [](const std::string&, const Json& value) { return std::optional(value); };
-  return read_key(*place_, std::move(shape), std::optional<Json>(), as_it_stands).value_or(Json());
+  return *read_key(*place_, std::move(shape), std::optional(fallback), as_it_stands);
 }
 
 }  // namespace minamo

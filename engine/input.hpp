@@ -55,8 +55,8 @@ class Input {
   std::map<std::string, double> named_numbers(std::string_view key, std::string_view doc);
 
   bool has(std::string_view key) const;  ///< true in description mode
-  /// The value under a key as it stands, marked as read, for shapes the other calls cannot state. Null if absent.
-  /// `schema` is its JSON Schema (with "description"), `fallback` what the echo shows if it is absent.
+  /// The value under a key as it stands, marked as read, for shapes the other calls cannot state. `schema` is its JSON
+  /// Schema (with "description"), `fallback` what is returned and echoed if it is absent.
   Json raw(std::string_view key, const Json& schema, const Json& fallback);
 
   /// The object under a key, read by `read`; an absent one reads as `{}`, so that defaults apply, unless `required`.
@@ -74,10 +74,15 @@ class Input {
   /// The callback reads the key from this Input.
   std::string one_of(std::string_view doc, const Variants& variants);
 
-  /// Notes a problem at this place, or at a key of it, that the rules cannot express. Left out if a rule has already
-  /// found one at or under that key, whose value is then not the user's. An empty `got` shows the key's value.
+  /// Notes a problem that the rules cannot express at this place, at a key of it, or further below: `key` is empty or a
+  /// JSON pointer without its first slash. Left out if a rule has already found one at or under that key, whose value is
+  /// then not the user's. An empty `got` shows the key's value.
   void problem(std::string_view key, std::string what, std::string expected = {}, std::string got = {},
                std::string closest = {});
+  /// Whether nothing wrong is known of a key (as in problem()), so that its value is the user's.
+  bool sound(std::string_view key) const;
+  /// How many elements the list at a key (as in problem()) has, read or not; none if there is no list.
+  std::optional<std::size_t> elements(std::string_view key) const;
   bool describing() const;
   const std::string& pointer() const;
 

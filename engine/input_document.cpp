@@ -42,8 +42,11 @@ class UnknownKeys {
     const bool explains = missing != place.missing.end() && !settled_.contains(missing->second.front());
     if (!explains && place.unknown_keys_pass) return;
     if (closest.empty()) closest = closest_name(key, place.known);
-    const std::string expected = closest.empty() && !place.known.empty() ? "one of " + listed(place.known) : "";
-    Problem problem{record_.file, place.pointer_to(key), "unknown key", expected, shown(value), closest};
+    Problem problem{record_.file, place.pointer_to(key), "unknown key", {}, shown(value), closest};
+    if (closest.empty()) {
+      problem.what += place.decided;
+      if (!place.known.empty()) problem.expected = one_of_text(place.known);
+    }
     if (!explains) {
       record_.problems.push_back(std::move(problem));
       return;

@@ -10,6 +10,8 @@ KeyShape& ObjectShape::add(KeyShape key) {
   if (same->schema.contains("maxItems") && key.schema.contains("maxItems")) {
     key.schema["minItems"] = std::min(same->schema["minItems"], key.schema["minItems"]);
     key.schema["maxItems"] = std::max(same->schema["maxItems"], key.schema["maxItems"]);
+    if (same->schema["maxItems"] != same->schema["minItems"] || key.schema["maxItems"] != key.schema["minItems"])
+      key.schema.erase("default");  // of one size only
   }
   if (same->object) key.object = same->object;
   *same = std::move(key);
@@ -26,7 +28,7 @@ ChoiceShape& ObjectShape::choice(ChoiceShape choice) {
   return same == choices.end() ? choices.emplace_back(std::move(choice)) : *same;
 }
 
-std::string InputPlace::pointer_to(std::string_view name) const { return pointer + "/" + pointer_token(name); }
+std::string InputPlace::pointer_to(std::string_view name) const { return (pointer + '/').append(pointer_token(name)); }
 
 const Json* InputPlace::find(std::string_view name) const {
   if (!object) return nullptr;
@@ -49,7 +51,7 @@ std::shared_ptr<InputPlace> InputPlace::child(std::string_view name, std::option
     places[index]->parent = this;
     places[index]->key = name;
     places[index]->pointer = pointer_to(name);
-    if (element) places[index]->pointer += "/" + (record->describing ? "*" : std::to_string(index));
+    if (element) places[index]->pointer.append("/").append(record->describing ? "*" : std::to_string(index));
   }
   return places[index];
 }

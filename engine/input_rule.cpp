@@ -1,5 +1,7 @@
 #include "engine/input_place.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +41,10 @@ End<double> high_end(const Number& rule) {
 
 std::string range_text(const Number& rule) { return range_text(low_end(rule), high_end(rule)); }
 
-std::string unit_text(const Number& rule) { return rule.unit.empty() ? "" : " [" + std::string(rule.unit) + "]"; }
+/// Nothing for the dimensionless ones: "a number in [0, 1] [1]" would only puzzle.
+std::string unit_text(const Number& rule) {
+  return rule.unit.empty() || rule.unit == "1" ? "" : fmt::format(" [{}]", rule.unit);
+}
 
 std::string joined(const std::vector<std::string>& names) {
   std::string all;
@@ -63,7 +68,7 @@ Phrase phrase(const Integer& rule) {
 }
 
 Phrase phrase(const Number& rule, const ExpressionScope& scope) {
-  const std::string names = scope.variables.empty() ? "" : " in " + joined(scope.variables);
+  const std::string names = scope.variables.empty() ? "" : fmt::format(" in {}", joined(scope.variables));
   return {"a number" + range_text(rule) + " or an expression" + names + unit_text(rule),
           "numbers" + range_text(rule) + " or expressions" + names + unit_text(rule)};
 }

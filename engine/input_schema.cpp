@@ -98,19 +98,28 @@ std::string cell(const std::string& text) {
   return escaped;
 }
 
+std::string types_text(const Json& types) {
+  if (!types.is_array()) return types.get<std::string>();
+  std::string text;
+  for (const Json& type : types) text.append(text.empty() ? "" : " or ").append(type.get<std::string>());
+  return text;
+}
+
 std::string type_text(const KeyShape& key) {
   std::string text = key.expected;
   if (key.schema.contains("maxItems")) {
     const Json &least = key.schema["minItems"], most = key.schema["maxItems"];
     text = "list of " + least.dump() + (least == most ? "" : " to " + most.dump()) + " " + key.items;
   }
-  if (text.empty()) text = key.schema.contains("type") ? one_line(key.schema["type"]) : "see meaning";
+  if (text.empty()) text = key.schema.contains("type") ? types_text(key.schema["type"]) : "see meaning";
   for (const std::string article : {"a ", "an "})
     if (text.starts_with(article)) return text.substr(article.size());
   return text;
 }
 
 std::string default_text(const KeyShape& key) {
+  const bool varies = key.schema.contains("maxItems") && key.schema["minItems"] != key.schema["maxItems"];
+  if (key.fallback && varies) return one_line(key.fallback->front()) + " each";
   if (key.fallback) return one_line(*key.fallback);
   return is_required(key) ? "required" : "optional";
 }

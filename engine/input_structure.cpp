@@ -1,5 +1,7 @@
 #include "engine/input_place.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 namespace minamo {
@@ -45,6 +47,16 @@ bool is_list(InputPlace& place, const std::string& at, const Json& value, std::s
   const bool is_long_enough = value.is_array() && value.size() >= at_least;
   if (!is_long_enough) place.note(at, value.is_array() ? "too short" : "wrong type", expected, value);
   return is_long_enough;
+}
+
+std::string pointer_below(const std::string& pointer, std::string_view key) {
+  return key.empty() ? pointer : fmt::format("{}/{}", pointer, key);
+}
+
+/// The value at a pointer without its first slash; null if there is none.
+const Json* below(const InputPlace& place, std::string_view key) {
+  const Json::json_pointer pointer(pointer_below({}, key));
+  return place.object && place.object->contains(pointer) ? &place.object->at(pointer) : nullptr;
 }
 
 std::vector<std::string> names_of(const Input::Variants& variants) {
@@ -128,6 +140,7 @@ std::string Input::variant(std::string_view key, std::string_view doc, const std
   const auto names = names_of(variants);
   const auto name = read_name(*place_, key, names, doc, fallback);
   if (!name) place_->unknown_keys_pass = true;
+  if (name) place_->decided.append(fmt::format(" with {} \"{}\"", key, *name));
   const auto chosen = describing() ? names : name ? std::vector{*name} : std::vector<std::string>{};
   read_chosen(*this, *place_, choice_shape(key, doc, fallback, variants), variants, chosen);
   return name.value_or(fallback.value_or(names.front()));
@@ -141,11 +154,12 @@ std::string Input::one_of(std::string_view doc, const Variants& variants) {
     if (std::find(place_->known.begin(), place_->known.end(), name) == place_->known.end())
       place_->known.push_back(name);
   }
-  const std::string expected = "exactly one of " + listed(names);
+  const std::string expected = fmt::format("exactly {}", one_of_text(names));
   if (present.empty()) place_->note_missing(names, {{}, pointer(), "missing key", expected, {}, {}});
   if (present.size() > 1) place_->note({{}, pointer(), "keys that exclude each other", expected, listed(present), {}});
   const bool decided = present.size() == 1;
   if (!decided) place_->unknown_keys_pass = true;
+  if (decided) place_->decided.append(fmt::format(" beside \"{}\"", present.front()));
   const auto chosen = describing() ? names : decided ? present : std::vector<std::string>{};
   read_chosen(*this, *place_, choice_shape({}, doc, {}, variants), variants, chosen);
   return decided ? present.front() : names.front();
@@ -155,15 +169,23 @@ bool Input::has(std::string_view key) const { return describing() || place_->fin
 
 void Input::problem(std::string_view key, std::string what, std::string expected, std::string got,
                     std::string closest) {
-  const std::string at = key.empty() ? pointer() : place_->pointer_to(key);
+  if (!key.empty() && !sound(key)) return;
+  const Json* value = key.empty() ? nullptr : below(*place_, key);
+  if (got.empty() && value) got = shown(*value);
+  place_->note({{}, pointer_below(pointer(), key), std::move(what), std::move(expected), std::move(got), std::move(closest)});
+}
+
+bool Input::sound(std::string_view key) const {
+  const std::string at = pointer_below(pointer(), key);
   const auto& problems = place_->record->problems;
-  const bool spoken_of = std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
+  return std::none_of(problems.begin(), problems.end(), [&](const Problem& other) {
     return other.pointer == at || other.pointer.starts_with(at + "/");
   });
-  if (spoken_of && !key.empty()) return;
-  const Json* value = key.empty() ? nullptr : place_->find(key);
-  if (got.empty() && value) got = shown(*value);
-  place_->note({{}, at, std::move(what), std::move(expected), std::move(got), std::move(closest)});
+}
+
+std::optional<std::size_t> Input::elements(std::string_view key) const {
+  const Json* value = below(*place_, key);
+  return value && value->is_array() ? std::optional(value->size()) : std::nullopt;
 }
 
 bool Input::describing() const { return place_->record->describing; }

@@ -1,5 +1,7 @@
 #include "engine/input_text.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -18,7 +20,7 @@ std::string line_and_column(const std::string& text, std::size_t position) {
   const std::string before = text.substr(0, position > 0 ? position - 1 : 0);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const auto column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
-  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+  return fmt::format("line {}, column {}", line, column);
 }
 
 std::string trimmed_line(const std::string& text, std::size_t position) {
@@ -59,11 +61,13 @@ class TextCheck : public nlohmann::json_sax<Json> {
     std::string reason = error.what(), expected;
     if (const auto at = reason.find("] "); at != std::string::npos) reason.erase(0, at + 2);
     if (const auto at = reason.find(" - "); at != std::string::npos) reason.erase(0, at + 3);
+    if (reason.starts_with("number overflow")) reason = "number too large";
     if (const auto at = reason.find("; expected "); at != std::string::npos) {
       expected = reason.substr(at + std::strlen("; expected "));
       reason.erase(at);
     }
-    if (const auto at = reason.find("; last read"); at != std::string::npos) reason.erase(at);
+    for (std::string* text : {&reason, &expected})
+      if (const auto at = text->find("; last read"); at != std::string::npos) text->erase(at);
     const bool legible = reason.find("UTF-8") == std::string::npos;
     const std::string got = legible ? trimmed_line(text_, position) : std::string();
     problems_.push_back({file_, {}, line_and_column(text_, position) + ": " + reason, expected, got, {}});
@@ -101,7 +105,7 @@ class TextCheck : public nlohmann::json_sax<Json> {
   std::string pointer() const {
     std::string pointer;
     for (const Level& level : levels_)
-      pointer += "/" + (level.index ? std::to_string(*level.index) : pointer_token(level.key));
+      pointer.append("/").append(level.index ? std::to_string(*level.index) : pointer_token(level.key));
     return pointer;
   }
 
@@ -144,7 +148,7 @@ Json& element(Json& list, const std::string& step, const std::string& pointer, c
   const bool is_index = !step.empty() && step.size() < 10 && step.find_first_not_of("0123456789") == std::string::npos;
   if (is_index && std::stoul(step) < list.size()) return list[std::stoul(step)];
   const std::string expected =
-      list.empty() ? "nothing: the list is empty" : "an index in [0, " + std::to_string(list.size() - 1) + "]";
+      list.empty() ? "nothing: the list is empty" : fmt::format("an index in [0, {}]", list.size() - 1);
   fail({file, pointer, "no such element", expected, shown(Json(step)), {}});
 }
 
@@ -155,7 +159,7 @@ Json& place_of(Json& document, const std::string& pointer, const std::string& fi
   for (const std::string& step : steps_of(pointer, file)) {
     if (!place->is_null() && !place->is_structured())
       fail({file, walked, "has no keys", "an object or a list", shown(*place), {}});
-    walked += "/" + pointer_token(step);
+    walked.append("/").append(pointer_token(step));
     place = place->is_array() ? &element(*place, step, walked, file) : &(*place)[step];
   }
   return *place;

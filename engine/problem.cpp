@@ -1,5 +1,7 @@
 #include "engine/problem.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -11,7 +13,10 @@ namespace {
 
 std::string joined(const std::vector<Problem>& problems) {
   std::string all;
-  for (const Problem& problem : problems) all += (all.empty() ? "" : "\n") + problem.text();
+  for (const Problem& problem : problems) {
+    if (!all.empty()) all += '\n';
+    all += problem.text();
+  }
   return all;
 }
 
@@ -56,7 +61,7 @@ std::string Problem::text() const {
   text += what;
   if (!expected.empty()) text += "\n  expected  " + expected;
   if (!got.empty()) text += "\n  got       " + got;
-  if (!closest.empty()) text += "\n  closest   " + (Json::accept(closest) ? closest : quoted(closest));
+  if (!closest.empty()) text.append("\n  closest   ").append(Json::accept(closest) ? closest : quoted(closest));
   return text;
 }
 
@@ -70,8 +75,8 @@ std::string closest_name(std::string_view name, std::span<const std::string> kno
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(wanted, lower_case(candidate));
     const std::size_t length = std::max(wanted.size(), candidate.size());
-    // A third of the letters may be wrong, but not all: "x" is not near "y".
-    const bool near = distance <= std::max<std::size_t>(1, length / 3) && distance < length;
+    // Two letters of five may be wrong, but not all: "x" is not near "y".
+    const bool near = distance <= std::max<std::size_t>(1, 2 * length / 5) && distance < length;
     if (near && distance < least) {
       least = distance;
       closest = candidate;
@@ -94,6 +99,12 @@ std::string listed(std::span<const std::string> names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + quoted(name);
   return "[" + list + "]";
+}
+
+std::string one_of_text(std::span<const std::string> names) {
+  constexpr std::size_t screenful = 24;
+  return names.size() > screenful ? fmt::format("one of {} names", names.size())
+                                  : fmt::format("one of {}", listed(names));
 }
 
 std::string pointer_token(std::string_view key) {

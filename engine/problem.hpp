@@ -47,6 +47,9 @@ std::string shown(const Json& value);
 /// Names as the messages list them: `["apic", "flip"]`.
 std::string listed(std::span<const std::string> names);
 
+/// `one of ["apic", "flip"]`; of names that would fill the screen only how many there are.
+std::string one_of_text(std::span<const std::string> names);
+
 /// A key as a step of a JSON pointer: `~` and `/` escaped.
 std::string pointer_token(std::string_view key);
 

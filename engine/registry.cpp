@@ -9,10 +9,9 @@ System SystemRegistry::make(std::string_view name, int dimension, Input* options
   if (found != entries_.end()) return found->second.make(dimension, options);
 
   const std::vector<std::string> known = names();
-  std::string what = "unknown system\n  expected  one of " + Json(known).dump() + "\n  got       " + shown(Json(name));
-  const std::string closest = closest_name(name, known);
-  if (!closest.empty()) what += "\n  closest   " + Json(closest).dump();
-  throw std::out_of_range(what);
+  Problem problem{{}, {}, "unknown system", {}, shown(Json(name)), closest_name(name, known)};
+  problem.expected.append("one of ").append(Json(known).dump());
+  throw std::out_of_range(problem.text());
 }
 
 std::vector<std::string> SystemRegistry::names() const {

@@ -16,12 +16,16 @@ struct Slot {
 /// What a scene needs, asked of the scene once.
 struct Needs {
   const TransferScheme& transfer;
+  std::string volume;
   bool newmark;
   bool viscous;
   bool uniform_force;
 
   explicit Needs(const Scene& scene)
-      : transfer(transfer_scheme(scene.transfer)), newmark(scene.integrator == "newmark"), viscous(scene.viscosity > 0) {
+      : transfer(transfer_scheme(scene.transfer)),
+        volume(scene.volume),
+        newmark(scene.integrator == "newmark"),
+        viscous(scene.viscosity > 0) {
     uniform_force = std::none_of(scene.body_force.begin(), scene.body_force.end(), [](const Expression& b) {
       return b.uses("x") || b.uses("y") || b.uses("z");
     });
@@ -46,28 +50,37 @@ std::vector<std::string> measure_systems(const Needs& needs) {
           "measure_max_speed", "measure_divergence", "measure_overlap"};
 }
 
+std::vector<std::string> volume_systems(const Needs& needs) {
+  if (needs.volume == "projection") {
+    return {"gather_node_volume", "find_volume_excess", "solve_volume_umfpack", "shift_particles"};
+  }
+  return {};
+}
+
+/// `systems`, and `more` if `needed`.
+std::vector<std::string> with(std::vector<std::string> systems, bool needed, const std::string& more) {
+  if (needed) systems.push_back(more);
+  return systems;
+}
+
 std::vector<Slot> step_slots(const Needs& needs) {
-  std::vector<Slot> slots{
+  const TransferScheme& transfer = needs.transfer;
+  return {
       {"configure", {needs.newmark ? "configure_at_start" : "configure_at_middle"}},
       {"bin", {"bin"}},
-      {"p2g", {"p2g_mass", needs.transfer.p2g_velocity}},
-      {"walls", {"activate", "hold_velocity_at_walls"}},
+      {"p2g", with({"p2g_mass", transfer.p2g_velocity}, needs.newmark, transfer.p2g_acceleration)},
+      {"walls", with({"activate", "hold_velocity_at_walls"}, needs.newmark, "hold_acceleration_at_walls")},
       {"predict", {needs.newmark ? "predict_newmark" : "predict_midpoint"}},
       {"force", force_systems(needs)},
       {"assemble", assemble_systems(needs)},
       {"solve", {"solve_umfpack", "unpack_solution"}},
       {"correct", {needs.newmark ? "correct_newmark" : "correct_midpoint"}},
-      {"g2p", {needs.transfer.g2p_velocity}},
+      {"g2p", with({transfer.g2p_velocity}, needs.newmark, transfer.g2p_acceleration)},
       {"advect", {"advect"}},
+      {"volume", volume_systems(needs)},
       {"measure", measure_systems(needs)},
       {"history", {"write_history"}},
   };
-  if (needs.newmark) {
-    slots[2].systems.push_back(needs.transfer.p2g_acceleration);
-    slots[3].systems.emplace_back("hold_acceleration_at_walls");
-    slots[9].systems.push_back(needs.transfer.g2p_acceleration);
-  }
-  return slots;
 }
 
 /// A backward Euler step on a configuration beside x^0 that leaves the particles where they are.
@@ -107,7 +120,7 @@ std::vector<std::string> output_systems(const Needs& needs) {
 
 const std::vector<std::string>& slot_names() {
   static const std::vector<std::string> names{"configure", "bin",     "p2g", "walls",  "predict", "force",  "assemble",
-                                              "solve",     "correct", "g2p", "advect", "measure", "history"};
+                                              "solve",     "correct", "g2p", "advect", "volume", "measure", "history"};
   return names;
 }
 

@@ -19,6 +19,7 @@
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/pic_flip.hpp"
 #include "systems/transfer/tpic.hpp"
+#include "systems/volume/projection.hpp"
 
 namespace minamo {
 
@@ -67,6 +68,11 @@ void register_systems(SystemRegistry& registry) {
   registry.add<G2PAccelerationPic>("g2p_acceleration_pic");
   registry.add<G2PAccelerationTpic>("g2p_acceleration_tpic");
   registry.add<Advect>("advect");
+
+  registry.add<GatherNodeVolume>("gather_node_volume");
+  registry.add<FindVolumeExcess>("find_volume_excess");
+  registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
+  registry.add<ShiftParticles>("shift_particles");
 
   registry.add<MeasureEnergy>("measure_energy");
   registry.add<MeasureMomentum>("measure_momentum");

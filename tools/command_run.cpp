@@ -10,6 +10,7 @@
 #include "tools/summary.hpp"
 
 #include <oneapi/tbb/global_control.h>
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 #include <csignal>
@@ -40,18 +41,26 @@ void write_text(const fs::path& path, const std::string& text) {
   if (!file) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
+[[noreturn]] void refuse_output(const fs::path& path, const std::string& what) {
+  throw InputError({{path.string(), {}, what, "a folder for the results (--out)", {}, {}}});
+}
+
 /// Makes the folder, without what an earlier run left in it.
 void open_output(const fs::path& folder, const SceneFile& scene, World& world) {
-  fs::create_directories(folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (fs::exists(folder) && !fs::is_directory(folder)) refuse_output(folder, "is a file");
+  if (error) refuse_output(folder, fmt::format("cannot be made: {}", error.message()));
   for (const char* name : {"history.csv", "fields.h5", "fields.xdmf", "summary.json", "checkpoint.h5", "trace.json"}) {
-    fs::remove(folder / name);
+    fs::remove(folder / name, error);
+    if (error) refuse_output(folder, fmt::format("{} cannot be removed: {}", name, error.message()));
   }
-  write_text(folder / "scene.json", scene.as_run.dump(2) + "\n");
-  world.resource<FieldsFile>().folder = folder.string();
   auto& history = world.resource<HistoryFile>().file;
   history.open(folder / "history.csv");
+  if (!history) refuse_output(folder, "cannot be written");
   history << (scene.scene.dimension == 2 ? history_header<2>() : history_header<3>()) << '\n';
-  if (!history) throw std::runtime_error((folder / "history.csv").string() + ": cannot be written");
+  write_text(folder / "scene.json", scene.as_run.dump(2) + "\n");
+  world.resource<FieldsFile>().folder = folder.string();
 }
 
 int report(const Outcome& outcome, const fs::path& folder, const Clock& clock, bool quiet) {

@@ -101,7 +101,7 @@ int list(const std::string& what, const SystemRegistry& registry) {
 
 int show_schema(bool as_table, const SystemRegistry& registry) {
   Input::Document document = Input::Document::describe();
-  read_scene(document.root(), registry);
+  describe_scene(document.root(), registry);
   if (as_table) {
     std::cout << document.key_table();
   } else {

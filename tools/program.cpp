@@ -1,27 +1,64 @@
 #include "tools/commands.hpp"
 #include "tools/minamo.hpp"
 
+#include "engine/schedule.hpp"
 #include "systems/register.hpp"
 
 #include "minamo_version.hpp"
 
 #include <CLI/CLI.hpp>
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <iostream>
+#include <limits>
 
 namespace minamo {
 
 namespace {
 
+/// The option's value is a whole number, at least `least`.
+CLI::Validator whole_number(std::int64_t least) {
+  const auto check = [least](const std::string& text) -> std::string {
+    std::int64_t number = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    constexpr std::int64_t most = std::numeric_limits<int>::max();
+    if (error == std::errc() && rest == end && number >= least && number <= most) return {};
+    return fmt::format("expected a whole number >= {}, got \"{}\"", least, text);
+  };
+  return {check, {}};
+}
+
+/// What is wrong with the command line, in the voice of all messages.
+std::string command_line_problem(const CLI::App*, const CLI::Error& error) {
+  std::string what = error.what();
+  const bool begins_a_sentence = what.size() > 1 && std::isupper(static_cast<unsigned char>(what[1])) == 0;
+  if (begins_a_sentence) what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
+  return fmt::format("{}\n  options are shown by --help\n", what);
+}
+
+/// \throws InputError if the first word is no command.
+void require_command(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.starts_with("-") || std::find(commands.begin(), commands.end(), word) != commands.end()) return;
+  throw InputError({{"minamo", {}, word.empty() ? "no command" : "unknown command", one_of_text(commands),
+                     word.empty() ? "" : shown(Json(word)), closest_name(word, commands)}});
+}
+
 /// Adds the command line of `minamo run`.
 void add_run(CLI::App& app, RunOptions& options) {
   app.add_option("SCENE", options.scene, "scene file")->required();
   app.add_option("--out", options.out, "folder for the results; by default out/NAME");
-  app.add_option("--threads", options.threads, "threads; by default one per processor")->check(CLI::PositiveNumber);
+  app.add_option("--threads", options.threads, "threads; by default one per processor")->check(whole_number(1));
   app.add_option("--set", options.overrides, "/pointer=JSON, overrides a key of the scene")->allow_extra_args(false);
-  app.add_option("--steps", options.steps, "stop after so many steps")->check(CLI::NonNegativeNumber);
+  app.add_option("--steps", options.steps, "stop after so many steps")->check(whole_number(0));
   app.add_option("--profile", options.trace, "print time per system and write a Chrome trace; by default OUT/trace.json")
       ->expected(0, 1);
   app.add_flag("--quiet", options.quiet, "print nothing but problems");
@@ -52,6 +89,8 @@ int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) 
   CLI::App* schema = app.add_subcommand("schema", "print the JSON Schema of a scene");
   schema->add_flag("--table", as_table, "print the keys as a Markdown table instead");
 
+  app.failure_message(command_line_problem);
+  require_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -79,6 +118,9 @@ int run(int argc, const char* const* argv, const std::function<void(SystemRegist
     if (add) add(registry);
     return dispatch(argc, argv, registry);
   } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+    return exit_bad_input;
+  } catch (const ScheduleError& error) {
     std::cerr << error.what() << '\n';
     return exit_bad_input;
   } catch (const std::exception& error) {

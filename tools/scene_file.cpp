@@ -1,8 +1,7 @@
 #include "tools/scene_file.hpp"
 
+#include "systems/setup/scene_systems.hpp"
 #include "systems/setup/seed.hpp"
-
-#include <filesystem>
 
 namespace minamo {
 
@@ -17,21 +16,21 @@ SceneFile load_scene(const std::string& path, const std::vector<std::string>& ov
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
-  Input::Document document(json, std::filesystem::path(path).filename());
+  Input::Document document(json, path);
   SceneFile file{read_scene(document.root(), registry), {}};
   document.finish();
   problems.insert(problems.end(), document.problems().begin(), document.problems().end());
+  if (problems.empty()) problems = misplaced_systems(file.scene, registry, path);
   if (!problems.empty()) throw InputError(std::move(problems));
   file.as_run = document.echo();
   return file;
 }
 
 void seed(const Scene& scene, const std::string& file, World& world) {
-  const std::string name = std::filesystem::path(file).filename();
   if (scene.dimension == 2) {
-    seed_world<2>(scene, name, world);
+    seed_world<2>(scene, file, world);
   } else {
-    seed_world<3>(scene, name, world);
+    seed_world<3>(scene, file, world);
   }
 }
 

@@ -1,31 +1,11 @@
 #include "systems/measure/volume.hpp"
 
-#include "systems/grid/support.hpp"
+#include "systems/grid/node_volume.hpp"
 #include "systems/solve/stencil.hpp"
 
 #include <cmath>
 
 namespace minamo {
-
-namespace {
-
-/// V_I of every node, x fastest.
-template <int Dim, class Body>
-void for_each_node_volume(const Grid<Dim>& grid, const Body& body) {
-  const double full = std::pow(grid.spacing, Dim);
-  for (std::size_t i = 0; i < grid.node_count(); ++i) {
-    double share = 1;
-    std::size_t rest = i;
-    for (int d = 0; d < Dim; ++d) {
-      const auto nodes = static_cast<std::size_t>(grid.nodes(d));
-      share *= axis_integral(static_cast<int>(rest % nodes), grid.cells[static_cast<std::size_t>(d)]);
-      rest /= nodes;
-    }
-    body(i, share * full);
-  }
-}
-
-}  // namespace
 
 template <int Dim>
 void MeasureDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
@@ -49,19 +29,11 @@ template <int Dim>
 void MeasureOverlap<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
                                      Read<particle::Mass> m_p, Write<node::Volume> v_i,
                                      Write<measure::Overlap> overlap) const {
-  // One after the other: particles have left the cells that they are sorted by.
-  const auto volume = v_i.span();
-  std::fill(volume.begin(), volume.end(), 0.0);
-  double total = 0;
-  for (std::size_t p = 0; p < x_p.size(); ++p) {
-    const double v = m_p[p] / fluid->density;
-    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, x_p[p]));
-    const Weights<Dim> weights(support, x_p[p]);
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { volume[support.node[k]] += weights(offset) * v; });
-    total += v;
-  }
+  gather_node_volume<Dim>(*grid, fluid->density, x_p.span(), m_p.span(), v_i.span());
   double excess = 0;
-  for_each_node_volume<Dim>(*grid, [&](std::size_t i, double full) { excess += std::max(0.0, volume[i] - full); });
+  for (std::size_t i = 0; i < v_i.size(); ++i) excess += std::max(0.0, v_i[i] - full_volume<Dim>(*grid, i));
+  double total = 0;
+  for (const double m : m_p) total += m / fluid->density;
   overlap->value = excess / total;
 }
 

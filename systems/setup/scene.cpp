@@ -2,9 +2,10 @@
 
 #include "systems/pipeline.hpp"
 #include "systems/setup/scene_checks.hpp"
+#include "systems/setup/scene_walls.hpp"
 #include "systems/transfer/scheme.hpp"
 
-#include <algorithm>
+#include <spdlog/fmt/fmt.h>
 
 namespace minamo {
 
@@ -16,60 +17,21 @@ GridScene read_grid(Input& grid, std::size_t dimension) {
   scene.high = grid.numbers("high", dimension, {.unit = "m", .doc = "opposite corner of the box"});
   for (const auto count : grid.integers(
            "cells", dimension,
-           {.doc = "cells per direction; the spacing must come out equal", .at_least = 3, .at_most = 1'000'000'000})) {
+           {.doc = "cells per direction; the spacing must come out equal", .at_least = 3, .at_most = 1'000'000})) {
     scene.cells.push_back(static_cast<int>(count));
   }
-  check_grid(grid, scene);
+  if (grid.sound("low") && grid.sound("high") && grid.sound("cells")) check_grid(grid, scene);
   return scene;
 }
 
-const std::vector<std::string> wall_names{"slip", "no_slip"};
-
-std::array<Wall, 2> read_wall(Input& input, const std::string& key, const Json& value) {
-  const Json sides = value.is_array() ? value : Json::array({value, value});
-  std::array<Wall, 2> walls{Wall::slip, Wall::slip};
-  if (sides.size() != 2) {
-    input.problem(key, "wrong length", "one wall, or a list of two: low side, high side", shown(value));
-    return walls;
+/// A number or an expression per direction.
+std::vector<Expression> read_vector(Input& input, const std::string& key, const Scene& scene, const Number& rule) {
+  const auto dimension = static_cast<std::size_t>(scene.dimension);
+  auto vector = input.expressions(key, dimension, scene_scope(scene.constants), rule);
+  for (std::size_t d = 0; d < dimension; ++d) {
+    check_coordinates(input, fmt::format("{}/{}", key, d), vector[d], scene.dimension);
   }
-  for (std::size_t side = 0; side < 2; ++side) {
-    const std::string name = sides[side].is_string() ? sides[side].get<std::string>() : "";
-    if (std::find(wall_names.begin(), wall_names.end(), name) == wall_names.end()) {
-      input.problem(key, "unknown wall", R"(one of ["slip", "no_slip"])", shown(sides[side]),
-                    closest_name(name, wall_names));
-    }
-    walls[side] = name == "no_slip" ? Wall::no_slip : Wall::slip;
-  }
-  return walls;
-}
-
-/// "slip" for all sides, or per axis {"x": "slip", "y": ["no_slip", "slip"]}.
-std::vector<std::array<Wall, 2>> read_walls(Input& input, std::size_t dimension) {
-  const Json name{{"enum", wall_names}};
-  const Json axis{{"oneOf", {name, {{"type", "array"}, {"items", name}, {"minItems", 2}, {"maxItems", 2}}}}};
-  const Json schema{{"description", "for all sides, or per axis, or per axis [low side, high side]"},
-                    {"oneOf",
-                     {name,
-                      {{"type", "object"},
-                       {"properties", {{"x", axis}, {"y", axis}, {"z", axis}}},
-                       {"additionalProperties", false}}}}};
-  const Json walls = input.raw("walls", schema, "slip");
-  std::vector<std::array<Wall, 2>> all(dimension, {Wall::slip, Wall::slip});
-  if (!walls.is_object()) {
-    std::fill(all.begin(), all.end(), read_wall(input, "walls", walls));
-    return all;
-  }
-  const std::vector<std::string> axes = dimension == 2 ? std::vector<std::string>{"x", "y"}
-                                                       : std::vector<std::string>{"x", "y", "z"};
-  for (const auto& [key, value] : walls.items()) {
-    const auto found = std::find(axes.begin(), axes.end(), key);
-    if (found == axes.end()) {
-      input.problem("walls/" + key, "unknown key", dimension == 2 ? "x or y" : "x, y or z", shown(value));
-    } else {
-      all[static_cast<std::size_t>(found - axes.begin())] = read_wall(input, "walls/" + key, value);
-    }
-  }
-  return all;
+  return vector;
 }
 
 std::variant<Box, Ball, Where> read_shape(Input& shape, const Scene& scene) {
@@ -93,6 +55,7 @@ std::variant<Box, Ball, Where> read_shape(Input& shape, const Scene& scene) {
                 {"where", [&](Input& in) {
                    read = Where{in.expression("where", scene_scope(scene.constants),
                                               {.doc = "particles wherever this is true"})};
+                   check_coordinates(in, "where", std::get<Where>(read).inside, scene.dimension);
                  }}});
   return read;
 }
@@ -105,14 +68,14 @@ ParticleScene read_particles(Input& input, const Scene& scene) {
   });
   particles.per_cell = static_cast<int>(
       input.integer("per_cell", {.doc = "particles per cell and direction", .fallback = 2, .at_least = 1, .at_most = 16}));
+  check_particle_count(input, particles, scene.grid);
   input.variant("arrangement", "where in a cell the particles start", "lattice",
                 {{"lattice", [](Input&) {}}, {"jittered", [&](Input& in) {
                     particles.jitter = static_cast<std::uint64_t>(
                         in.integer("seed", {.doc = "of the random numbers", .fallback = 1, .at_least = 0}));
                   }}});
   particles.velocity =
-      input.expressions("velocity", static_cast<std::size_t>(scene.dimension), scene_scope(scene.constants),
-                        {.unit = "m/s", .doc = "initial velocity", .fallback = 0});
+      read_vector(input, "velocity", scene, {.unit = "m/s", .doc = "initial velocity", .fallback = 0});
   return particles;
 }
 
@@ -144,7 +107,14 @@ void read_method(Input& input, Scene& scene) {
     return name;
   };
   scene.stabilization = scheme("stabilization", "pressure stabilization", "pspg");
-  scene.volume = scheme("volume", "volume correction", "none");
+  input.object("volume", "volume correction", Input::Presence::optional, [&](Input& volume) {
+    scene.volume = volume.variant("scheme", "volume correction", "none",
+                                  {{"none", [](Input&) {}}, {"projection", [&](Input& in) {
+                                      scene.volume_rate = in.number(
+                                          "rate", {.doc = "share of the excess that is corrected in a step",
+                                                   .fallback = 0.1, .at_most = 1, .above = 0});
+                                    }}});
+  });
   scene.solver = scheme("solver", "linear solver", "umfpack");
 }
 
@@ -162,18 +132,24 @@ TimeScene read_time(Input& input) {
 }
 
 OutputScene read_output(Input& input, double end) {
-  const double fiftieth = end / 50;
-  return {.every = input.number("every", {.unit = "s", .doc = "simulated time between frames; by default end/50",
-                                          .fallback = fiftieth, .above = 0}),
-          .checkpoint = input.optional_number(
-              "checkpoint", {.unit = "s", .doc = "simulated time between checkpoints; none by default", .above = 0})};
+  Number every{.unit = "s", .doc = "simulated time between frames; by default end/50", .above = 0};
+  OutputScene output;
+  if (input.describing()) {
+    input.optional_number("every", every);  // its default is not one number
+  } else {
+    every.fallback = end / 50;
+    output.every = input.number("every", every);
+  }
+  output.checkpoint = input.optional_number(
+      "checkpoint", {.unit = "s", .doc = "simulated time between checkpoints; none by default", .above = 0});
+  return output;
 }
 
 void read_systems(Input& input, const SystemRegistry& registry, Scene& scene) {
   input.list("systems", "extra systems in the step", 0, [&](Input& extra, std::size_t) {
-    const std::string use = extra.choice("use", registry.names(), "registered name of the system");
+    const std::string use = extra.choice("use", registry.names(), "name of the system, see `minamo list systems`");
     const std::string after = extra.choice("after", slot_names(), "slot of the step that it follows");
-    if (extra.describing() || !registry.contains(use)) return;
+    if (extra.describing() || !extra.sound("use")) return;
     scene.systems.push_back({registry.make(use, scene.dimension, &extra), after});
   });
 }
@@ -184,10 +160,21 @@ ExpressionScope scene_scope(const std::map<std::string, double>& constants) {
   return {{"x", "y", "z", "t"}, constants};
 }
 
-Scene read_scene(Input& input, const SystemRegistry& registry) {
+namespace {
+
+/// The dimension. Where the key is missing or wrong, that of the grid, so that its lists are not blamed as well.
+int read_dimension(Input& input) {
+  const auto dimension = input.integer("dimension", {.doc = "2 or 3", .at_least = 2, .at_most = 3});
+  if (input.sound("dimension")) return static_cast<int>(dimension);
+  return input.elements("grid/low") == 3 ? 3 : 2;
+}
+
+/// \param described  the dimension in description mode, where the document does not tell.
+Scene read_scene(Input& input, const SystemRegistry& registry, std::optional<int> described) {
   Scene scene;
   scene.title = input.text("title", {.doc = "shown in pictures and reports", .fallback = ""});
-  scene.dimension = static_cast<int>(input.integer("dimension", {.doc = "2 or 3", .at_least = 2, .at_most = 3}));
+  scene.dimension = read_dimension(input);
+  if (described) scene.dimension = *described;
   const auto dimension = static_cast<std::size_t>(scene.dimension);
   scene.constants = input.named_numbers("constants", "numbers that expressions may use by name");
   check_constants(input, scene.constants);
@@ -198,8 +185,8 @@ Scene read_scene(Input& input, const SystemRegistry& registry) {
     scene.density = fluid.number("density", {.unit = "kg/m^3", .doc = "density", .above = 0});
     scene.viscosity = fluid.number("viscosity", {.unit = "Pa s", .doc = "dynamic viscosity; 0 is inviscid", .at_least = 0});
   });
-  scene.body_force = input.expressions("body_force", dimension, scene_scope(scene.constants),
-                                       {.unit = "m/s^2", .doc = "force per unit mass", .fallback = 0});
+  scene.body_force =
+      read_vector(input, "body_force", scene, {.unit = "m/s^2", .doc = "force per unit mass", .fallback = 0});
   input.list("particles", "regions filled with liquid", 1,
              [&](Input& particles, std::size_t) { scene.particles.push_back(read_particles(particles, scene)); });
   read_method(input, scene);
@@ -209,6 +196,14 @@ Scene read_scene(Input& input, const SystemRegistry& registry) {
                [&](Input& output) { scene.output = read_output(output, scene.time.end); });
   read_systems(input, registry, scene);
   return scene;
+}
+
+}  // namespace
+
+Scene read_scene(Input& input, const SystemRegistry& registry) { return read_scene(input, registry, {}); }
+
+void describe_scene(Input& input, const SystemRegistry& registry) {
+  for (const int dimension : {2, 3}) read_scene(input, registry, dimension);
 }
 
 }  // namespace minamo

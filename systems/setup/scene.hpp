@@ -6,6 +6,7 @@
 #include "engine/input.hpp"
 #include "engine/registry.hpp"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -78,6 +79,7 @@ struct Scene {
   double newmark_gamma = 0.5;
   std::string stabilization;
   std::string volume;
+  double volume_rate = 0.1;
   std::string solver;
   TimeScene time;
   OutputScene output;
@@ -86,6 +88,9 @@ struct Scene {
 
 /// Reads a scene; problems are noted in the document that `input` belongs to.
 Scene read_scene(Input& input, const SystemRegistry& registry);
+
+/// Reads in description mode, in two and in three dimensions, so that schema and key table hold for both.
+void describe_scene(Input& input, const SystemRegistry& registry);
 
 /// x, y, z, t and the constants of a scene, as its expressions see them.
 ExpressionScope scene_scope(const std::map<std::string, double>& constants);

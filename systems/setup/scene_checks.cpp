@@ -3,6 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace minamo {
@@ -46,12 +48,46 @@ std::optional<std::vector<int>> nearest_counts(const GridScene& grid) {
   return best;
 }
 
+/// A box with equal spacing, near the given one, for boxes whose sides have no common measure.
+std::string nearest_box(const GridScene& grid) {
+  const double h = (grid.high[0] - grid.low[0]) / grid.cells[0];
+  std::vector<double> high = grid.high;
+  std::vector<int> cells = grid.cells;
+  for (std::size_t d = 1; d < high.size(); ++d) {
+    cells[d] = std::max(3, static_cast<int>(std::min(1e6, std::round((grid.high[d] - grid.low[d]) / h))));
+    high[d] = grid.low[d] + cells[d] * h;
+  }
+  return fmt::format(R"({{"high": [{:.12g}], "cells": [{}]}})", fmt::join(high, ", "), fmt::join(cells, ", "));
+}
+
 bool inside(const std::vector<double>& low, const std::vector<double>& high, const GridScene& grid) {
   const double rounding = 1e-9 * grid.spacing;
   for (std::size_t d = 0; d < low.size(); ++d) {
     if (low[d] < grid.low[d] - rounding || high[d] > grid.high[d] + rounding) return false;
   }
   return true;
+}
+
+/// Measure of the box around a shape; that of the grid where the shape has no bounds. [m^d]
+double extent(const std::variant<Box, Ball, Where>& shape, const GridScene& grid) {
+  double extent = 1;
+  for (std::size_t d = 0; d < grid.low.size(); ++d) {
+    if (const auto* box = std::get_if<Box>(&shape)) {
+      extent *= box->high[d] - box->low[d];
+    } else if (const auto* ball = std::get_if<Ball>(&shape)) {
+      extent *= 2 * ball->radius;
+    } else {
+      extent *= grid.high[d] - grid.low[d];
+    }
+  }
+  return extent;
+}
+
+bool is_name(const std::string& text) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  return !text.empty() && is_letter(text[0]) &&
+         std::all_of(text.begin(), text.end(), [&](char c) { return is_letter(c) || is_digit(c); });
 }
 
 std::string box_text(const GridScene& grid) {
@@ -66,10 +102,9 @@ void check_grid(Input& input, GridScene& grid) {
   for (std::size_t d = 0; d < grid.low.size(); ++d) {
     if (!(grid.low[d] < grid.high[d])) {
       input.problem("high", "the box is empty", fmt::format("high above low = [{}] m", fmt::join(grid.low, ", ")),
-                    fmt::format("[{}]", fmt::join(grid.high, ", ")));
+                    fmt::format("[{}] m", fmt::join(grid.high, ", ")));
       return;
     }
-    if (grid.cells[d] < 3) return;  // noted where it was read
     nodes *= grid.cells[d] + 1.0;
   }
   if (nodes > most_nodes) {
@@ -83,7 +118,7 @@ void check_grid(Input& input, GridScene& grid) {
   const auto nearest = nearest_counts(grid);
   input.problem("cells", "unequal spacing", "the same spacing in all directions",
                 fmt::format("[{}], spacing [{:.6g}] m", fmt::join(grid.cells, ", "), fmt::join(spacing, ", ")),
-                nearest ? fmt::format("[{}]", fmt::join(*nearest, ", ")) : "");
+                nearest ? fmt::format("[{}]", fmt::join(*nearest, ", ")) : nearest_box(grid));
 }
 
 void check_shape(Input& input, const std::variant<Box, Ball, Where>& shape, const GridScene& grid) {
@@ -92,7 +127,7 @@ void check_shape(Input& input, const std::variant<Box, Ball, Where>& shape, cons
     for (std::size_t d = 0; d < box->low.size(); ++d) {
       if (box->low[d] < box->high[d]) continue;
       input.problem("box", "the box is empty", "high above low in every direction",
-                    fmt::format("low [{}], high [{}]", fmt::join(box->low, ", "), fmt::join(box->high, ", ")));
+                    fmt::format("low [{}], high [{}] m", fmt::join(box->low, ", "), fmt::join(box->high, ", ")));
       return;
     }
     if (inside(box->low, box->high, grid)) return;
@@ -109,11 +144,29 @@ void check_shape(Input& input, const std::variant<Box, Ball, Where>& shape, cons
   }
 }
 
+void check_particle_count(Input& input, const ParticleScene& particles, const GridScene& grid) {
+  if (input.describing() || grid.spacing == 0) return;
+  constexpr double most_particles = 1e8;  // about 300 bytes each
+  const double count = extent(particles.shape, grid) * std::pow(particles.per_cell / grid.spacing, grid.low.size());
+  if (count <= most_particles) return;
+  input.problem("per_cell", "too many particles", fmt::format("at most {:.0e} particles, about 30 GB", most_particles),
+                fmt::format("{} per cell and direction, {:.3g} particles", particles.per_cell, count));
+}
+
+void check_coordinates(Input& input, const std::string& key, const Expression& expression, int dimension) {
+  if (dimension == 3 || !expression.uses("z")) return;
+  input.problem(key, "there is no z in two dimensions", "a number or an expression in x, y, t");
+}
+
 void check_constants(Input& input, const std::map<std::string, double>& constants) {
-  for (const char* taken : {"x", "y", "z", "t", "pi"}) {
-    if (!constants.contains(taken)) continue;
-    input.problem(std::string("constants/") + taken, "name is taken", "a name other than x, y, z, t, pi",
-                  fmt::format("\"{}\"", taken));
+  const auto taken = known_names(scene_scope({}));
+  for (const auto& [name, value] : constants) {
+    const std::string key = fmt::format("constants/{}", pointer_token(name));
+    if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
+      input.problem(key, "name is taken", "a name other than those of coordinates and functions", shown(Json(name)));
+    } else if (!is_name(name)) {
+      input.problem(key, "not a name", "letters, digits and _, not a digit first", shown(Json(name)));
+    }
   }
 }
 

@@ -12,7 +12,13 @@ void check_grid(Input& input, GridScene& grid);
 /// Boxes and balls lie inside the grid box.
 void check_shape(Input& input, const std::variant<Box, Ball, Where>& shape, const GridScene& grid);
 
-/// No constant hides x, y, z, t or pi.
+/// Not more particles than fit into memory.
+void check_particle_count(Input& input, const ParticleScene& particles, const GridScene& grid);
+
+/// No z in two dimensions. `key` as Input::problem() takes it.
+void check_coordinates(Input& input, const std::string& key, const Expression& expression, int dimension);
+
+/// Constants have names that expressions can use, and none hides x, y, z, t, pi or a function.
 void check_constants(Input& input, const std::map<std::string, double>& constants);
 
 }  // namespace minamo

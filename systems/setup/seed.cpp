@@ -9,6 +9,7 @@
 #include "systems/transfer/scheme.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 
 #include <cmath>
 
@@ -53,12 +54,13 @@ void set_walls(const Scene& scene, const Grid<Dim>& grid, World& world) {
   }
 }
 
+/// A vector of expressions at a place, at t = 0.
 template <int Dim>
-Vec<Dim> velocity_at(const std::vector<Expression>& velocity, const Vec<Dim>& x) {
+Vec<Dim> value_at(const std::vector<Expression>& expressions, const Vec<Dim>& x) {
   std::array<double, 4> xyzt{};
   for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = x[d];
   Vec<Dim> v;
-  for (int d = 0; d < Dim; ++d) v[d] = velocity[static_cast<std::size_t>(d)](xyzt);
+  for (int d = 0; d < Dim; ++d) v[d] = expressions[static_cast<std::size_t>(d)](xyzt);
   return v;
 }
 
@@ -69,9 +71,21 @@ Mat<Dim> velocity_gradient_at(const std::vector<Expression>& velocity, const Vec
   Mat<Dim> gradient;
   for (int d = 0; d < Dim; ++d) {
     const Vec<Dim> aside = step * Vec<Dim>::Unit(d);
-    gradient.col(d) = (velocity_at<Dim>(velocity, x + aside) - velocity_at<Dim>(velocity, x - aside)) / (2 * step);
+    gradient.col(d) = (value_at<Dim>(velocity, x + aside) - value_at<Dim>(velocity, x - aside)) / (2 * step);
   }
   return gradient;
+}
+
+template <int Dim>
+std::string place_text(const Vec<Dim>& x) {
+  std::string text = fmt::format("x = {:.6g}, y = {:.6g}", x[0], x[1]);
+  if constexpr (Dim == 3) text += fmt::format(", z = {:.6g}", x[2]);
+  return text;
+}
+
+template <int Dim>
+std::string vector_text(const Vec<Dim>& v) {
+  return fmt::format("[{:.6g}]", fmt::join(v.begin(), v.end(), ", "));
 }
 
 /// Positions, and the region that each comes from.
@@ -90,19 +104,20 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, const std::string&
     const std::string pointer = fmt::format("/particles/{}", r);
     if (positions.empty()) {
       problems.push_back({file, pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
-                          fmt::format("none of {} per cell and direction", scene.particles[r].per_cell), ""});
+                          fmt::format("none at {} per cell and direction", scene.particles[r].per_cell), ""});
     }
     const double share = std::pow(scene.particles[r].per_cell, -Dim);
-    bool overlaps = false;
+    const Vec<Dim>* overlap = nullptr;
     for (const Vec<Dim>& x : positions) {
       double& cell = filled[grid.row(cell_of<Dim>(grid, x))];
       cell += share;
-      overlaps = overlaps || cell > 1 + 1e-9;
+      if (cell > 1 + 1e-9 && !overlap) overlap = &x;
       seeds.position.push_back(x);
       seeds.region.push_back(r);
     }
-    if (overlaps) {
-      problems.push_back({file, pointer + "/shape", "overlaps an earlier one", "at most one liquid per place", "", ""});
+    if (overlap) {
+      problems.push_back({file, pointer + "/shape", "overlaps an earlier one", "no cell more than full",
+                          "more than a full cell at " + place_text<Dim>(*overlap), ""});
     }
   }
   return seeds;
@@ -125,15 +140,28 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     x_p[p] = seeds.position[p];
     id[p] = static_cast<std::int64_t>(p);
     m_p[p] = scene.density * std::pow(grid.spacing / region.per_cell, Dim);
-    v_p[p] = velocity_at<Dim>(region.velocity, x_p[p]);
+    v_p[p] = value_at<Dim>(region.velocity, x_p[p]);
     if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], grid.spacing);
     const bool finite = v_p[p].allFinite() && (!with_gradient || grad_v_p[p].allFinite());
     if (finite || reported[r]) continue;
     reported[r] = true;
     problems.push_back({file, fmt::format("/particles/{}/velocity", r), "not finite", "a finite velocity [m/s]",
-                        fmt::format("{} at x = {:.6g}, y = {:.6g}", v_p[p].allFinite() ? "an infinite gradient" : "inf or NaN",
-                                    x_p[p][0], x_p[p][1]),
+                        fmt::format("{} at {}", v_p[p].allFinite() ? "no finite gradient" : vector_text<Dim>(v_p[p]),
+                                    place_text<Dim>(x_p[p])),
                         ""});
+  }
+}
+
+/// The body force must be finite where the liquid starts.
+template <int Dim>
+void check_body_force(const Scene& scene, const Seeds<Dim>& seeds, const std::string& file,
+                      std::vector<Problem>& problems) {
+  for (const Vec<Dim>& x : seeds.position) {
+    const Vec<Dim> b = value_at<Dim>(scene.body_force, x);
+    if (b.allFinite()) continue;
+    problems.push_back({file, "/body_force", "not finite", "a finite force per unit mass [m/s^2]",
+                        fmt::format("{} at {}, t = 0", vector_text<Dim>(b), place_text<Dim>(x)), ""});
+    return;
   }
 }
 
@@ -146,11 +174,13 @@ void seed_world(const Scene& scene, const std::string& file, World& world) {
   world.resource<Fluid>() = {scene.density, scene.viscosity};
   world.resource<BodyForce>() = {scene.body_force};
   world.resource<NewmarkParameters>() = {scene.newmark_beta, scene.newmark_gamma};
+  world.resource<VolumeRate>() = {scene.volume_rate};
   world.resource<FlipBlend>() = {scene.flip_blend};
   set_walls<Dim>(scene, grid, world);
   std::vector<Problem> problems;
   const Seeds<Dim> seeds = lay_out<Dim>(scene, grid, file, problems);
   set_particles<Dim>(scene, grid, seeds, file, world, problems);
+  check_body_force<Dim>(scene, seeds, file, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 

@@ -55,6 +55,15 @@ void SolveUmfpack<Dim>::operator()(Read<Clock> clock, Read<matrix::Pattern> patt
   *report = {.unknowns = size, .iterations = 0, .residual = norm > 0 ? (b - matrix * x).norm() / norm : 0};
 }
 
+std::vector<double> solve_again(UmfpackFactors& factors, const std::vector<double>& right_hand_side) {
+  std::vector<double> solution(right_hand_side.size());
+  const auto size = static_cast<Eigen::Index>(solution.size());
+  Eigen::Map<Eigen::VectorXd> x(solution.data(), size);
+  x = factors.impl->backend.solve(Eigen::Map<const Eigen::VectorXd>(right_hand_side.data(), size));
+  if (!x.allFinite()) throw std::runtime_error("solve: the second solution of the step is not finite");
+  return solution;
+}
+
 template <int Dim>
 void UnpackSolution<Dim>::operator()(Read<matrix::Solution> solution, Read<node::Row> row,
                                      Update<node::Displacement<Dim>> u_i, Write<node::Pressure> p_i) const {

@@ -24,6 +24,10 @@ struct UmfpackFactors {
   static constexpr ComponentInfo info{"solve.umfpack_factors", "", "", Lifetime::cache};
 };
 
+/// The solution for another right-hand side, by the factors of the last factorization.
+/// \throws std::runtime_error if it is not finite.
+std::vector<double> solve_again(UmfpackFactors& factors, const std::vector<double>& right_hand_side);
+
 template <int Dim>
 struct SolveUmfpack {
   static constexpr std::string_view doc = "solve the monolithic system by UMFPACK";

@@ -11,6 +11,10 @@
 
 namespace minamo {
 
+/// The point itself, or, if it lies outside the box, a point just inside the wall.
+template <int Dim>
+Vec<Dim> inside_box(const Grid<Dim>& grid, const Vec<Dim>& x);
+
 /// (E11)  x_p^{n+1} = x_p^n + sum_I S_I(y_p) u_I. A particle that would leave the box is put back just inside the wall
 /// and counted.
 template <int Dim>

@@ -108,7 +108,7 @@ TEST_CASE("the key table has a row per key", "[unit]") {
         "| /bodies/*/where | string | required | condition (instead of ball) |\n"
         "| /transfer | object | optional | the transfer |\n"
         "| /transfer/scheme | one of [\"flip\", \"tpic\", \"xpic\"] | \"tpic\" | name |\n"
-        "| /transfer/blend | number in [0, 1] [1] | 1 | share (with scheme \"flip\") |\n"
+        "| /transfer/blend | number in [0, 1] | 1 | share (with scheme \"flip\") |\n"
         "| /transfer/order | whole number >= 1 | required | order (with scheme \"xpic\") |\n");
 }
 

@@ -3,9 +3,7 @@
 find_program(minamo_ccache ccache)
 mark_as_advanced(minamo_ccache)
 if(minamo_ccache AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # The sloppiness is what ccache wants for precompiled headers.
-  set(CMAKE_CXX_COMPILER_LAUNCHER
-    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${minamo_ccache})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${minamo_ccache})
 endif()
 
 # Options that code which includes our headers must share.

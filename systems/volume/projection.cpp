@@ -1,0 +1,70 @@
+#include "systems/volume/projection.hpp"
+
+#include "systems/grid/node_volume.hpp"
+#include "systems/solve/stencil.hpp"
+#include "systems/transfer/advect.hpp"
+
+namespace minamo {
+
+template <int Dim>
+void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
+                                       Read<particle::Mass> m_p, Write<node::Volume> v_i) const {
+  gather_node_volume<Dim>(*grid, fluid->density, x_p.span(), m_p.span(), v_i.span());
+}
+
+template <int Dim>
+void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Volume> v_i,
+                                       Write<node::VolumeExcess> e_i) const {
+  // Deep inside: all nodes within two rings are at least half full, so that the support holds no part of the surface.
+  const Stencil<Dim> stencil(*grid);
+  for_each_row(e_i.size(), [&](std::size_t i) {
+    e_i[i] = v_i[i] - full_volume<Dim>(*grid, i);
+    if (e_i[i] >= 0) return;
+    bool deep = true;
+    stencil.for_each_neighbour(static_cast<std::uint32_t>(i), [&](std::size_t, std::uint32_t j) {
+      deep = deep && v_i[j] > 0.5 * full_volume<Dim>(*grid, j);
+    });
+    if (!deep) e_i[i] = 0;
+  });
+}
+
+template <int Dim>
+void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row,
+                                         Read<matrix::Node> node, Read<node::VolumeExcess> e_i,
+                                         Read<matrix::Values>,  // the backend refines its solution with them
+                                         Update<UmfpackFactors> factors, Write<node::Shift<Dim>> d_i) const {
+  std::vector<double> b((Dim + 1) * node.size(), 0.0);
+  for (std::size_t r = 0; r < node.size(); ++r) b[(Dim + 1) * r + Dim] = rates->velocity * rate->rate * e_i[node[r]];
+  const std::vector<double> x = solve_again(*factors, b);
+  for_each_row(d_i.size(), [&](std::size_t i) {
+    d_i[i].setZero();
+    if (row[i] < 0) return;
+    for (int d = 0; d < Dim; ++d) d_i[i][d] = x[(Dim + 1) * static_cast<std::size_t>(row[i]) + static_cast<std::size_t>(d)];
+  });
+}
+
+template <int Dim>
+void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Shift<Dim>> d_i,
+                                     Update<particle::Position<Dim>> x_p) const {
+  const double longest = 0.1 * grid->spacing;  // a shift is a correction, not a motion
+  for_each_row(x_p.size(), [&](std::size_t p) {
+    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, x_p[p]));
+    const Weights<Dim> weights(support, x_p[p]);
+    Vec<Dim> shift = Vec<Dim>::Zero();
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { shift += weights(offset) * d_i[support.node[k]]; });
+    const double length = shift.norm();
+    if (length > longest) shift *= longest / length;
+    x_p[p] = inside_box<Dim>(*grid, Vec<Dim>(x_p[p] + shift));
+  });
+}
+
+template struct GatherNodeVolume<2>;
+template struct GatherNodeVolume<3>;
+template struct FindVolumeExcess<2>;
+template struct FindVolumeExcess<3>;
+template struct SolveVolumeUmfpack<2>;
+template struct SolveVolumeUmfpack<3>;
+template struct ShiftParticles<2>;
+template struct ShiftParticles<3>;
+
+}  // namespace minamo

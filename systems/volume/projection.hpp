@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// Volume projection: div v = 0 on the grid does not keep particles from clumping, so after the step the excess of
+/// particle volume around the nodes is pushed apart by a displacement that the matrix of the step gives at the cost of a
+/// back substitution. Positions change, velocities stay.
+/// After T. Kugelstadt et al., Implicit density projection for volume conserving liquids, IEEE TVCG 27 (2021) 2385,
+/// doi:10.1109/TVCG.2019.2947437; there a second Poisson solve, here the factors of the step.
+
+#include "components/fluid.hpp"
+#include "components/grid.hpp"
+#include "components/matrix.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "components/step.hpp"
+#include "engine/system.hpp"
+#include "systems/solve/umfpack.hpp"
+
+namespace minamo {
+
+/// (E35)  V~_I = sum_p S_I(x_p^{n+1}) V_p.
+template <int Dim>
+struct GatherNodeVolume {
+  static constexpr std::string_view doc = "(E35) V~_I at the end of the step";
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Mass> m_p, Write<node::Volume> v_i) const;
+};
+
+/// (E36)  E_I = V~_I - V_I where positive, or where the node is deep inside the liquid.
+template <int Dim>
+struct FindVolumeExcess {
+  static constexpr std::string_view doc = "(E36) E_I";
+  void operator()(Read<Grid<Dim>> grid, Read<node::Volume> v_i, Write<node::VolumeExcess> e_i) const;
+};
+
+/// (E37)  The system of the step with right-hand side (0; c_v r E_I) instead: a displacement d_I with D d = r E.
+template <int Dim>
+struct SolveVolumeUmfpack {
+  static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
+  void operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row, Read<matrix::Node> node,
+                  Read<node::VolumeExcess> e_i, Read<matrix::Values> values, Update<UmfpackFactors> factors,
+                  Write<node::Shift<Dim>> d_i) const;
+};
+
+/// (E38)  x_p += sum_I S_I(x_p) d_I, at most 0.1 h.
+template <int Dim>
+struct ShiftParticles {
+  static constexpr std::string_view doc = "(E38) x_p, shifted";
+  void operator()(Read<Grid<Dim>> grid, Read<node::Shift<Dim>> d_i, Update<particle::Position<Dim>> x_p) const;
+};
+
+}  // namespace minamo

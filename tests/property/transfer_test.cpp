@@ -1,0 +1,204 @@
+#include "support/kernels.hpp"
+
+#include "systems/transfer/pic_flip.hpp"
+#include "systems/transfer/tpic.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+using namespace minamo;
+using namespace minamo::kernels;
+
+namespace {
+
+constexpr std::size_t particles = 600;
+
+/// v = A x + b.
+template <int Dim>
+struct Affine {
+  Mat<Dim> A;
+  Vec<Dim> b;
+  explicit Affine(Random& random) : A(random.matrix<Dim>(-1, 1)), b(random.vector<Dim>(-1, 1)) {}
+  Vec<Dim> operator()(const Vec<Dim>& x) const { return A * x + b; }
+};
+
+/// Random velocities and gradients.
+template <int Dim>
+void set_velocities(World& world, std::uint64_t seed) {
+  Random random(seed);
+  for (Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) v = random.vector<Dim>(-1, 1);
+  for (Mat<Dim>& grad_v : world.column<particle::VelocityGradient<Dim>>()) grad_v = random.matrix<Dim>(-1, 1);
+}
+
+template <int Dim>
+Vec<Dim> particle_momentum(World& world) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  const auto m_p = world.column<particle::Mass>();
+  const auto v_p = world.column<particle::Velocity<Dim>>();
+  for (std::size_t p = 0; p < m_p.size(); ++p) sum += m_p[p] * v_p[p];
+  return sum;
+}
+
+template <int Dim>
+Vec<Dim> nodal_momentum(World& world) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  const auto m_i = world.column<node::Mass>();
+  const auto v_i = world.column<node::Velocity<Dim>>();
+  for (std::size_t i = 0; i < m_i.size(); ++i) sum += m_i[i] * v_i[i];
+  return sum;
+}
+
+// 600 particles of mass 1 with speeds of 1, on 27 nodes each: sums of size 600 with some 100 roundings of 1e-16.
+constexpr double sum_rounding = 1e-11;
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("P2G conserves mass", "[property]", ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, particles, 1);
+  double of_particles = 0;
+  double of_nodes = 0;
+  for (const double m : world.column<particle::Mass>()) of_particles += m;
+  for (const double m : world.column<node::Mass>()) of_nodes += m;
+  CHECK(of_nodes == Approx(of_particles).margin(sum_rounding));
+}
+
+TEMPLATE_TEST_CASE_SIG("P2G gives every node the mass of the plain sum", "[property]", ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, particles, 2);
+  const Grid<Dim> grid = small_grid<Dim>();
+  std::vector<double> expected(grid.node_count(), 0.0);
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto m_p = world.column<particle::Mass>();
+  for (std::size_t p = 0; p < y_p.size(); ++p) {
+    const PlainWeights<Dim> weights(grid, y_p[p]);
+    for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += m_p[p] * weights.value[i];
+  }
+  const auto m_i = world.column<node::Mass>();
+  double worst = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) worst = std::max(worst, std::abs(m_i[i] - expected[i]));
+  CHECK(worst < sum_rounding);
+}
+
+TEMPLATE_TEST_CASE_SIG("PIC and FLIP P2G conserve linear momentum", "[property]", ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, particles, 3);
+  set_velocities<Dim>(world, 4);
+  run<P2GVelocityPic<Dim>>(world);
+  CHECK((nodal_momentum<Dim>(world) - particle_momentum<Dim>(world)).norm() < sum_rounding);
+}
+
+TEMPLATE_TEST_CASE_SIG("TPIC P2G conserves linear momentum", "[property]", ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, particles, 5);
+  set_velocities<Dim>(world, 6);
+  run<P2GVelocityTpic<Dim>>(world);
+  CHECK((nodal_momentum<Dim>(world) - particle_momentum<Dim>(world)).norm() < sum_rounding);
+}
+
+TEMPLATE_TEST_CASE_SIG("TPIC P2G reproduces an affine velocity at every node with mass", "[property]", ((int Dim), Dim),
+                       2, 3) {
+  World world;
+  fill<Dim>(world, particles, 7);
+  Random random(8);
+  const Affine<Dim> affine(random);
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto v_p = world.column<particle::Velocity<Dim>>();
+  const auto grad_v_p = world.column<particle::VelocityGradient<Dim>>();
+  for (std::size_t p = 0; p < y_p.size(); ++p) {
+    v_p[p] = affine(y_p[p]);
+    grad_v_p[p] = affine.A;
+  }
+  run<P2GVelocityTpic<Dim>>(world);
+  const auto m_i = world.column<node::Mass>();
+  const auto v_i = world.column<node::Velocity<Dim>>();
+  const Grid<Dim> grid = small_grid<Dim>();
+  double worst = 0;
+  for (std::size_t i = 0; i < m_i.size(); ++i) {
+    if (m_i[i] > 0) worst = std::max(worst, (v_i[i] - affine(node_position<Dim>(grid, i))).norm());
+  }
+  CHECK(worst < 1e-13);  // a mean of velocities of size 10
+}
+
+TEMPLATE_TEST_CASE_SIG("P2G leaves a node without mass at rest", "[property]", ((int Dim), Dim), 2, 3) {
+  World world;
+  set_grid<Dim>(world, small_grid<Dim>());
+  world.resize<Particles>(1);
+  world.column<particle::Configuration<Dim>>()[0] = small_grid<Dim>().low;
+  world.column<particle::Mass>()[0] = 1;
+  run<Bin<Dim>>(world);
+  run<P2GMass<Dim>>(world);
+  set_velocities<Dim>(world, 9);
+  run<P2GVelocityTpic<Dim>>(world);
+  CHECK(world.column<node::Mass>()[3] == 0);
+  CHECK(world.column<node::Velocity<Dim>>()[3].norm() == 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("TPIC G2P reproduces value and gradient of an affine velocity", "[property]", ((int Dim), Dim), 2,
+                       3) {
+  World world;
+  fill<Dim>(world, particles, 10);
+  Random random(11);
+  const Affine<Dim> affine(random);
+  const Grid<Dim> grid = small_grid<Dim>();
+  const auto v_i = world.column<node::NewVelocity<Dim>>();
+  for (std::size_t i = 0; i < v_i.size(); ++i) v_i[i] = affine(node_position<Dim>(grid, i));
+  run<G2PVelocityTpic<Dim>>(world);
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto v_p = world.column<particle::Velocity<Dim>>();
+  const auto grad_v_p = world.column<particle::VelocityGradient<Dim>>();
+  double worst = 0;
+  for (std::size_t p = 0; p < y_p.size(); ++p) {
+    worst = std::max({worst, (v_p[p] - affine(y_p[p])).norm(), (grad_v_p[p] - affine.A).norm()});
+  }
+  CHECK(worst < 1e-12);  // sums of 27 velocities of size 10, in the gradient over h = 1/2
+}
+
+TEMPLATE_TEST_CASE_SIG("PIC G2P is the plain sum over the nodes", "[property]", ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, 200, 12);
+  Random random(13);
+  const auto v_i = world.column<node::NewVelocity<Dim>>();
+  for (Vec<Dim>& v : v_i) v = random.vector<Dim>(-1, 1);
+  run<G2PVelocityPic<Dim>>(world);
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto v_p = world.column<particle::Velocity<Dim>>();
+  double worst = 0;
+  for (std::size_t p = 0; p < y_p.size(); ++p) {
+    const PlainWeights<Dim> weights(small_grid<Dim>(), y_p[p]);
+    Vec<Dim> expected = Vec<Dim>::Zero();
+    for (std::size_t i = 0; i < v_i.size(); ++i) expected += weights.value[i] * v_i[i];
+    worst = std::max(worst, (v_p[p] - expected).norm());
+  }
+  CHECK(worst < 1e-14);  // sums of 27 products of size 1
+}
+
+TEMPLATE_TEST_CASE_SIG("FLIP G2P blends its formula with PIC", "[property]", ((int Dim), Dim), 2, 3) {
+  const double alpha = GENERATE(0.0, 0.3, 1.0);
+  CAPTURE(alpha);
+  World world;
+  fill<Dim>(world, 200, 14);
+  set_velocities<Dim>(world, 15);
+  Random random(16);
+  const auto v_old = world.column<node::Velocity<Dim>>();
+  const auto v_new = world.column<node::NewVelocity<Dim>>();
+  for (Vec<Dim>& v : v_old) v = random.vector<Dim>(-1, 1);
+  for (Vec<Dim>& v : v_new) v = random.vector<Dim>(-1, 1);
+  const auto v_p = world.column<particle::Velocity<Dim>>();
+  const std::vector<Vec<Dim>> before(v_p.begin(), v_p.end());
+  world.resource<FlipBlend>().alpha = alpha;
+  run<G2PVelocityFlip<Dim>>(world);
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  double worst = 0;
+  for (std::size_t p = 0; p < y_p.size(); ++p) {
+    const PlainWeights<Dim> weights(small_grid<Dim>(), y_p[p]);
+    Vec<Dim> change = Vec<Dim>::Zero();
+    Vec<Dim> pic = Vec<Dim>::Zero();
+    for (std::size_t i = 0; i < v_new.size(); ++i) {
+      change += weights.value[i] * (v_new[i] - v_old[i]);
+      pic += weights.value[i] * v_new[i];
+    }
+    worst = std::max(worst, (v_p[p] - (alpha * (before[p] + change) + (1 - alpha) * pic)).norm());
+  }
+  CHECK(worst < 1e-14);  // sums of 27 products of size 1
+}

@@ -1,0 +1,165 @@
+#include "support/dense_equations.hpp"
+
+#include "engine/clock.hpp"
+#include "support/kernels.hpp"
+
+namespace minamo::dense {
+
+namespace {
+
+/// v = c_v u + v^, a = c_a u + a^ at every node, (F7)-(F10).
+template <int Dim>
+struct Kinematics {
+  double c_v = 0;
+  double c_a = 0;
+  double time = 0;  ///< at which the momentum balance holds
+  std::vector<Vec<Dim>> v_known;
+  std::vector<Vec<Dim>> a_known;
+
+  explicit Kinematics(scene_run::SceneRun& run) {
+    World& world = run.world();
+    const Clock& clock = world.resource<Clock>();  // after the step: time is its end
+    const double dt = clock.step;
+    const double beta = run.scene().newmark_beta;
+    const double gamma = run.scene().newmark_gamma;
+    const bool newmark = run.scene().integrator == "newmark";
+    const auto v_n = world.column<node::Velocity<Dim>>();
+    c_v = newmark ? gamma / (beta * dt) : 1 / dt;
+    c_a = newmark ? 1 / (beta * dt * dt) : 2 / (dt * dt);
+    time = newmark ? clock.time : clock.time - dt / 2;
+    for (std::size_t i = 0; i < v_n.size(); ++i) {
+      if (newmark) {
+        const Vec<Dim> a_n = world.column<node::Acceleration<Dim>>()[i];
+        v_known.push_back(-(gamma / beta - 1) * v_n[i] - dt / 2 * (gamma / beta - 2) * a_n);
+        a_known.push_back(-1 / (beta * dt) * v_n[i] - (1 / (2 * beta) - 1) * a_n);
+      } else {
+        v_known.push_back(Vec<Dim>::Zero());
+        a_known.push_back(-2 / dt * v_n[i]);
+      }
+    }
+  }
+};
+
+template <int Dim>
+struct Sums {
+  Eigen::VectorXd mass;
+  std::vector<Vec<Dim>> force;              ///< sum m_p S_I b_p
+  Eigen::MatrixXd divergence;               ///< V S_I grad S_J in Dim columns per J
+  Eigen::MatrixXd laplacian;                ///< V grad S_I . grad S_J
+  Eigen::MatrixXd friction;                 ///< Dim x Dim blocks: force on I per velocity of J
+};
+
+template <int Dim>
+Sums<Dim> sum_over_particles(scene_run::SceneRun& run, double time) {
+  World& world = run.world();
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  const auto n = static_cast<Eigen::Index>(grid.node_count());
+  Sums<Dim> s{Eigen::VectorXd::Zero(n), std::vector<Vec<Dim>>(grid.node_count(), Vec<Dim>::Zero()),
+              Eigen::MatrixXd::Zero(n, Dim * n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(Dim * n, Dim * n)};
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto m_p = world.column<particle::Mass>();
+  for (std::size_t p = 0; p < y_p.size(); ++p) {
+    const kernels::PlainWeights<Dim> w(grid, y_p[p]);
+    const double V = m_p[p] / run.scene().density;
+    std::array<double, 4> xyzt{0, 0, 0, time};
+    for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = y_p[p][d];
+    Vec<Dim> b;
+    for (int d = 0; d < Dim; ++d) b[d] = run.scene().body_force[static_cast<std::size_t>(d)](xyzt);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double S_i = w.value[static_cast<std::size_t>(i)];
+      const Vec<Dim> G_i = w.gradient[static_cast<std::size_t>(i)];
+      if (S_i == 0 && G_i.norm() == 0) continue;
+      s.mass[i] += m_p[p] * S_i;
+      s.force[static_cast<std::size_t>(i)] += m_p[p] * S_i * b;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const Vec<Dim> G_j = w.gradient[static_cast<std::size_t>(j)];
+        s.divergence.template block<1, Dim>(i, Dim * j) += V * S_i * G_j.transpose();
+        s.laplacian(i, j) += V * G_i.dot(G_j);
+        s.friction.template block<Dim, Dim>(Dim * i, Dim * j) +=
+            run.scene().viscosity * V * (G_i.dot(G_j) * Mat<Dim>::Identity() + G_j * G_i.transpose());
+      }
+    }
+  }
+  return s;
+}
+
+}  // namespace
+
+// One function, because it is one formula read from top to bottom.
+template <int Dim>
+Equations assemble(scene_run::SceneRun& run) {
+  World& world = run.world();
+  const Kinematics<Dim> kin(run);
+  const Sums<Dim> s = sum_over_particles<Dim>(run, kin.time);
+  const auto row = world.column<node::Row>();
+  const auto fixed = world.column<node::Fixed>();
+  const double dt = world.resource<Clock>().step;
+  const double h = run.scene().grid.spacing;
+  const double rho = run.scene().density;
+  const double tau = 1 / std::sqrt(std::pow(2 * rho / dt, 2) + std::pow(4 * run.scene().viscosity / (h * h), 2));
+  const double e = 1e-6 * dt / (rho * rho * h * h);
+
+  const auto unknowns = static_cast<Eigen::Index>(world.rows<ActiveNodes>() * (Dim + 1));
+  Equations eq{Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns)};
+  const auto at = [&](std::size_t i, int d) { return static_cast<Eigen::Index>(row[i]) * (Dim + 1) + d; };
+  const auto held = [&](std::size_t i, int d) { return (fixed[i] >> d & 1) != 0; };
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] < 0) continue;
+    const auto I = static_cast<Eigen::Index>(i);
+    const Vec<Dim> b_i = s.force[i] / s.mass[I];
+    for (int d = 0; d < Dim; ++d) {
+      eq.matrix(at(i, d), at(i, d)) += s.mass[I] * kin.c_a;
+      eq.right_hand_side[at(i, d)] += s.mass[I] * (b_i[d] - kin.a_known[i][d]);
+    }
+    eq.matrix(at(i, Dim), at(i, Dim)) += e * s.mass[I];
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      const auto J = static_cast<Eigen::Index>(j);
+      if (s.mass[J] == 0) continue;
+      const Vec<Dim> b_j = s.force[j] / s.mass[J];
+      for (int d = 0; d < Dim; ++d) {
+        const double D_ij = s.divergence(I, Dim * J + d);
+        const double D_ji = s.divergence(J, Dim * I + d);
+        // Light nodes fall freely where no wall holds them; what they do is known.
+        const double u_light = held(j, d) ? 0 : (b_j[d] - kin.a_known[j][d]) / kin.c_a;
+        const double v_known = kin.v_known[j][d] + (row[j] < 0 ? kin.c_v * u_light : 0);
+        for (int c = 0; c < Dim; ++c) {
+          const double K = s.friction(Dim * I + c, Dim * J + d);
+          if (row[j] >= 0 && !held(j, d)) eq.matrix(at(i, c), at(j, d)) += kin.c_v * K;
+          eq.right_hand_side[at(i, c)] -= K * v_known;
+        }
+        eq.right_hand_side[at(i, Dim)] -= D_ij * v_known;
+        if (row[j] < 0) continue;
+        eq.matrix(at(i, d), at(j, Dim)) -= D_ji;
+        eq.right_hand_side[at(i, Dim)] -= tau * rho * D_ji * (kin.a_known[j][d] - b_j[d]);
+        if (!held(j, d)) eq.matrix(at(i, Dim), at(j, d)) += kin.c_v * D_ij + tau * rho * kin.c_a * D_ji;
+      }
+      if (row[j] >= 0) eq.matrix(at(i, Dim), at(j, Dim)) += tau * s.laplacian(I, J);
+    }
+    for (int d = 0; d < Dim; ++d) {
+      if (!held(i, d)) continue;
+      eq.matrix.row(at(i, d)).setZero();
+      eq.matrix(at(i, d), at(i, d)) = 1;
+      eq.right_hand_side[at(i, d)] = 0;
+    }
+  }
+  return eq;
+}
+
+Equations as_assembled(World& world) {
+  const auto& pattern = world.resource<matrix::Pattern>();
+  const auto& values = world.resource<matrix::Values>().values;
+  const auto& rhs = world.resource<matrix::RightHandSide>().values;
+  const auto n = static_cast<Eigen::Index>(rhs.size());
+  Equations eq{Eigen::MatrixXd::Zero(n, n), Eigen::Map<const Eigen::VectorXd>(rhs.data(), n)};
+  for (Eigen::Index column = 0; column < n; ++column) {
+    const auto first = static_cast<std::size_t>(pattern.outer[static_cast<std::size_t>(column)]);
+    const auto past = static_cast<std::size_t>(pattern.outer[static_cast<std::size_t>(column) + 1]);
+    for (std::size_t k = first; k < past; ++k) eq.matrix(pattern.inner[k], column) += values[k];
+  }
+  return eq;
+}
+
+template Equations assemble<2>(scene_run::SceneRun&);
+template Equations assemble<3>(scene_run::SceneRun&);
+
+}  // namespace minamo::dense

@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// The equations of a step once more: (F12), (F13) of the formulation as plain loops over particles and all pairs of
+/// nodes into a dense matrix. Taken from the world after a step: y_p, m_p, v_I^n, a_I^n and who is active; nothing else.
+
+#include "support/scene_run.hpp"
+
+#include <Eigen/Dense>
+
+namespace minamo::dense {
+
+/// Unknown (Dim + 1) r + d as in systems/solve/monolithic.hpp.
+struct Equations {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right_hand_side;
+};
+
+template <int Dim>
+Equations assemble(scene_run::SceneRun& run);
+
+/// The matrix that the engine assembled in the last step, and its right-hand side.
+Equations as_assembled(World& world);
+
+}  // namespace minamo::dense

@@ -1,0 +1,160 @@
+#pragma once
+/// \file
+/// Kernels one at a time, on a world with random particles; and the weights of (E1), (E2) written down once more,
+/// node by node and without dual cells, to compare with.
+
+#include "components/fluid.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "engine/system.hpp"
+#include "systems/grid/bin.hpp"
+#include "systems/transfer/mass.hpp"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace minamo::kernels {
+
+/// Runs one system on the world.
+template <class Kernel>
+void run(World& world, Kernel kernel = {}) {
+  const System system = make_system("kernel", kernel);
+  system.prepare(world);
+  system.run(world);
+}
+
+/// Random numbers that are the same everywhere.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double operator()(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
+  template <int Dim>
+  Vec<Dim> vector(double low, double high) {
+    Vec<Dim> v;
+    for (int d = 0; d < Dim; ++d) v[d] = (*this)(low, high);
+    return v;
+  }
+  template <int Dim>
+  Mat<Dim> matrix(double low, double high) {
+    Mat<Dim> m;
+    for (int d = 0; d < Dim; ++d) m.col(d) = vector<Dim>(low, high);
+    return m;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// 7, 5, 4 cells of 1/2 m from (1, -2, 3) m: nothing is round, cubic or at the origin.
+template <int Dim>
+Grid<Dim> small_grid() {
+  Grid<Dim> grid;
+  grid.spacing = 0.5;
+  constexpr std::array<int, 3> cells{7, 5, 4};
+  constexpr std::array<double, 3> low{1, -2, 3};
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    grid.cells[axis] = cells[axis];
+    grid.low[d] = low[axis];
+    grid.high[d] = low[axis] + grid.spacing * cells[axis];
+  }
+  return grid;
+}
+
+/// Anywhere in the box; every eighth in a corner's half cells, every 16th of these exactly at the walls.
+template <int Dim>
+Vec<Dim> random_place(Random& random, const Grid<Dim>& grid, std::size_t number) {
+  Vec<Dim> x = random.vector<Dim>(0, 1).cwiseProduct(grid.high - grid.low) + grid.low;
+  if (number % 8 == 0) x = grid.low + random.vector<Dim>(0, 0.5 * grid.spacing);
+  if (number % 8 == 1) x = grid.high - random.vector<Dim>(0, 0.5 * grid.spacing);
+  if (number % 128 == 0) x = grid.low;
+  if (number % 128 == 1) x = grid.high;
+  return x;
+}
+
+template <int Dim>
+void set_grid(World& world, const Grid<Dim>& grid) {
+  world.resource<Grid<Dim>>() = grid;
+  world.resource<Fluid>() = {1000, 0.7};
+  world.resize<Nodes>(grid.node_count());
+  world.column<node::Fixed>();
+}
+
+/// Particles with random masses at random places, sorted, with the nodal mass.
+template <int Dim>
+void fill(World& world, std::size_t count, std::uint64_t seed) {
+  const Grid<Dim> grid = small_grid<Dim>();
+  set_grid<Dim>(world, grid);
+  world.resize<Particles>(count);
+  Random random(seed);
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto m_p = world.column<particle::Mass>();
+  const auto id = world.column<particle::Id>();
+  for (std::size_t p = 0; p < count; ++p) {
+    y_p[p] = random_place<Dim>(random, grid, p);
+    m_p[p] = random(0.5, 1.5);
+    id[p] = static_cast<std::int64_t>(p);
+  }
+  run<Bin<Dim>>(world);
+  run<P2GMass<Dim>>(world);
+}
+
+/// Value and derivative of one axis of (E1), (E2): node `node` at `r`, both in units of h from the low wall.
+struct AxisWeight {
+  double value;
+  double slope;  ///< per h
+};
+inline AxisWeight plain_axis_weight(double r, int node, int last) {
+  const double at = r - node;
+  if (r < 0.5 || r > last - 0.5) {
+    if (std::abs(at) > 1) return {0, 0};
+    // At the far end of its half cell a wall node slopes towards the inside.
+    const bool rising = node > r || (at == 0 && node == last);
+    return {1 - std::abs(at), rising ? 1.0 : -1.0};
+  }
+  if (std::abs(at) <= 0.5) return {0.75 - at * at, -2 * at};
+  if (std::abs(at) <= 1.5) return {0.5 * std::pow(1.5 - std::abs(at), 2), at > 0 ? at - 1.5 : at + 1.5};
+  return {0, 0};
+}
+
+/// S_I and its gradient at a point, for every node of the grid.
+template <int Dim>
+struct PlainWeights {
+  std::vector<double> value;
+  std::vector<Vec<Dim>> gradient;  ///< [1/m]
+
+  PlainWeights(const Grid<Dim>& grid, const Vec<Dim>& x) {
+    for (std::size_t i = 0; i < grid.node_count(); ++i) {
+      std::size_t rest = i;
+      double product = 1;
+      Vec<Dim> slope = Vec<Dim>::Ones();
+      for (int d = 0; d < Dim; ++d) {
+        const auto nodes = static_cast<std::size_t>(grid.nodes(d));
+        const auto w = plain_axis_weight((x[d] - grid.low[d]) / grid.spacing, static_cast<int>(rest % nodes),
+                                         grid.cells[static_cast<std::size_t>(d)]);
+        rest /= nodes;
+        product *= w.value;
+        for (int e = 0; e < Dim; ++e) slope[e] *= e == d ? w.slope / grid.spacing : w.value;
+      }
+      value.push_back(product);
+      gradient.push_back(slope);
+    }
+  }
+};
+
+/// Position of a node by its row.
+template <int Dim>
+Vec<Dim> node_position(const Grid<Dim>& grid, std::size_t row) {
+  Vec<Dim> x;
+  for (int d = 0; d < Dim; ++d) {
+    const auto nodes = static_cast<std::size_t>(grid.nodes(d));
+    x[d] = grid.low[d] + grid.spacing * static_cast<double>(row % nodes);
+    row /= nodes;
+  }
+  return x;
+}
+
+}  // namespace minamo::kernels

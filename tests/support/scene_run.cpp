@@ -1,0 +1,75 @@
+#include "support/scene_run.hpp"
+
+#include "engine/clock.hpp"
+#include "tools/scene_file.hpp"
+
+namespace minamo::scene_run {
+
+Json scene_of_file(const std::string& name) { return read_json(std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name); }
+
+Json with(Json scene, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) set_value(scene, assignment);
+  return scene;
+}
+
+const SystemRegistry& registry() {
+  static const SystemRegistry systems = [] {
+    SystemRegistry made;
+    register_systems(made);
+    return made;
+  }();
+  return systems;
+}
+
+Scene read(const Json& json) {
+  Input::Document document(json, "scene.json");
+  Scene scene = read_scene(document.root(), registry());
+  document.finish();
+  document.require_valid();
+  return scene;
+}
+
+namespace {
+
+/// Schedules name components, so the world is seeded before they are made.
+World& seeded(const Scene& scene, World& world) {
+  seed(scene, "scene.json", world);
+  return world;
+}
+
+}  // namespace
+
+SceneRun::SceneRun(const Json& json, Execution execution)
+    : scene_(read(json)),
+      start_(make_pipeline(scene_, registry()).start, seeded(scene_, world_), nullptr, execution),
+      step_(make_pipeline(scene_, registry()).step, world_, nullptr, execution) {}
+
+void SceneRun::start() {
+  if (started_) return;
+  started_ = true;
+  world_.resource<Clock>().step = scene_.time.step.value();
+  start_.run();
+}
+
+void SceneRun::step(int count) {
+  start();
+  Clock& clock = world_.resource<Clock>();
+  for (int k = 0; k < count; ++k) {
+    clock.end_of_step = static_cast<double>(clock.index + 1) * clock.step;
+    step_.run();
+    clock.time = clock.end_of_step;
+    ++clock.index;
+  }
+}
+
+std::map<std::string, std::vector<std::byte>> state(const World& world) {
+  std::map<std::string, std::vector<std::byte>> columns;
+  for (const auto& [name, storage] : world.components()) {
+    if (storage->info().lifetime != Lifetime::state) continue;
+    const auto bytes = storage->bytes();
+    columns.emplace(name, std::vector<std::byte>(bytes.begin(), bytes.end()));
+  }
+  return columns;
+}
+
+}  // namespace minamo::scene_run
