@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The dual cells that hold particles, in the order in which particles are sorted: blocks of 4^d dual cells, cells
-/// within a block. Blocks of one colour share no node, so they can be scattered from side by side.
+/// The dual cells that hold particles, in the order in which particles are sorted: blocks of 4^d dual cells (the last of
+/// an axis up to 7), cells within a block. Blocks of one colour share no node: they can be scattered from side by side.
 
 #include "components/types.hpp"
 #include "engine/component.hpp"
@@ -15,7 +15,8 @@ template <int Dim>
 struct OccupiedCells {
   /// Dual cells per direction of a block. Less than 3 would let the cut cells of two walls share a node.
   static constexpr int block_width = 4;
-  static constexpr std::size_t colours = power(2, Dim);
+  /// Two per axis, and a third where a periodic axis has an odd number of blocks.
+  static constexpr std::size_t colours = power(3, Dim);
 
   struct Cell {
     Index<Dim> node;      ///< the node in its middle
@@ -41,9 +42,10 @@ struct Moments {
 
 /// Work space of the sort, kept so that a step does not allocate.
 struct BinBuffer {
-  std::vector<std::uint32_t> key;    ///< of every particle
-  std::vector<std::uint32_t> first;  ///< of every key
-  std::vector<std::uint32_t> place;  ///< which particle comes here
+  std::vector<std::uint32_t> number;          ///< of the cell of every particle
+  std::vector<std::uint32_t> first;           ///< particle of every cell
+  std::vector<std::uint32_t> place;           ///< which particle comes here
+  std::vector<std::uint32_t> first_of_block;  ///< cell of every block
   static constexpr ComponentInfo info{"cells.bin_buffer", "", "1", Lifetime::cache};
 };
 

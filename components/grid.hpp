@@ -2,6 +2,7 @@
 /// \file
 /// The Cartesian grid: nodes at low + h (i, j, k), i = 0 .. cells. Around every node lies its dual cell, the points
 /// nearest to it, cut in half at walls. Particles of one dual cell share their 3^d nodes.
+/// Along a periodic axis the node at the high end is the one at the low end, and the box has no walls there.
 
 #include "components/types.hpp"
 #include "engine/component.hpp"
@@ -13,10 +14,20 @@ struct Grid {
   Vec<Dim> low = Vec<Dim>::Zero();   ///< corner of the box [m]
   Vec<Dim> high = Vec<Dim>::Zero();  ///< opposite corner [m]
   double spacing = 0;                ///< h, the same in all directions [m]
-  Index<Dim> cells{};                ///< per direction, at least 3
+  Index<Dim> cells{};                ///< per direction, at least 3; at least 5 along a periodic axis
+  std::array<bool, static_cast<std::size_t>(Dim)> periodic{};
   static constexpr ComponentInfo info{"grid", "h", "m", Lifetime::constant};
 
-  int nodes(int axis) const { return cells[static_cast<std::size_t>(axis)] + 1; }
+  int nodes(int axis) const {
+    const auto d = static_cast<std::size_t>(axis);
+    return cells[d] + (periodic[d] ? 0 : 1);
+  }
+  /// The node itself, or the one that it stands for beyond the end of a periodic axis.
+  int wrapped(int axis, int node) const {
+    if (!periodic[static_cast<std::size_t>(axis)]) return node;
+    const int count = nodes(axis);
+    return node < 0 ? node + count : node >= count ? node - count : node;
+  }
   std::size_t node_count() const {
     std::size_t count = 1;
     for (int d = 0; d < Dim; ++d) count *= static_cast<std::size_t>(nodes(d));

@@ -40,6 +40,18 @@ struct Viscosity : Column<ActiveNodes, std::array<double, stencil_size<Dim> * Di
   static constexpr ComponentInfo info{"matrix.viscosity", "K_IJ", "kg/s", Lifetime::scratch};
 };
 
+/// What the stabilization adds to the mass balance: at [(Dim + 1) k + d] per acceleration of the neighbour, at
+/// [(Dim + 1) k + Dim] per pressure. [m^(d-1) s, m^(d+1) s/kg]
+template <int Dim>
+struct Stabilization : Column<ActiveNodes, std::array<double, stencil_size<Dim> * (Dim + 1)>> {
+  static constexpr ComponentInfo info{"matrix.stabilization", "", "", Lifetime::scratch};
+};
+
+/// The part of the stabilization that is known, on the right-hand side of the mass balance. [m^d/s]
+struct StabilizationSource : Column<ActiveNodes, double> {
+  static constexpr ComponentInfo info{"matrix.stabilization_source", "s_I", "m^d/s", Lifetime::scratch};
+};
+
 /// Where the monolithic matrix has entries: compressed columns, (d + 1) unknowns per row of the tables, pressure last.
 struct Pattern {
   std::vector<int> outer;      ///< start of every column, and the end

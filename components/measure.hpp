@@ -5,7 +5,11 @@
 #include "components/types.hpp"
 #include "engine/component.hpp"
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace minamo::measure {
 
@@ -39,6 +43,44 @@ struct MaxDivergence {
 struct Overlap {
   double value = 0;
   static constexpr ComponentInfo info{"measure.overlap", "overlap", "1", Lifetime::scratch};
+};
+
+/// Points where pressure and velocity are measured.
+template <int Dim>
+struct Probes {
+  struct Probe {
+    Vec<Dim> at = Vec<Dim>::Zero();  ///< [m]
+    std::string pressure;            ///< column of the history
+    std::array<std::string, static_cast<std::size_t>(Dim)> velocity;
+  };
+  std::vector<Probe> probes;
+  static constexpr ComponentInfo info{"measure.probes", "x_s", "m", Lifetime::constant};
+};
+
+/// Further columns of the history, in the order in which systems first name them. A system that measures sets its
+/// columns in every step, the start included.
+struct Columns {
+  struct Column {
+    std::string name;
+    double value = 0;
+  };
+  std::vector<Column> columns;
+  // Not scratch, because most scenes have no system that writes them.
+  static constexpr ComponentInfo info{"measure.columns", "", "", Lifetime::cache};
+
+  /// Null for a name that no system has set.
+  const double* find(std::string_view name) const {
+    const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+    return found == columns.end() ? nullptr : &found->value;
+  }
+  void set(std::string_view name, double value) {
+    const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+    if (found == columns.end()) {
+      columns.push_back({std::string(name), value});
+    } else {
+      found->value = value;
+    }
+  }
 };
 
 }  // namespace minamo::measure

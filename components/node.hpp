@@ -59,6 +59,12 @@ struct KnownAcceleration : Column<Nodes, Vec<Dim>> {
   static constexpr ComponentInfo info{"node.known_acceleration", "a^_I", "m/s^2", Lifetime::scratch};
 };
 
+/// Lumped projection g_I of the pressure gradient of the step before. [Pa/m]
+template <int Dim>
+struct PressureGradient : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.pressure_gradient", "g_I", "Pa/m", Lifetime::scratch};
+};
+
 /// Displacement u_I over the step. [m]
 template <int Dim>
 struct Displacement : Column<Nodes, Vec<Dim>> {
@@ -71,6 +77,24 @@ struct Pressure : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.pressure", "p_I", "Pa", Lifetime::state};
 };
 
+/// Velocity v*_I that XPIC hands back to the particles beside the change of the step. [m/s]
+template <int Dim>
+struct FilteredVelocity : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.filtered_velocity", "v*_I", "m/s", Lifetime::scratch};
+};
+
+/// What XPIC's filter has not yet passed. [m/s]
+template <int Dim>
+struct Residue : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.residue", "r_I", "m/s", Lifetime::scratch};
+};
+
+/// The residue after a trip to the particles and back. [m/s]
+template <int Dim>
+struct Smoothed : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.smoothed", "S^+ S r_I", "m/s", Lifetime::scratch};
+};
+
 /// Volume V~_I of the particles around a node at the end of the step. [m^3; m^2 in 2-D]
 struct Volume : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.volume", "V~_I", "m^d", Lifetime::scratch};
@@ -79,6 +103,11 @@ struct Volume : Column<Nodes, double> {
 /// Particle volume E_I to be pushed away from a node, or drawn to it. [m^3; m^2 in 2-D]
 struct VolumeExcess : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.volume_excess", "E_I", "m^d", Lifetime::scratch};
+};
+
+/// How much of the excess a unit step of the delta-correction takes away. [m^(d-2)]
+struct VolumeResponse : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.volume_response", "r_I", "m^(d-2)", Lifetime::scratch};
 };
 
 /// Displacement d_I that corrects the volume. [m]

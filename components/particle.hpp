@@ -65,6 +65,12 @@ struct Pressure : Column<Particles, double> {
   static constexpr ComponentInfo info{"particle.pressure", "p_p", "Pa", Lifetime::scratch};
 };
 
+/// Pressure gradient of the last solve. [Pa/m]
+template <int Dim>
+struct PressureGradient : Column<Particles, Vec<Dim>> {
+  static constexpr ComponentInfo info{"particle.pressure_gradient", "grad p_p", "Pa/m", Lifetime::state};
+};
+
 /// Body force per unit mass b_p, where it varies in space. [m/s^2]
 template <int Dim>
 struct BodyForce : Column<Particles, Vec<Dim>> {

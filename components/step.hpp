@@ -27,10 +27,10 @@ struct FlipBlend {
   static constexpr ComponentInfo info{"flip_blend", "alpha", "1", Lifetime::constant};
 };
 
-/// Stabilization time over density, tau. [m^3 s/kg]
-struct StabilizationTime {
-  double tau = 0;
-  static constexpr ComponentInfo info{"stabilization.tau", "tau", "m^3 s/kg", Lifetime::scratch};
+/// Order m of XPIC. [1]
+struct XpicOrder {
+  int m = 2;
+  static constexpr ComponentInfo info{"xpic.order", "m", "1", Lifetime::constant};
 };
 
 /// Share of the volume excess that is corrected in a step. [1]

@@ -120,7 +120,7 @@ std::optional<Expression> check_expression(InputPlace& place, const std::string&
   else
     place.note(at, "wrong type", phrase(rule, scope).one, value);
   if (!expression || !expression->is_constant() || fits(rule, (*expression)({}))) return expression;
-  place.note(at, "out of range", phrase(rule, scope).one, value);
+  place.note(at, std::isfinite((*expression)({})) ? "out of range" : "not finite", phrase(rule, scope).one, value);
   return {};
 }
 
@@ -230,6 +230,25 @@ std::vector<Expression> Input::expressions(std::string_view key, std::size_t siz
       list_shape(key, phrase(rule, scope), expression_schema(rule), size, rule.doc, json_of(rule.fallback));
   return read_elements(*place_, std::move(shape), size, constant(rule.fallback), check)
       .value_or(std::vector<Expression>(size, Expression(harmless(rule))));
+}
+
+std::optional<Expression> Input::optional_expression(std::string_view key, const ExpressionScope& scope,
+                                                     const Number& rule) {
+  KeyShape shape = key_shape(key, phrase(rule, scope).one, expression_schema(rule), rule.doc, {});
+  shape.presence = KeyShape::Presence::optional;
+  return read_key(
+      *place_, std::move(shape), std::optional<Expression>(),
+      [&](const std::string& at, const Json& value) { return check_expression(*place_, at, value, scope, rule); });
+}
+
+std::optional<std::vector<Expression>> Input::optional_expressions(std::string_view key, std::size_t size,
+                                                                   const ExpressionScope& scope, const Number& rule) {
+  const auto check = [&](const std::string& at, const Json& value) {
+    return check_expression(*place_, at, value, scope, rule);
+  };
+  KeyShape shape = list_shape(key, phrase(rule, scope), expression_schema(rule), size, rule.doc, {});
+  shape.presence = KeyShape::Presence::optional;
+  return read_elements(*place_, std::move(shape), size, std::optional<Expression>(), check);
 }
 
 std::map<std::string, double> Input::named_numbers(std::string_view key, std::string_view doc) {

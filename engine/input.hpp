@@ -51,6 +51,10 @@ class Input {
   Expression expression(std::string_view key, const ExpressionScope& scope, const Number& rule);
   std::vector<Expression> expressions(std::string_view key, std::size_t size, const ExpressionScope& scope,
                                       const Number& rule);
+  /// Like expression() and expressions(), for a key that may be absent without a default.
+  std::optional<Expression> optional_expression(std::string_view key, const ExpressionScope& scope, const Number& rule);
+  std::optional<std::vector<Expression>> optional_expressions(std::string_view key, std::size_t size,
+                                                              const ExpressionScope& scope, const Number& rule);
   /// An object with any keys whose values are numbers, like `constants`.
   std::map<std::string, double> named_numbers(std::string_view key, std::string_view doc);
 
@@ -65,6 +69,9 @@ class Input {
   /// Every element of the list under a key, each an object. An absent list is empty.
   void list(std::string_view key, std::string_view doc, std::size_t at_least,
             const std::function<void(Input&, std::size_t)>& read);
+  /// Every object of the object under a key, whose own keys are names that the user chooses. An absent one is empty.
+  void named_objects(std::string_view key, std::string_view doc,
+                     const std::function<void(Input&, const std::string& name)>& read);
   /// A name under `key` that decides which further keys of this object there are. A wrong name reads no variant, and
   /// the fallback or the first name is returned; the same holds for one_of().
   using Variants = std::vector<std::pair<std::string, std::function<void(Input&)>>>;
@@ -75,14 +82,16 @@ class Input {
   std::string one_of(std::string_view doc, const Variants& variants);
 
   /// Notes a problem that the rules cannot express at this place, at a key of it, or further below: `key` is empty or a
-  /// JSON pointer without its first slash. Left out if a rule has already found one at or under that key, whose value is
-  /// then not the user's. An empty `got` shows the key's value.
+  /// JSON pointer without its first slash. Left out if a rule has already found one at or under that key, whose value
+  /// is then not the user's. An empty `got` shows the key's value.
   void problem(std::string_view key, std::string what, std::string expected = {}, std::string got = {},
                std::string closest = {});
   /// Whether nothing wrong is known of a key (as in problem()), so that its value is the user's.
   bool sound(std::string_view key) const;
   /// How many elements the list at a key (as in problem()) has, read or not; none if there is no list.
   std::optional<std::size_t> elements(std::string_view key) const;
+  /// The keys of the object at a key (as in problem()), read or not; none if there is no object.
+  std::vector<std::string> names(std::string_view key) const;
   bool describing() const;
   const std::string& pointer() const;
 

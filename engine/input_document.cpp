@@ -116,7 +116,7 @@ Json Input::Document::schema() const {
 }
 
 std::string Input::Document::key_table() const {
-  return "| Key | Value | Default | Meaning |\n| --- | --- | --- | --- |\n" + table_rows(*root_.place_->shape, "", "");
+  return "| Key | Value | Default | Meaning |\n| --- | --- | --- | --- |\n" + table_rows(*root_.place_->shape, "");
 }
 
 }  // namespace minamo

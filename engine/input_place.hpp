@@ -25,6 +25,7 @@ struct KeyShape {
   std::optional<Json> fallback;
   Presence presence = Presence::required;
   std::shared_ptr<ObjectShape> object;  ///< the object under the key, or each element of the list under it
+  bool names_objects = false;           ///< the object's own keys are free names, `object` is what is under each
 };
 
 struct ChoiceShape;
@@ -124,6 +125,6 @@ std::optional<std::string> read_name(InputPlace& place, std::string_view key, st
 
 /// The shape as JSON Schema, and as rows of a Markdown table.
 Json object_schema(const ObjectShape& shape);
-std::string table_rows(const ObjectShape& shape, const std::string& pointer, const std::string& condition);
+std::string table_rows(const ObjectShape& shape, const std::string& pointer);
 
 }  // namespace minamo

@@ -1,5 +1,7 @@
 #include "engine/input_place.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 namespace minamo {
@@ -32,8 +34,12 @@ bool is_list(const KeyShape& key) { return !key.items.empty(); }
 Json key_schema(const KeyShape& key) {
   if (!key.object) return key.schema;
   Json schema{{"type", is_list(key) ? "array" : "object"}};
-  if (is_list(key)) schema["items"] = object_schema(*key.object);
-  if (!is_list(key)) schema = object_schema(*key.object);
+  if (is_list(key))
+    schema["items"] = object_schema(*key.object);
+  else if (key.names_objects)
+    schema["additionalProperties"] = object_schema(*key.object);
+  else
+    schema = object_schema(*key.object);
   schema.update(key.schema);
   return schema;
 }
@@ -109,7 +115,7 @@ std::string type_text(const KeyShape& key) {
   std::string text = key.expected;
   if (key.schema.contains("maxItems")) {
     const Json &least = key.schema["minItems"], most = key.schema["maxItems"];
-    text = "list of " + least.dump() + (least == most ? "" : " to " + most.dump()) + " " + key.items;
+    text = fmt::format("list of {}{} {}", least.dump(), least == most ? "" : " or " + most.dump(), key.items);
   }
   if (text.empty()) text = key.schema.contains("type") ? types_text(key.schema["type"]) : "see meaning";
   for (const std::string article : {"a ", "an "})
@@ -124,13 +130,33 @@ std::string default_text(const KeyShape& key) {
   return is_required(key) ? "required" : "optional";
 }
 
-std::string condition_text(const ChoiceShape& choice, const Alternative& alternative, const std::string& outer) {
+/// When a key of an alternative may stand: ` (with scheme "flip")`.
+std::string condition_text(const ChoiceShape& choice, const Alternative& alternative, const std::string& key) {
+  if (!choice.key.empty()) return fmt::format(" (with {} \"{}\")", choice.key, alternative.name);
+  if (key != alternative.name) return fmt::format(" (with {})", alternative.name);
   std::string others;
   for (const Alternative& other : choice.alternatives)
     if (other.name != alternative.name) others += (others.empty() ? "" : ", ") + other.name;
-  const std::string condition = choice.key.empty() ? others.empty() ? "" : "instead of " + others
-                                                   : "with " + choice.key + " \"" + alternative.name + "\"";
-  return outer + (condition.empty() ? "" : " (" + condition + ")");
+  return others.empty() ? "" : fmt::format(" (instead of {})", others);
+}
+
+using Condition = std::function<std::string(const std::string& key)>;
+
+std::string table_rows(const ObjectShape& shape, const std::string& pointer, const Condition& condition) {
+  std::string rows;
+  for (const KeyShape& key : shape.keys) {
+    const std::string here = fmt::format("{}/{}", pointer, key.name);
+    const std::string meaning = key.schema.value("description", "") + condition(key.name);
+    rows += fmt::format("| {} | {} | {} | {} |\n", cell(here), cell(type_text(key)), cell(default_text(key)),
+                        cell(meaning));
+    if (key.object) rows += table_rows(*key.object, here + (is_list(key) ? "/*" : ""));
+  }
+  for (const ChoiceShape& choice : shape.choices)
+    for (const Alternative& alternative : choice.alternatives)
+      rows += table_rows(alternative.shape, pointer, [&](const std::string& key) {
+        return condition(key) + condition_text(choice, alternative, key);
+      });
+  return rows;
 }
 
 }  // namespace
@@ -144,19 +170,8 @@ Json object_schema(const ObjectShape& shape) {
   return schema;
 }
 
-std::string table_rows(const ObjectShape& shape, const std::string& pointer, const std::string& condition) {
-  std::string rows;
-  for (const KeyShape& key : shape.keys) {
-    const std::string here = pointer + "/" + key.name;
-    const std::string meaning = key.schema.value("description", "") + condition;
-    rows += "| " + cell(here) + " | " + cell(type_text(key)) + " | " + cell(default_text(key)) + " | " + cell(meaning) +
-            " |\n";
-    if (key.object) rows += table_rows(*key.object, here + (is_list(key) ? "/*" : ""), "");
-  }
-  for (const ChoiceShape& choice : shape.choices)
-    for (const Alternative& alternative : choice.alternatives)
-      rows += table_rows(alternative.shape, pointer, condition_text(choice, alternative, condition));
-  return rows;
+std::string table_rows(const ObjectShape& shape, const std::string& pointer) {
+  return table_rows(shape, pointer, [](const std::string&) { return std::string(); });
 }
 
 }  // namespace minamo

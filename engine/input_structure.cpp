@@ -135,6 +135,36 @@ void Input::list(std::string_view key, std::string_view doc, std::size_t at_leas
   }
 }
 
+void Input::named_objects(std::string_view key, std::string_view doc,
+                          const std::function<void(Input&, const std::string&)>& read) {
+  KeyShape named = object_key(key, doc, KeyShape::Presence::optional);
+  named.expected = "an object of objects";
+  named.fallback = Json::object();
+  named.schema["default"] = Json::object();
+  named.names_objects = true;
+  const auto shape = place_->declare(std::move(named)).object;
+  const Json* value = place_->find(key);
+  if (value && !value->is_object()) place_->note(place_->pointer_to(key), "wrong type", "an object of objects", *value);
+  Input names(place_->child(key, {}));
+  open(*names.place_, Standing::present, value && value->is_object() ? value : nullptr,
+       std::make_shared<ObjectShape>());
+  const auto read_one = [&](const std::string& name, const Json* object) {
+    names.place_->known.push_back(name);
+    Input one(names.place_->child(name, {}));
+    open(*one.place_, object ? Standing::present : Standing::silent, object, shape);
+    read(one, name);
+    names.place_->echo[name] = one.place_->echo;
+  };
+  if (describing()) read_one("*", nullptr);
+  if (names.place_->object) {
+    for (const auto& [name, object] : names.place_->object->items()) {
+      if (!object.is_object()) place_->note(names.place_->pointer_to(name), "wrong type", "an object", object);
+      read_one(name, object.is_object() ? &object : nullptr);
+    }
+  }
+  place_->echo[std::string(key)] = names.place_->echo;
+}
+
 std::string Input::variant(std::string_view key, std::string_view doc, const std::optional<std::string>& fallback,
                            const Variants& variants) {
   const auto names = names_of(variants);
@@ -172,20 +202,28 @@ void Input::problem(std::string_view key, std::string what, std::string expected
   if (!key.empty() && !sound(key)) return;
   const Json* value = key.empty() ? nullptr : below(*place_, key);
   if (got.empty() && value) got = shown(*value);
-  place_->note({{}, pointer_below(pointer(), key), std::move(what), std::move(expected), std::move(got), std::move(closest)});
+  place_->note(
+      {{}, pointer_below(pointer(), key), std::move(what), std::move(expected), std::move(got), std::move(closest)});
 }
 
 bool Input::sound(std::string_view key) const {
   const std::string at = pointer_below(pointer(), key);
   const auto& problems = place_->record->problems;
-  return std::none_of(problems.begin(), problems.end(), [&](const Problem& other) {
-    return other.pointer == at || other.pointer.starts_with(at + "/");
-  });
+  return std::none_of(problems.begin(), problems.end(),
+                      [&](const Problem& other) { return other.pointer == at || other.pointer.starts_with(at + "/"); });
 }
 
 std::optional<std::size_t> Input::elements(std::string_view key) const {
   const Json* value = below(*place_, key);
   return value && value->is_array() ? std::optional(value->size()) : std::nullopt;
+}
+
+std::vector<std::string> Input::names(std::string_view key) const {
+  std::vector<std::string> names;
+  const Json* value = below(*place_, key);
+  if (!value || !value->is_object()) return names;
+  for (const auto& [name, content] : value->items()) names.push_back(name);
+  return names;
 }
 
 bool Input::describing() const { return place_->record->describing; }

@@ -103,8 +103,7 @@ std::string listed(std::span<const std::string> names) {
 
 std::string one_of_text(std::span<const std::string> names) {
   constexpr std::size_t screenful = 24;
-  return names.size() > screenful ? fmt::format("one of {} names", names.size())
-                                  : fmt::format("one of {}", listed(names));
+  return names.size() > screenful ? "a known name" : fmt::format("one of {}", listed(names));
 }
 
 std::string pointer_token(std::string_view key) {

@@ -47,7 +47,7 @@ std::string shown(const Json& value);
 /// Names as the messages list them: `["apic", "flip"]`.
 std::string listed(std::span<const std::string> names);
 
-/// `one of ["apic", "flip"]`; of names that would fill the screen only how many there are.
+/// `one of ["apic", "flip"]`; `a known name` where the list would fill the screen.
 std::string one_of_text(std::span<const std::string> names);
 
 /// A key as a step of a JSON pointer: `~` and `/` escaped.

@@ -16,16 +16,26 @@ struct Slot {
 /// What a scene needs, asked of the scene once.
 struct Needs {
   const TransferScheme& transfer;
+  std::string stabilization;
   std::string volume;
   bool newmark;
   bool viscous;
   bool uniform_force;
+  bool ode;
+  bool exact_velocity;
+  bool exact_pressure;
+  bool probes;
 
   explicit Needs(const Scene& scene)
       : transfer(transfer_scheme(scene.transfer)),
+        stabilization(scene.stabilization),
         volume(scene.volume),
         newmark(scene.integrator == "newmark"),
-        viscous(scene.viscosity > 0) {
+        viscous(scene.viscosity > 0),
+        ode(!scene.ode.empty()),
+        exact_velocity(!scene.exact.velocity.empty()),
+        exact_pressure(scene.exact.pressure.has_value()),
+        probes(!scene.probes.empty()) {
     uniform_force = std::none_of(scene.body_force.begin(), scene.body_force.end(), [](const Expression& b) {
       return b.uses("x") || b.uses("y") || b.uses("z");
     });
@@ -33,27 +43,49 @@ struct Needs {
 };
 
 std::vector<std::string> force_systems(const Needs& needs) {
-  if (needs.uniform_force) return {"uniform_body_force", "free_flight"};
-  return {"sample_body_force", "p2g_body_force", "free_flight"};
+  if (needs.uniform_force) return {needs.ode ? "uniform_body_force_ode" : "uniform_body_force", "free_flight"};
+  return {needs.ode ? "sample_body_force_ode" : "sample_body_force", "p2g_body_force", "free_flight"};
 }
 
+/// VMS adds a bulk viscosity even to an inviscid liquid.
+bool needs_viscosity_matrix(const Needs& needs) { return needs.viscous || needs.stabilization == "vms"; }
+
 std::vector<std::string> assemble_systems(const Needs& needs) {
-  std::vector<std::string> systems{"moments", "divergence_matrix", "laplacian_matrix"};
-  if (needs.viscous) systems.emplace_back("viscosity_matrix");
-  systems.emplace_back("pspg");
-  systems.emplace_back(needs.viscous ? "assemble_monolithic_viscous" : "assemble_monolithic");
+  std::vector<std::string> systems{"moments", "divergence_matrix"};
+  if (needs.stabilization != "vms") systems.emplace_back("laplacian_matrix");
+  if (needs_viscosity_matrix(needs)) systems.emplace_back("viscosity_matrix");
+  if (needs.stabilization == "vms") systems.emplace_back("add_vms_bulk_viscosity");
+  if (needs.stabilization == "oss") systems.emplace_back("p2g_pressure_gradient");
+  systems.push_back("stabilize_" + needs.stabilization);
+  systems.emplace_back(needs_viscosity_matrix(needs) ? "assemble_monolithic_viscous" : "assemble_monolithic");
   return systems;
 }
 
-std::vector<std::string> measure_systems(const Needs& needs) {
-  return {"measure_energy", needs.transfer.carries_gradient ? "measure_momentum_affine" : "measure_momentum",
-          "measure_max_speed", "measure_divergence", "measure_overlap"};
+std::vector<std::string> solve_systems(const Needs& needs) {
+  std::vector<std::string> systems{"solve_umfpack", "unpack_solution"};
+  if (needs.stabilization == "oss") systems.emplace_back("g2p_pressure_gradient");
+  return systems;
+}
+
+std::vector<std::string> measure_systems(const Needs& needs, const std::string& probes) {
+  std::vector<std::string> systems{"measure_energy",
+                                   needs.transfer.carries_gradient ? "measure_momentum_affine" : "measure_momentum",
+                                   "measure_max_speed", "measure_divergence", "measure_overlap"};
+  // Their order is that of the columns.
+  if (needs.probes) systems.push_back(probes);
+  if (needs.exact_velocity) systems.emplace_back(needs.ode ? "measure_error_velocity_ode" : "measure_error_velocity");
+  if (needs.exact_pressure) {
+    systems.emplace_back("sample_pressure");
+    systems.emplace_back(needs.ode ? "measure_error_pressure_ode" : "measure_error_pressure");
+  }
+  return systems;
 }
 
 std::vector<std::string> volume_systems(const Needs& needs) {
   if (needs.volume == "projection") {
     return {"gather_node_volume", "find_volume_excess", "solve_volume_umfpack", "shift_particles"};
   }
+  if (needs.volume == "delta") return {"gather_node_volume", "shift_by_delta"};
   return {};
 }
 
@@ -70,15 +102,15 @@ std::vector<Slot> step_slots(const Needs& needs) {
       {"bin", {"bin"}},
       {"p2g", with({"p2g_mass", transfer.p2g_velocity}, needs.newmark, transfer.p2g_acceleration)},
       {"walls", with({"activate", "hold_velocity_at_walls"}, needs.newmark, "hold_acceleration_at_walls")},
-      {"predict", {needs.newmark ? "predict_newmark" : "predict_midpoint"}},
+      {"predict", with({needs.newmark ? "predict_newmark" : "predict_midpoint"}, needs.ode, "integrate_ode")},
       {"force", force_systems(needs)},
       {"assemble", assemble_systems(needs)},
-      {"solve", {"solve_umfpack", "unpack_solution"}},
+      {"solve", solve_systems(needs)},
       {"correct", {needs.newmark ? "correct_newmark" : "correct_midpoint"}},
-      {"g2p", with({transfer.g2p_velocity}, needs.newmark, transfer.g2p_acceleration)},
+      {"g2p", with(transfer.g2p_velocity, needs.newmark, transfer.g2p_acceleration)},
       {"advect", {"advect"}},
       {"volume", volume_systems(needs)},
-      {"measure", measure_systems(needs)},
+      {"measure", measure_systems(needs, "measure_probes")},
       {"history", {"write_history"}},
   };
 }
@@ -87,23 +119,24 @@ std::vector<Slot> step_slots(const Needs& needs) {
 std::vector<std::string> standing_step(const Needs& needs, const std::string& configure) {
   std::vector<std::string> systems{configure, "bin", "p2g_mass", needs.transfer.p2g_velocity, "activate",
                                    "hold_velocity_at_walls", "predict_backward_euler"};
-  for (const auto& part : {force_systems(needs), assemble_systems(needs)}) {
+  for (const auto& part : {force_systems(needs), assemble_systems(needs), solve_systems(needs)}) {
     systems.insert(systems.end(), part.begin(), part.end());
   }
-  systems.insert(systems.end(), {"solve_umfpack", "unpack_solution"});
   return systems;
 }
 
 std::vector<std::string> start_systems(const Needs& needs) {
   std::vector<std::string> systems;
+  if (needs.ode) systems.emplace_back("hold_ode");
   if (needs.newmark) {
-    systems = standing_step(needs, "configure_step_before");
+    const auto acceleration = standing_step(needs, "configure_step_before");
+    systems.insert(systems.end(), acceleration.begin(), acceleration.end());
     systems.insert(systems.end(), {"correct_backward_euler", needs.transfer.g2p_acceleration});
   }
   // The pressure that the first frame shows.
   const auto pressure = standing_step(needs, "configure_step_ahead");
   systems.insert(systems.end(), pressure.begin(), pressure.end());
-  const auto measures = measure_systems(needs);
+  const auto measures = measure_systems(needs, "measure_probes_at_start");
   systems.insert(systems.end(), measures.begin(), measures.end());
   systems.emplace_back("write_history");
   return systems;

@@ -7,18 +7,25 @@
 #include "systems/integrate/configuration.hpp"
 #include "systems/integrate/midpoint.hpp"
 #include "systems/integrate/newmark.hpp"
+#include "systems/integrate/ode.hpp"
 #include "systems/measure/conservation.hpp"
+#include "systems/measure/error.hpp"
+#include "systems/measure/probes.hpp"
 #include "systems/measure/volume.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/solve/assemble.hpp"
 #include "systems/solve/monolithic.hpp"
-#include "systems/solve/pspg.hpp"
+#include "systems/solve/stabilization.hpp"
 #include "systems/solve/umfpack.hpp"
+#include "systems/solve/vms.hpp"
 #include "systems/transfer/advect.hpp"
+#include "systems/transfer/apic.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/pic_flip.hpp"
 #include "systems/transfer/tpic.hpp"
+#include "systems/transfer/xpic.hpp"
+#include "systems/volume/delta.hpp"
 #include "systems/volume/projection.hpp"
 
 namespace minamo {
@@ -47,8 +54,13 @@ void register_systems(SystemRegistry& registry) {
   registry.add<CorrectMidpoint>("correct_midpoint");
   registry.add<CorrectBackwardEuler>("correct_backward_euler");
 
+  registry.add<IntegrateOde>("integrate_ode");
+  registry.add<HoldOde>("hold_ode");
+
   registry.add<UniformBodyForce>("uniform_body_force");
+  registry.add<UniformBodyForceOde>("uniform_body_force_ode");
   registry.add<SampleBodyForce>("sample_body_force");
+  registry.add<SampleBodyForceOde>("sample_body_force_ode");
   registry.add<P2GBodyForce>("p2g_body_force");
   registry.add<FreeFlight>("free_flight");
 
@@ -56,7 +68,12 @@ void register_systems(SystemRegistry& registry) {
   registry.add<AssembleDivergence>("divergence_matrix");
   registry.add<AssembleLaplacian>("laplacian_matrix");
   registry.add<AssembleViscosity>("viscosity_matrix");
-  registry.add<StabilizePspg>("pspg");
+  registry.add<StabilizePspg>("stabilize_pspg");
+  registry.add<StabilizeVms>("stabilize_vms");
+  registry.add<AddVmsBulkViscosity>("add_vms_bulk_viscosity");
+  registry.add<StabilizeOss>("stabilize_oss");
+  registry.add<G2PPressureGradient>("g2p_pressure_gradient");
+  registry.add<P2GPressureGradient>("p2g_pressure_gradient");
   registry.add<AssembleMonolithic>("assemble_monolithic");
   registry.add<AssembleMonolithicViscous>("assemble_monolithic_viscous");
   registry.add<SolveUmfpack>("solve_umfpack");
@@ -65,6 +82,10 @@ void register_systems(SystemRegistry& registry) {
   registry.add<G2PVelocityPic>("g2p_velocity_pic");
   registry.add<G2PVelocityFlip>("g2p_velocity_flip");
   registry.add<G2PVelocityTpic>("g2p_velocity_tpic");
+  registry.add<G2PVelocityApic>("g2p_velocity_apic");
+  registry.add<G2PAccelerationApic>("g2p_acceleration_apic");
+  registry.add<FilterVelocityXpic>("filter_velocity_xpic");
+  registry.add<G2PVelocityXpic>("g2p_velocity_xpic");
   registry.add<G2PAccelerationPic>("g2p_acceleration_pic");
   registry.add<G2PAccelerationTpic>("g2p_acceleration_tpic");
   registry.add<Advect>("advect");
@@ -73,6 +94,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<FindVolumeExcess>("find_volume_excess");
   registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
   registry.add<ShiftParticles>("shift_particles");
+  registry.add<ShiftByDelta>("shift_by_delta");
 
   registry.add<MeasureEnergy>("measure_energy");
   registry.add<MeasureMomentum>("measure_momentum");
@@ -80,6 +102,12 @@ void register_systems(SystemRegistry& registry) {
   registry.add<MeasureMaxSpeed>("measure_max_speed");
   registry.add<MeasureDivergence>("measure_divergence");
   registry.add<MeasureOverlap>("measure_overlap");
+  registry.add<MeasureProbes>("measure_probes");
+  registry.add<MeasureProbesAtStart>("measure_probes_at_start");
+  registry.add<MeasureErrorVelocity>("measure_error_velocity");
+  registry.add<MeasureErrorVelocityOde>("measure_error_velocity_ode");
+  registry.add<MeasureErrorPressure>("measure_error_pressure");
+  registry.add<MeasureErrorPressureOde>("measure_error_pressure_ode");
 
   registry.add<WriteHistory>("write_history");
   registry.add<SamplePressure>("sample_pressure");

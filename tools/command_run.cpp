@@ -58,14 +58,14 @@ void open_output(const fs::path& folder, const SceneFile& scene, World& world) {
   auto& history = world.resource<HistoryFile>().file;
   history.open(folder / "history.csv");
   if (!history) refuse_output(folder, "cannot be written");
-  history << (scene.scene.dimension == 2 ? history_header<2>() : history_header<3>()) << '\n';
   write_text(folder / "scene.json", scene.as_run.dump(2) + "\n");
   world.resource<FieldsFile>().folder = folder.string();
 }
 
 int report(const Outcome& outcome, const fs::path& folder, const Clock& clock, bool quiet) {
   if (outcome.ending == Ending::failed) {
-    std::cerr << outcome.message << "\nthe state before this step is in " << (folder / "checkpoint.h5").string() << '\n';
+    std::cerr << outcome.message << "\nthe state before this step is in " << (folder / "checkpoint.h5").string()
+              << '\n';
     return exit_failed;
   }
   const bool interrupted = outcome.ending == Ending::interrupted;

@@ -58,7 +58,8 @@ void list_systems(const SystemRegistry& registry) {
   std::cout << "| system | does | reads | writes |\n|---|---|---|---|\n";
   for (const auto& [name, entry] : registry.entries()) {
     const System system = entry.make(2, nullptr);
-    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, entry.doc, accesses(system, false), accesses(system, true));
+    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, entry.doc, accesses(system, false),
+                             accesses(system, true));
   }
 }
 
@@ -71,10 +72,14 @@ void list_components(const SystemRegistry& registry) {
   }
   const auto lifetime = [](Lifetime value) {
     switch (value) {
-      case Lifetime::constant: return "constant";
-      case Lifetime::state: return "state";
-      case Lifetime::scratch: return "scratch";
-      case Lifetime::cache: return "cache";
+    case Lifetime::constant:
+      return "constant";
+    case Lifetime::state:
+      return "state";
+    case Lifetime::scratch:
+      return "scratch";
+    case Lifetime::cache:
+      return "cache";
     }
     return "";
   };
@@ -92,7 +97,8 @@ int list(const std::string& what, const SystemRegistry& registry) {
   } else if (what == "components") {
     list_components(registry);
   } else if (what == "schemes") {
-    for (const TransferScheme& scheme : transfer_schemes()) std::cout << fmt::format("{:6} {}\n", scheme.name, scheme.doc);
+    for (const TransferScheme& scheme : transfer_schemes())
+      std::cout << fmt::format("{:6} {}\n", scheme.name, scheme.doc);
   } else {
     std::cout << "umfpack  monolithic sparse LU, the reference\n";
   }

@@ -48,8 +48,12 @@ void require_command(const CLI::App& app, int argc, const char* const* argv) {
   for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
   const std::string word = argc > 1 ? argv[1] : "";
   if (word.starts_with("-") || std::find(commands.begin(), commands.end(), word) != commands.end()) return;
-  throw InputError({{"minamo", {}, word.empty() ? "no command" : "unknown command", one_of_text(commands),
-                     word.empty() ? "" : shown(Json(word)), closest_name(word, commands)}});
+  throw InputError({{"minamo",
+                     {},
+                     word.empty() ? "no command" : "unknown command",
+                     one_of_text(commands),
+                     word.empty() ? "" : shown(Json(word)),
+                     closest_name(word, commands)}});
 }
 
 /// Adds the command line of `minamo run`.
@@ -59,7 +63,8 @@ void add_run(CLI::App& app, RunOptions& options) {
   app.add_option("--threads", options.threads, "threads; by default one per processor")->check(whole_number(1));
   app.add_option("--set", options.overrides, "/pointer=JSON, overrides a key of the scene")->allow_extra_args(false);
   app.add_option("--steps", options.steps, "stop after so many steps")->check(whole_number(0));
-  app.add_option("--profile", options.trace, "print time per system and write a Chrome trace; by default OUT/trace.json")
+  app.add_option("--profile", options.trace,
+                 "print time per system and write a Chrome trace; by default OUT/trace.json")
       ->expected(0, 1);
   app.add_flag("--quiet", options.quiet, "print nothing but problems");
 }

@@ -36,6 +36,15 @@ Json conserved(const RunTotals::Values& values) {
   return {{"momentum", values.momentum}, {"angular_momentum", values.angular_momentum}, {"energy", values.energy}};
 }
 
+/// Of the last row of the history.
+Json last_errors(World& world) {
+  Json errors = Json::object();
+  for (const std::string field : {"velocity", "pressure"}) {
+    if (const double* error = world.resource<measure::Columns>().find("error_" + field)) errors[field] = *error;
+  }
+  return errors;
+}
+
 }  // namespace
 
 Json make_summary(const std::string& scene, const Outcome& outcome, int threads, const Stopwatch& stopwatch,
@@ -65,7 +74,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   conservation["overlap_max"] = totals.overlap_max;
   conservation["initial"] = conserved(totals.first);
   summary["conservation"] = conservation;
-  summary["errors"] = Json::object();
+  summary["errors"] = last_errors(world);
   return summary;
 }
 

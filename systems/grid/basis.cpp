@@ -33,12 +33,16 @@ AxisBasis make_basis(int first, const Weights& weight) {
 
 }  // namespace
 
-const AxisBasis& axis_basis(int node, int last) {
+const AxisBasis& inner_basis() {
   static const AxisBasis inside = make_basis(-1, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
+  return inside;
+}
+
+const AxisBasis& axis_basis(int node, int last) {
   static const AxisBasis low_wall = make_basis(0, {{{1, -1, 0}, {0, 1, 0}, {0, 0, 0}}});
   static const AxisBasis high_wall = make_basis(-2, {{{0, 0, 0}, {0, -1, 0}, {1, 1, 0}}});
   if (node == 0) return low_wall;
-  return node == last ? high_wall : inside;
+  return node == last ? high_wall : inner_basis();
 }
 
 double axis_integral(int node, int last) {

@@ -34,10 +34,18 @@ struct AxisBasis {
   double derivative(std::size_t a, double xi) const { return slope[a][0] + xi * slope[a][1]; }
 };
 
-/// The basis of an axis in the dual cell of `node`, on an axis with nodes 0 ... `last`.
+/// The basis of an axis in the dual cell of `node`, on an axis with nodes 0 ... `last` between walls.
 const AxisBasis& axis_basis(int node, int last);
+
+/// The basis away from walls.
+const AxisBasis& inner_basis();
 
 /// Integral of a node's weight over its axis, in units of h: 13/24, 23/24, 1, ... from a wall.
 double axis_integral(int node, int last);
+
+template <int Dim>
+const AxisBasis& axis_basis(const Grid<Dim>& grid, std::size_t axis, int node) {
+  return grid.periodic[axis] ? inner_basis() : axis_basis(node, grid.cells[axis]);
+}
 
 }  // namespace minamo

@@ -14,7 +14,9 @@ double full_volume(const Grid<Dim>& grid, std::size_t node) {
   double volume = 1;
   for (int d = 0; d < Dim; ++d) {
     const auto nodes = static_cast<std::size_t>(grid.nodes(d));
-    volume *= grid.spacing * axis_integral(static_cast<int>(node % nodes), grid.cells[static_cast<std::size_t>(d)]);
+    const auto axis = static_cast<std::size_t>(d);
+    volume *= grid.spacing;
+    if (!grid.periodic[axis]) volume *= axis_integral(static_cast<int>(node % nodes), grid.cells[axis]);
     node /= nodes;
   }
   return volume;
@@ -28,8 +30,9 @@ void gather_node_volume(const Grid<Dim>& grid, double density, std::span<const V
   std::fill(v_i.begin(), v_i.end(), 0.0);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const double v = m_p[p] / density;
-    const Support<Dim> support(grid, dual_cell<Dim>(grid, x_p[p]));
-    const Weights<Dim> weights(support, x_p[p]);
+    const Vec<Dim> x = fold<Dim>(grid, x_p[p]);
+    const Support<Dim> support(grid, dual_cell<Dim>(grid, x));
+    const Weights<Dim> weights(support, x);
     for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { v_i[support.node[k]] += weights(offset) * v; });
   }
 }

@@ -8,6 +8,7 @@
 #include "systems/grid/basis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace minamo {
 
@@ -33,19 +34,19 @@ template <int Dim>
 struct Support {
   std::array<const AxisBasis*, static_cast<std::size_t>(Dim)> basis;
   std::array<std::size_t, support_size<Dim>> node;  ///< rows in the node tables
-  Index<Dim> first;                                 ///< lowest node
+  Index<Dim> first;                                 ///< lowest node; -1 at the low end of a periodic axis
   Vec<Dim> centre;                                  ///< the cell's own node [m]
   Vec<Dim> corner;                                  ///< the lowest node [m]
   double per_spacing;                               ///< 1/h [1/m]
 
   Support(const Grid<Dim>& grid, const Index<Dim>& own) : centre(grid.position(own)), per_spacing(1 / grid.spacing) {
     for (std::size_t d = 0; d < Dim; ++d) {
-      basis[d] = &axis_basis(own[d], grid.cells[d]);
+      basis[d] = &axis_basis<Dim>(grid, d, own[d]);
       first[d] = own[d] + basis[d]->first;
     }
     corner = grid.position(first);
     for_each_support<Dim>([&](std::size_t k, Index<Dim> offset) {
-      for (std::size_t d = 0; d < Dim; ++d) offset[d] += first[d];
+      for (std::size_t d = 0; d < Dim; ++d) offset[d] = grid.wrapped(static_cast<int>(d), offset[d] + first[d]);
       node[k] = grid.row(offset);
     });
   }
@@ -86,14 +87,30 @@ struct Weights {
 };
 
 /// The node in whose dual cell a point lies; a point outside the box counts to the nearest cell.
+/// \pre along a periodic axis the point lies in the range of fold().
 template <int Dim>
 Index<Dim> dual_cell(const Grid<Dim>& grid, const Vec<Dim>& y) {
   Index<Dim> node;
   for (int d = 0; d < Dim; ++d) {
     const double r = (y[d] - grid.low[d]) / grid.spacing + 0.5;
-    node[static_cast<std::size_t>(d)] = std::clamp(static_cast<int>(r), 0, grid.cells[static_cast<std::size_t>(d)]);
+    node[static_cast<std::size_t>(d)] = std::clamp(static_cast<int>(r), 0, grid.nodes(d) - 1);
   }
   return node;
+}
+
+/// The image of a point whose dual cell has its own node at the right place: low - h/2 <= y < high - h/2 along periodic
+/// axes; inside the box along the others.
+template <int Dim>
+Vec<Dim> fold(const Grid<Dim>& grid, Vec<Dim> y) {
+  for (int d = 0; d < Dim; ++d) {
+    if (grid.periodic[static_cast<std::size_t>(d)]) {
+      const double length = grid.high[d] - grid.low[d];
+      y[d] -= length * std::floor((y[d] - grid.low[d]) / length + 0.5 * grid.spacing / length);
+    } else {
+      y[d] = std::clamp(y[d], grid.low[d], grid.high[d]);
+    }
+  }
+  return y;
 }
 
 /// Calls body(place in cells.cells, cell), side by side. For kernels that write rows of their particles or cells only.

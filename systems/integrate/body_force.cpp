@@ -5,32 +5,23 @@
 
 namespace minamo {
 
-namespace {
-
-/// b at a place and time; the expressions know x, y, z, t.
-template <int Dim>
-Vec<Dim> force_at(const std::vector<Expression>& b, const Vec<Dim>& x, double time) {
-  std::array<double, 4> xyzt{0, 0, 0, time};
-  for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = x[d];
-  Vec<Dim> value;
-  for (int d = 0; d < Dim; ++d) value[d] = b[static_cast<std::size_t>(d)](xyzt);
-  return value;
-}
-
-}  // namespace
-
-template <int Dim>
-void UniformBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Read<node::Mass> m_i,
-                                       Write<node::BodyForce<Dim>> b_i) const {
-  const Vec<Dim> everywhere = force_at<Dim>(b->of_place_and_time, Vec<Dim>::Zero(), rates->time);
+template <int Dim, class When>
+void UniformBodyForceAt<Dim, When>::operator()(Read<BodyForce> b, Read<When> when, Read<node::Mass> m_i,
+                                               Write<node::BodyForce<Dim>> b_i) const {
+  Arguments arguments(instant_of(*when));
+  const Vec<Dim> everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
   for_each_row(b_i.size(), [&](std::size_t i) { b_i[i] = m_i[i] > 0 ? everywhere : Vec<Dim>(Vec<Dim>::Zero()); });
 }
 
-template <int Dim>
-void SampleBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Read<particle::Configuration<Dim>> y_p,
-                                      Write<particle::BodyForce<Dim>> b_p) const {
+template <int Dim, class When>
+void SampleBodyForceAt<Dim, When>::operator()(Read<BodyForce> b, Read<When> when,
+                                              Read<particle::Configuration<Dim>> y_p,
+                                              Write<particle::BodyForce<Dim>> b_p) const {
+  Arguments arguments(instant_of(*when));
   // One after the other: an expression keeps its variables inside.
-  for (std::size_t p = 0; p < y_p.size(); ++p) b_p[p] = force_at<Dim>(b->of_place_and_time, y_p[p], rates->time);
+  for (std::size_t p = 0; p < y_p.size(); ++p) {
+    b_p[p] = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(y_p[p]));
+  }
 }
 
 template <int Dim>
@@ -54,10 +45,14 @@ void FreeFlight<Dim>::operator()(Read<node::Row> row, Read<node::Fixed> fixed, R
   });
 }
 
-template struct UniformBodyForce<2>;
-template struct UniformBodyForce<3>;
-template struct SampleBodyForce<2>;
-template struct SampleBodyForce<3>;
+template struct UniformBodyForceAt<2, Rates>;
+template struct UniformBodyForceAt<3, Rates>;
+template struct UniformBodyForceAt<2, ode::AtBalances>;
+template struct UniformBodyForceAt<3, ode::AtBalances>;
+template struct SampleBodyForceAt<2, Rates>;
+template struct SampleBodyForceAt<3, Rates>;
+template struct SampleBodyForceAt<2, ode::AtBalances>;
+template struct SampleBodyForceAt<3, ode::AtBalances>;
 template struct P2GBodyForce<2>;
 template struct P2GBodyForce<3>;
 template struct FreeFlight<2>;

@@ -5,6 +5,7 @@
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
+#include "components/instant.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
@@ -12,21 +13,28 @@
 
 namespace minamo {
 
-/// (E14)  b_I = b(t), the same everywhere.
-template <int Dim>
-struct UniformBodyForce {
+/// (E14)  b_I = b(t), the same everywhere. `When` tells the instant of the balances (instant.hpp).
+template <int Dim, class When>
+struct UniformBodyForceAt {
   static constexpr std::string_view doc = "(E14) b_I, uniform";
-  void operator()(Read<BodyForce> b, Read<Rates> rates, Read<node::Mass> m_i,
-                  Write<node::BodyForce<Dim>> b_i) const;
+  void operator()(Read<BodyForce> b, Read<When> when, Read<node::Mass> m_i, Write<node::BodyForce<Dim>> b_i) const;
 };
+template <int Dim>
+using UniformBodyForce = UniformBodyForceAt<Dim, Rates>;
+template <int Dim>
+using UniformBodyForceOde = UniformBodyForceAt<Dim, ode::AtBalances>;
 
 /// b_p = b(y_p, t).
-template <int Dim>
-struct SampleBodyForce {
+template <int Dim, class When>
+struct SampleBodyForceAt {
   static constexpr std::string_view doc = "b_p at the particles";
-  void operator()(Read<BodyForce> b, Read<Rates> rates, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<BodyForce> b, Read<When> when, Read<particle::Configuration<Dim>> y_p,
                   Write<particle::BodyForce<Dim>> b_p) const;
 };
+template <int Dim>
+using SampleBodyForce = SampleBodyForceAt<Dim, Rates>;
+template <int Dim>
+using SampleBodyForceOde = SampleBodyForceAt<Dim, ode::AtBalances>;
 
 /// (E14)  b_I = sum_p S_Ip m_p b_p / m_I.
 template <int Dim>

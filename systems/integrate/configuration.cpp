@@ -1,6 +1,6 @@
 #include "systems/integrate/configuration.hpp"
 
-#include "engine/parallel.hpp"
+#include "systems/grid/support.hpp"
 
 namespace minamo {
 
@@ -10,17 +10,16 @@ template <int Dim>
 void configure(double time, const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, std::span<const Vec<Dim>> v_p,
                std::span<Vec<Dim>> y_p) {
   for_each_row(x_p.size(), [&](std::size_t p) {
-    const Vec<Dim> y = x_p[p] + time * v_p[p];
-    y_p[p] = y.cwiseMax(grid.low).cwiseMin(grid.high);
+    y_p[p] = fold<Dim>(grid, Vec<Dim>(x_p[p] + time * v_p[p]));
   });
 }
 
 }  // namespace
 
 template <int Dim>
-void ConfigureAtStart<Dim>::operator()(Read<particle::Position<Dim>> x_p,
+void ConfigureAtStart<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
                                        Write<particle::Configuration<Dim>> y_p) const {
-  std::copy(x_p.begin(), x_p.end(), y_p.begin());
+  for_each_row(x_p.size(), [&](std::size_t p) { y_p[p] = fold<Dim>(*grid, x_p[p]); });
 }
 
 template <int Dim>

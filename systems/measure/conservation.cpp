@@ -41,7 +41,7 @@ Vec<Dim> support_spread(const Grid<Dim>& grid, const Vec<Dim>& x) {
   Vec<Dim> spread;
   for (int d = 0; d < Dim; ++d) {
     const auto axis = static_cast<std::size_t>(d);
-    const AxisBasis& basis = axis_basis(own[axis], grid.cells[axis]);
+    const AxisBasis& basis = axis_basis<Dim>(grid, axis, own[axis]);
     double sum = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       const double distance = basis.first + static_cast<double>(a) - xi[d];
@@ -88,6 +88,7 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
     const Expression& component = b->of_place_and_time[static_cast<std::size_t>(d)];
     if (!component.is_constant()) return;
     force[d] = component(std::array<double, 4>{});
+    if (force[d] != 0 && grid->periodic[static_cast<std::size_t>(d)]) return;  // it never stops falling
   }
   energy->potential = reduce_rows(
       m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force.dot(x_p[p] - grid->low); }, sum);
@@ -115,7 +116,7 @@ void MeasureMomentumAffine<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle:
   *momentum = reduce_rows(
       m_p.size(), measure::Momentum<Dim>{},
       [&](std::size_t p) {
-        const Rotation<Dim> spin = affine_spin<Dim>(support_spread<Dim>(*grid, x_p[p]), grad_v_p[p]);
+        const Rotation<Dim> spin = affine_spin<Dim>(support_spread<Dim>(*grid, fold<Dim>(*grid, x_p[p])), grad_v_p[p]);
         return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * (cross<Dim>(x_p[p] - centre, v_p[p]) + spin)};
       },
       add<Dim>);

@@ -16,33 +16,46 @@ RunTotals::Values values(const measure::Energy& energy, const measure::Momentum<
   return values;
 }
 
-}  // namespace
-
 template <int Dim>
-std::string history_header() {
+std::string header(const measure::Columns& further) {
   const std::string momentum = Dim == 2 ? "momentum_x,momentum_y,angular_momentum"
                                         : "momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
                                           "angular_momentum_z";
-  return "step,time,dt,kinetic_energy,potential_energy," + momentum +
-         ",max_speed,max_divergence,overlap,active_nodes,iterations,residual";
+  std::string names = "step,time,dt,kinetic_energy,potential_energy," + momentum +
+                      ",max_speed,max_divergence,overlap,active_nodes,iterations,residual";
+  for (const auto& column : further.columns) names += "," + column.name;
+  return names + "\n";
 }
+
+void require_known(const measure::Columns& further, std::int64_t known) {
+  const auto count = static_cast<std::int64_t>(further.columns.size());
+  if (count <= known) return;
+  throw std::runtime_error(fmt::format("column {} of history.csv was not measured at the start",
+                                       further.columns[static_cast<std::size_t>(known)].name));
+}
+
+}  // namespace
 
 template <int Dim>
 void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> energy,
                                    Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
                                    Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap,
-                                   Read<matrix::Node> active, Read<SolveReport> solve, Update<RunTotals> totals,
+                                   Read<matrix::Node> active, Read<SolveReport> solve,
+                                   Read<measure::Columns> further, Update<RunTotals> totals,
                                    Update<HistoryFile> history) const {
   // The row of the start has no step behind it.
   const bool is_start = totals->rows == 0;
   totals->last = values<Dim>(*energy, *momentum);
   if (is_start) totals->first = totals->last;
+  if (is_start) totals->columns = static_cast<std::int64_t>(further->columns.size());
+  require_known(*further, totals->columns);
   totals->overlap_max = std::max(totals->overlap_max, overlap->value);
   totals->active_nodes_max = std::max(totals->active_nodes_max, static_cast<std::int64_t>(active.size()));
   totals->unknowns_max = std::max(totals->unknowns_max, solve->unknowns);
   ++totals->rows;
   if (!history->file.is_open()) return;
 
+  if (is_start) history->file << header<Dim>(*further);
   fmt::memory_buffer row;
   const auto out = std::back_inserter(row);
   fmt::format_to(out, "{},{},{},{},", is_start ? 0 : clock->index + 1, is_start ? clock->time : clock->end_of_step,
@@ -50,13 +63,13 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   if (energy->potential) fmt::format_to(out, "{}", *energy->potential);
   for (int d = 0; d < Dim; ++d) fmt::format_to(out, ",{}", momentum->linear[d]);
   for (int d = 0; d < rotations<Dim>; ++d) fmt::format_to(out, ",{}", momentum->angular[d]);
-  fmt::format_to(out, ",{},{},{},{},{},{}\n", speed->value, divergence->value, overlap->value, active.size(),
+  fmt::format_to(out, ",{},{},{},{},{},{}", speed->value, divergence->value, overlap->value, active.size(),
                  solve->iterations, solve->residual);
+  for (const auto& column : further->columns) fmt::format_to(out, ",{}", column.value);
+  row.push_back('\n');
   history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
 }
 
-template std::string history_header<2>();
-template std::string history_header<3>();
 template struct WriteHistory<2>;
 template struct WriteHistory<3>;
 

@@ -32,20 +32,19 @@ struct RunTotals {
   std::int64_t active_nodes_max = 0;
   std::int64_t unknowns_max = 0;
   std::int64_t rows = 0;
+  std::int64_t columns = 0;  ///< of measure::Columns
   static constexpr ComponentInfo info{"history.totals", "", "", Lifetime::state};
 };
 
-/// Column names of history.csv.
-template <int Dim>
-std::string history_header();
-
+/// The header comes with the first row, because it is then that measure::Columns knows its names.
+/// \throws std::runtime_error if a system sets a column that the header does not have.
 template <int Dim>
 struct WriteHistory {
   static constexpr std::string_view doc = "a row of history.csv";
   void operator()(Read<Clock> clock, Read<measure::Energy> energy, Read<measure::Momentum<Dim>> momentum,
                   Read<measure::MaxSpeed> speed, Read<measure::MaxDivergence> divergence,
                   Read<measure::Overlap> overlap, Read<matrix::Node> active, Read<SolveReport> solve,
-                  Update<RunTotals> totals, Update<HistoryFile> history) const;
+                  Read<measure::Columns> further, Update<RunTotals> totals, Update<HistoryFile> history) const;
 };
 
 }  // namespace minamo

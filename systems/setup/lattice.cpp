@@ -11,6 +11,7 @@ namespace {
 template <int Dim>
 struct Contains {
   const Vec<Dim>& x;
+  const Instant& start;
 
   bool operator()(const Box& box) const {
     for (int d = 0; d < Dim; ++d) {
@@ -25,9 +26,8 @@ struct Contains {
     return squared <= ball.radius * ball.radius;
   }
   bool operator()(const Where& where) const {
-    std::array<double, 4> xyzt{};
-    for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = x[d];
-    const double value = where.inside(xyzt);
+    Arguments arguments(start);
+    const double value = where.inside(arguments.at<Dim>(x));
     return std::isfinite(value) && value != 0;
   }
 };
@@ -70,7 +70,7 @@ Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x) {
 }
 
 template <int Dim>
-std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid) {
+std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start) {
   const auto range = parts_to_try<Dim>(region, grid);
   const double part = grid.spacing / region.per_cell;
   std::mt19937_64 random(region.jitter.value_or(0));
@@ -84,7 +84,7 @@ std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid
       const double within = region.jitter ? uniform(random) : 0.5;
       x[axis] = grid.low[axis] + part * (at[d] + within);
     }
-    if (std::visit(Contains<Dim>{x}, region.shape)) positions.push_back(x);
+    if (std::visit(Contains<Dim>{x, start}, region.shape)) positions.push_back(x);
     for (std::size_t d = 0; d < Dim; ++d) {
       if (++at[d] < range[d][1] || d + 1 == Dim) break;
       at[d] = range[d][0];
@@ -95,7 +95,7 @@ std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid
 
 template Index<2> cell_of<2>(const Grid<2>&, const Vec<2>&);
 template Index<3> cell_of<3>(const Grid<3>&, const Vec<3>&);
-template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&);
-template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&);
+template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&, const Instant&);
+template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&, const Instant&);
 
 }  // namespace minamo

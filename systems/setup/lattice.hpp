@@ -3,6 +3,7 @@
 /// Places of particles at the start.
 
 #include "components/grid.hpp"
+#include "components/instant.hpp"
 #include "systems/setup/scene.hpp"
 
 namespace minamo {
@@ -12,8 +13,9 @@ template <int Dim>
 Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x);
 
 /// The particles of a region: per_cell^d in every cell, at the middles of equal parts, or anywhere in these parts if
-/// jittered; those inside the shape. Cells and parts come in the order of the grid, x fastest.
+/// jittered; those inside the shape. Cells and parts come in the order of the grid, x fastest. `start` is what the
+/// expression of a shape sees of time and ode variables.
 template <int Dim>
-std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid);
+std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start = {});
 
 }  // namespace minamo

@@ -2,8 +2,9 @@
 
 #include "systems/pipeline.hpp"
 #include "systems/setup/scene_checks.hpp"
+#include "systems/setup/scene_method.hpp"
+#include "systems/setup/scene_measure.hpp"
 #include "systems/setup/scene_walls.hpp"
-#include "systems/transfer/scheme.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -27,7 +28,7 @@ GridScene read_grid(Input& grid, std::size_t dimension) {
 /// A number or an expression per direction.
 std::vector<Expression> read_vector(Input& input, const std::string& key, const Scene& scene, const Number& rule) {
   const auto dimension = static_cast<std::size_t>(scene.dimension);
-  auto vector = input.expressions(key, dimension, scene_scope(scene.constants), rule);
+  auto vector = input.expressions(key, dimension, scene_scope(scene.constants, scene.ode), rule);
   for (std::size_t d = 0; d < dimension; ++d) {
     check_coordinates(input, fmt::format("{}/{}", key, d), vector[d], scene.dimension);
   }
@@ -53,7 +54,7 @@ std::variant<Box, Ball, Where> read_shape(Input& shape, const Scene& scene) {
                    });
                  }},
                 {"where", [&](Input& in) {
-                   read = Where{in.expression("where", scene_scope(scene.constants),
+                   read = Where{in.expression("where", scene_scope(scene.constants, scene.ode),
                                               {.doc = "particles wherever this is true"})};
                    check_coordinates(in, "where", std::get<Where>(read).inside, scene.dimension);
                  }}});
@@ -66,68 +67,30 @@ ParticleScene read_particles(Input& input, const Scene& scene) {
     particles.shape = read_shape(shape, scene);
     check_shape(shape, particles.shape, scene.grid);
   });
-  particles.per_cell = static_cast<int>(
-      input.integer("per_cell", {.doc = "particles per cell and direction", .fallback = 2, .at_least = 1, .at_most = 16}));
-  check_particle_count(input, particles, scene.grid);
+  particles.per_cell = static_cast<int>(input.integer(
+      "per_cell", {.doc = "particles per cell and direction", .fallback = 2, .at_least = 1, .at_most = 16}));
+  if (input.sound("shape") && input.sound("per_cell")) check_particle_count(input, particles, scene.grid);
   input.variant("arrangement", "where in a cell the particles start", "lattice",
-                {{"lattice", [](Input&) {}}, {"jittered", [&](Input& in) {
+                {{"lattice", [](Input&) {}},
+                 {"jittered", [&](Input& in) {
                     particles.jitter = static_cast<std::uint64_t>(
                         in.integer("seed", {.doc = "of the random numbers", .fallback = 1, .at_least = 0}));
                   }}});
-  particles.velocity =
-      read_vector(input, "velocity", scene, {.unit = "m/s", .doc = "initial velocity", .fallback = 0});
+  particles.velocity = read_vector(input, "velocity", scene, {.unit = "m/s", .doc = "initial velocity", .fallback = 0});
   return particles;
-}
-
-void read_method(Input& input, Scene& scene) {
-  input.object("transfer", "transfer between particles and grid", Input::Presence::optional, [&](Input& transfer) {
-    Input::Variants variants;
-    for (const std::string& name : transfer_scheme_names()) {
-      variants.emplace_back(name, [&, name](Input& in) {
-        if (name != "flip") return;
-        scene.flip_blend = in.number(
-            "blend", {.doc = "share of FLIP, the rest is PIC", .fallback = 1, .at_least = 0, .at_most = 1});
-      });
-    }
-    scene.transfer = transfer.variant("scheme", "transfer scheme", "tpic", variants);
-  });
-  input.object("integrator", "time integration", Input::Presence::optional, [&](Input& integrator) {
-    scene.integrator = integrator.variant(
-        "scheme", "integrator", "newmark",
-        {{"midpoint", [](Input&) {}}, {"newmark", [&](Input& in) {
-            scene.newmark_beta = in.number("beta", {.doc = "Newmark's beta", .fallback = 0.25, .at_most = 0.5, .above = 0});
-            scene.newmark_gamma = in.number("gamma", {.doc = "Newmark's gamma", .fallback = 0.5, .at_least = 0.5, .at_most = 1});
-          }}});
-  });
-  const auto scheme = [&](std::string_view key, std::string_view doc, const std::string& only) {
-    std::string name;
-    input.object(key, doc, Input::Presence::optional, [&](Input& in) {
-      name = in.choice("scheme", std::vector<std::string>{only}, doc, only);
-    });
-    return name;
-  };
-  scene.stabilization = scheme("stabilization", "pressure stabilization", "pspg");
-  input.object("volume", "volume correction", Input::Presence::optional, [&](Input& volume) {
-    scene.volume = volume.variant("scheme", "volume correction", "none",
-                                  {{"none", [](Input&) {}}, {"projection", [&](Input& in) {
-                                      scene.volume_rate = in.number(
-                                          "rate", {.doc = "share of the excess that is corrected in a step",
-                                                   .fallback = 0.1, .at_most = 1, .above = 0});
-                                    }}});
-  });
-  scene.solver = scheme("solver", "linear solver", "umfpack");
 }
 
 TimeScene read_time(Input& input) {
   TimeScene time;
   time.end = input.number("end", {.unit = "s", .doc = "end of the run", .above = 0});
-  input.one_of("a fixed step, or one from the CFL number",
-               {{"step",
-                 [&](Input& in) { time.step = in.number("step", {.unit = "s", .doc = "length of a step", .above = 0}); }},
-                {"cfl", [&](Input& in) {
-                   time.cfl = in.number("cfl", {.doc = "cells that the fastest particle crosses in a step", .above = 0});
-                   time.max_step = in.optional_number("max_step", {.unit = "s", .doc = "longest step", .above = 0});
-                 }}});
+  input.one_of(
+      "a fixed step, or one from the CFL number",
+      {{"step",
+        [&](Input& in) { time.step = in.number("step", {.unit = "s", .doc = "length of a step", .above = 0}); }},
+       {"cfl", [&](Input& in) {
+          time.cfl = in.number("cfl", {.doc = "cells that the fastest particle crosses in a step", .above = 0});
+          time.max_step = in.optional_number("max_step", {.unit = "s", .doc = "longest step", .above = 0});
+        }}});
   return time;
 }
 
@@ -156,15 +119,18 @@ void read_systems(Input& input, const SystemRegistry& registry, Scene& scene) {
 
 }  // namespace
 
-ExpressionScope scene_scope(const std::map<std::string, double>& constants) {
-  return {{"x", "y", "z", "t"}, constants};
+ExpressionScope scene_scope(const std::map<std::string, double>& constants, const std::vector<OdeScene>& ode) {
+  ExpressionScope scope{{"x", "y", "z", "t"}, constants};
+  for (const OdeScene& variable : ode) scope.variables.push_back(variable.name);
+  return scope;
 }
 
 namespace {
 
 /// The dimension. Where the key is missing or wrong, that of the grid, so that its lists are not blamed as well.
 int read_dimension(Input& input) {
-  const auto dimension = input.integer("dimension", {.doc = "2 or 3", .at_least = 2, .at_most = 3});
+  const auto dimension = input.integer(
+      "dimension", {.doc = "of space, and the length of every list of coordinates", .at_least = 2, .at_most = 3});
   if (input.sound("dimension")) return static_cast<int>(dimension);
   return input.elements("grid/low") == 3 ? 3 : 2;
 }
@@ -178,12 +144,14 @@ Scene read_scene(Input& input, const SystemRegistry& registry, std::optional<int
   const auto dimension = static_cast<std::size_t>(scene.dimension);
   scene.constants = input.named_numbers("constants", "numbers that expressions may use by name");
   check_constants(input, scene.constants);
+  scene.ode = read_ode(input, scene.constants);
   input.object("grid", "the box and its cells", Input::Presence::required,
                [&](Input& grid) { scene.grid = read_grid(grid, dimension); });
-  scene.walls = read_walls(input, dimension);
+  scene.walls = read_walls(input, scene.grid.cells);
   input.object("fluid", "the liquid", Input::Presence::required, [&](Input& fluid) {
     scene.density = fluid.number("density", {.unit = "kg/m^3", .doc = "density", .above = 0});
-    scene.viscosity = fluid.number("viscosity", {.unit = "Pa s", .doc = "dynamic viscosity; 0 is inviscid", .at_least = 0});
+    scene.viscosity =
+        fluid.number("viscosity", {.unit = "Pa s", .doc = "dynamic viscosity; 0 is inviscid", .at_least = 0});
   });
   scene.body_force =
       read_vector(input, "body_force", scene, {.unit = "m/s^2", .doc = "force per unit mass", .fallback = 0});
@@ -194,6 +162,8 @@ Scene read_scene(Input& input, const SystemRegistry& registry, std::optional<int
                [&](Input& time) { scene.time = read_time(time); });
   input.object("output", "what is written when", Input::Presence::optional,
                [&](Input& output) { scene.output = read_output(output, scene.time.end); });
+  scene.exact = read_exact(input, scene);
+  scene.probes = read_probes(input, scene);
   read_systems(input, registry, scene);
   return scene;
 }

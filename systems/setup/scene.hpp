@@ -22,7 +22,7 @@ struct GridScene {
   double spacing = 0;        ///< h [m]
 };
 
-enum class Wall { slip, no_slip };
+enum class Wall { slip, no_slip, periodic };  // periodic: both sides of an axis
 
 struct Box {
   std::vector<double> low;
@@ -56,6 +56,25 @@ struct OutputScene {
   std::optional<double> checkpoint;  ///< simulated time between checkpoints [s]
 };
 
+/// A variable that is integrated beside the flow.
+struct OdeScene {
+  std::string name;
+  double start = 0;
+  Expression rate;  ///< in t and the variables
+};
+
+/// Empty where the scene says nothing of a field.
+struct ExactScene {
+  std::vector<Expression> velocity;    ///< [m/s]
+  std::optional<Expression> pressure;  ///< [Pa]
+  bool pressure_is_free = false;       ///< known up to a constant only
+};
+
+struct ProbeScene {
+  std::string name;
+  std::vector<double> at;  ///< [m]
+};
+
 /// A system that the scene adds to the step.
 struct ExtraSystem {
   System system;
@@ -66,6 +85,7 @@ struct Scene {
   std::string title;
   int dimension = 2;
   std::map<std::string, double> constants;
+  std::vector<OdeScene> ode;
   GridScene grid;
   std::vector<std::array<Wall, 2>> walls;  ///< low and high side per axis
   double density = 0;                      ///< [kg/m^3]
@@ -74,6 +94,7 @@ struct Scene {
   std::vector<ParticleScene> particles;
   std::string transfer;
   double flip_blend = 1;
+  int xpic_order = 2;
   std::string integrator;
   double newmark_beta = 0.25;
   double newmark_gamma = 0.5;
@@ -83,6 +104,8 @@ struct Scene {
   std::string solver;
   TimeScene time;
   OutputScene output;
+  ExactScene exact;
+  std::vector<ProbeScene> probes;
   std::vector<ExtraSystem> systems;
 };
 
@@ -92,7 +115,7 @@ Scene read_scene(Input& input, const SystemRegistry& registry);
 /// Reads in description mode, in two and in three dimensions, so that schema and key table hold for both.
 void describe_scene(Input& input, const SystemRegistry& registry);
 
-/// x, y, z, t and the constants of a scene, as its expressions see them.
-ExpressionScope scene_scope(const std::map<std::string, double>& constants);
+/// x, y, z, t, the ode variables and the constants of a scene, as its expressions see them.
+ExpressionScope scene_scope(const std::map<std::string, double>& constants, const std::vector<OdeScene>& ode = {});
 
 }  // namespace minamo

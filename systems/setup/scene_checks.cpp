@@ -163,11 +163,26 @@ void check_constants(Input& input, const std::map<std::string, double>& constant
   for (const auto& [name, value] : constants) {
     const std::string key = fmt::format("constants/{}", pointer_token(name));
     if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
-      input.problem(key, "name is taken", "a name other than those of coordinates and functions", shown(Json(name)));
+      input.problem(key, "name is taken", "a name other than x, y, z, t, pi and those of functions", shown(Json(name)));
     } else if (!is_name(name)) {
       input.problem(key, "not a name", "letters, digits and _, not a digit first", shown(Json(name)));
     }
   }
+}
+
+void check_ode_name(Input& input, const std::string& key, const std::string& name, const ExpressionScope& scope) {
+  const auto taken = known_names(scope);
+  if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
+    input.problem(key, "name is taken", "a name other than x, y, z, t, pi and those of constants and functions",
+                  shown(Json(name)));
+  } else if (!is_name(name)) {
+    input.problem(key, "not a name", "letters, digits and _, not a digit first", shown(Json(name)));
+  }
+}
+
+void check_probe(Input& input, const std::vector<double>& at, const GridScene& grid) {
+  if (input.describing() || grid.spacing == 0 || inside(at, at, grid)) return;
+  input.problem("at", "outside the grid", box_text(grid), fmt::format("[{}] m", fmt::join(at, ", ")));
 }
 
 }  // namespace minamo

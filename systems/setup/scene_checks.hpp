@@ -13,7 +13,14 @@ void check_grid(Input& input, GridScene& grid);
 void check_shape(Input& input, const std::variant<Box, Ball, Where>& shape, const GridScene& grid);
 
 /// Not more particles than fit into memory.
+/// \pre the shape was read without problems.
 void check_particle_count(Input& input, const ParticleScene& particles, const GridScene& grid);
+
+/// Probes lie inside the grid box, walls included.
+void check_probe(Input& input, const std::vector<double>& at, const GridScene& grid);
+
+/// An ode variable has a name that expressions can use and that hides no other. `key` as Input::problem() takes it.
+void check_ode_name(Input& input, const std::string& key, const std::string& name, const ExpressionScope& scope);
 
 /// No z in two dimensions. `key` as Input::problem() takes it.
 void check_coordinates(Input& input, const std::string& key, const Expression& expression, int dimension);

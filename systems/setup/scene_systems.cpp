@@ -38,8 +38,12 @@ Problem problem(const Scene& scene, const SystemRegistry& registry, std::size_t 
   const ExtraSystem& extra = scene.systems[i];
   const std::string what = due.size() == 1 ? due[0] : fmt::format("{}; {} more like this", due[0], due.size() - 1);
   if (fitting.empty()) {
-    return {{}, fmt::format("/systems/{}/use", i), what, "a system that reads what the step of this scene writes",
-            shown(extra.system.name), {}};
+    return {{},
+            fmt::format("/systems/{}/use", i),
+            what,
+            "a system that reads what the step of this scene writes",
+            shown(extra.system.name),
+            {}};
   }
   return {{}, fmt::format("/systems/{}/after", i), what, one_of_text(fitting), shown(extra.after), {}};
 }

@@ -7,6 +7,6 @@
 namespace minamo {
 
 /// `"slip"` for all sides, or per axis `{"x": "slip", "y": ["no_slip", "slip"]}`. Low and high side per axis.
-std::vector<std::array<Wall, 2>> read_walls(Input& input, std::size_t dimension);
+std::vector<std::array<Wall, 2>> read_walls(Input& input, std::span<const int> cells);
 
 }  // namespace minamo

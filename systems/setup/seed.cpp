@@ -6,10 +6,10 @@
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "systems/setup/lattice.hpp"
+#include "systems/setup/seed_measure.hpp"
 #include "systems/transfer/scheme.hpp"
 
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/fmt/ranges.h>
 
 #include <cmath>
 
@@ -18,7 +18,7 @@ namespace minamo {
 namespace {
 
 template <int Dim>
-Grid<Dim> make_grid(const GridScene& scene) {
+Grid<Dim> make_grid(const GridScene& scene, const std::vector<std::array<Wall, 2>>& walls) {
   Grid<Dim> grid;
   grid.spacing = scene.spacing;
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -26,6 +26,7 @@ Grid<Dim> make_grid(const GridScene& scene) {
     grid.low[axis] = scene.low[d];
     grid.high[axis] = scene.high[d];
     grid.cells[d] = scene.cells[d];
+    grid.periodic[d] = walls[d][0] == Wall::periodic;
   }
   return grid;
 }
@@ -33,6 +34,7 @@ Grid<Dim> make_grid(const GridScene& scene) {
 /// The directions that the walls hold at a place of one axis.
 template <int Dim>
 std::uint8_t held_by(const std::array<Wall, 2>& walls, int place, int last, std::size_t axis) {
+  if (walls[0] == Wall::periodic) return 0;
   constexpr auto all = static_cast<std::uint8_t>((1 << Dim) - 1);
   if (place != 0 && place != last) return 0;
   const Wall wall = walls[place == 0 ? 0 : 1];
@@ -56,22 +58,20 @@ void set_walls(const Scene& scene, const Grid<Dim>& grid, World& world) {
 
 /// A vector of expressions at a place, at t = 0.
 template <int Dim>
-Vec<Dim> value_at(const std::vector<Expression>& expressions, const Vec<Dim>& x) {
-  std::array<double, 4> xyzt{};
-  for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = x[d];
-  Vec<Dim> v;
-  for (int d = 0; d < Dim; ++d) v[d] = expressions[static_cast<std::size_t>(d)](xyzt);
-  return v;
+Vec<Dim> value_at(const std::vector<Expression>& expressions, const Vec<Dim>& x, const Instant& start) {
+  Arguments arguments(start);
+  return vector_at<Dim>(expressions, arguments.at<Dim>(x));
 }
 
 /// Central differences.
 template <int Dim>
-Mat<Dim> velocity_gradient_at(const std::vector<Expression>& velocity, const Vec<Dim>& x, double spacing) {
+Mat<Dim> velocity_gradient_at(const std::vector<Expression>& velocity, const Vec<Dim>& x, const Instant& start,
+                              double spacing) {
   const double step = 1e-3 * spacing;
   Mat<Dim> gradient;
   for (int d = 0; d < Dim; ++d) {
     const Vec<Dim> aside = step * Vec<Dim>::Unit(d);
-    gradient.col(d) = (value_at<Dim>(velocity, x + aside) - value_at<Dim>(velocity, x - aside)) / (2 * step);
+    gradient.col(d) = (value_at<Dim>(velocity, x + aside, start) - value_at<Dim>(velocity, x - aside, start)) / (2 * step);
   }
   return gradient;
 }
@@ -85,7 +85,10 @@ std::string place_text(const Vec<Dim>& x) {
 
 template <int Dim>
 std::string vector_text(const Vec<Dim>& v) {
-  return fmt::format("[{:.6g}]", fmt::join(v.begin(), v.end(), ", "));
+  std::string text;
+  for (const double x : v)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", std::isnan(x) ? "nan" : fmt::format("{:.6g}", x));
+  return "[" + text + ']';
 }
 
 /// Positions, and the region that each comes from.
@@ -100,7 +103,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, const std::string&
   Seeds<Dim> seeds;
   std::vector<double> filled(grid.node_count(), 0.0);
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
-    const auto positions = lattice<Dim>(scene.particles[r], grid);
+    const auto positions = lattice<Dim>(scene.particles[r], grid, start_of(scene));
     const std::string pointer = fmt::format("/particles/{}", r);
     if (positions.empty()) {
       problems.push_back({file, pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
@@ -133,6 +136,7 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
   const auto m_p = world.column<particle::Mass>();
   const auto id = world.column<particle::Id>();
   const auto grad_v_p = with_gradient ? world.column<particle::VelocityGradient<Dim>>() : std::span<Mat<Dim>>{};
+  const Instant start = start_of(scene);
   std::vector<bool> reported(scene.particles.size(), false);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const std::size_t r = seeds.region[p];
@@ -140,8 +144,8 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     x_p[p] = seeds.position[p];
     id[p] = static_cast<std::int64_t>(p);
     m_p[p] = scene.density * std::pow(grid.spacing / region.per_cell, Dim);
-    v_p[p] = value_at<Dim>(region.velocity, x_p[p]);
-    if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], grid.spacing);
+    v_p[p] = value_at<Dim>(region.velocity, x_p[p], start);
+    if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], start, grid.spacing);
     const bool finite = v_p[p].allFinite() && (!with_gradient || grad_v_p[p].allFinite());
     if (finite || reported[r]) continue;
     reported[r] = true;
@@ -152,12 +156,23 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
   }
 }
 
+/// Where a run with orthogonal subscales starts from: the pressure gradient of a liquid at rest.
+template <int Dim>
+void set_pressure_gradient(const Scene& scene, World& world) {
+  if (scene.stabilization != "oss") return;
+  const auto x_p = world.column<particle::Position<Dim>>();
+  const auto grad_p_p = world.column<particle::PressureGradient<Dim>>();
+  for (std::size_t p = 0; p < x_p.size(); ++p) {
+    grad_p_p[p] = scene.density * value_at<Dim>(scene.body_force, x_p[p], start_of(scene));
+  }
+}
+
 /// The body force must be finite where the liquid starts.
 template <int Dim>
 void check_body_force(const Scene& scene, const Seeds<Dim>& seeds, const std::string& file,
                       std::vector<Problem>& problems) {
   for (const Vec<Dim>& x : seeds.position) {
-    const Vec<Dim> b = value_at<Dim>(scene.body_force, x);
+    const Vec<Dim> b = value_at<Dim>(scene.body_force, x, start_of(scene));
     if (b.allFinite()) continue;
     problems.push_back({file, "/body_force", "not finite", "a finite force per unit mass [m/s^2]",
                         fmt::format("{} at {}, t = 0", vector_text<Dim>(b), place_text<Dim>(x)), ""});
@@ -169,18 +184,21 @@ void check_body_force(const Scene& scene, const Seeds<Dim>& seeds, const std::st
 
 template <int Dim>
 void seed_world(const Scene& scene, const std::string& file, World& world) {
-  const Grid<Dim> grid = make_grid<Dim>(scene.grid);
+  const Grid<Dim> grid = make_grid<Dim>(scene.grid, scene.walls);
   world.resource<Grid<Dim>>() = grid;
   world.resource<Fluid>() = {scene.density, scene.viscosity};
   world.resource<BodyForce>() = {scene.body_force};
   world.resource<NewmarkParameters>() = {scene.newmark_beta, scene.newmark_gamma};
   world.resource<VolumeRate>() = {scene.volume_rate};
+  world.resource<XpicOrder>() = {scene.xpic_order};
   world.resource<FlipBlend>() = {scene.flip_blend};
   set_walls<Dim>(scene, grid, world);
   std::vector<Problem> problems;
   const Seeds<Dim> seeds = lay_out<Dim>(scene, grid, file, problems);
   set_particles<Dim>(scene, grid, seeds, file, world, problems);
+  set_pressure_gradient<Dim>(scene, world);
   check_body_force<Dim>(scene, seeds, file, problems);
+  seed_measure<Dim>(scene, file, world, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 

@@ -1,5 +1,6 @@
 #include "systems/setup/time_plan.hpp"
 
+#include "components/instant.hpp"
 #include "components/particle.hpp"
 
 #include <algorithm>
@@ -16,13 +17,18 @@ double largest_speed(World& world) {
   return std::sqrt(squared);
 }
 
-/// |b| in the middle of the box.
-double force(const Scene& scene, double time) {
-  std::array<double, 4> xyzt{0, 0, 0, time};
-  for (std::size_t d = 0; d < scene.grid.low.size(); ++d) xyzt[d] = 0.5 * (scene.grid.low[d] + scene.grid.high[d]);
-  double squared = 0;
-  for (const Expression& b : scene.body_force) squared += std::pow(b(xyzt), 2);
-  return std::sqrt(squared);
+/// |b| in the middle of the box, now.
+template <int Dim>
+double force(const Scene& scene, World& world) {
+  Instant now{.time = world.resource<Clock>().time, .ode = {}, .ode_count = 0};
+  if (!scene.ode.empty()) now = world.resource<ode::Values>();
+  Vec<Dim> middle;
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    middle[d] = 0.5 * (scene.grid.low[axis] + scene.grid.high[axis]);
+  }
+  Arguments arguments(now);
+  return vector_at<Dim>(scene.body_force, arguments.at<Dim>(middle)).norm();
 }
 
 /// The positive root of (v + b dt) dt = distance, in the form that survives b = 0.
@@ -42,7 +48,8 @@ TimePlan make_time_plan(const Scene& scene) {
   if (plan.step) return plan;
   plan.choose_step = [scene](World& world) {
     const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);
-    const double dt = crossing_time(v, force(scene, world.resource<Clock>().time), scene.time.cfl * scene.grid.spacing);
+    const double b = scene.dimension == 2 ? force<2>(scene, world) : force<3>(scene, world);
+    const double dt = crossing_time(v, b, scene.time.cfl * scene.grid.spacing);
     return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every});
   };
   return plan;

@@ -12,8 +12,6 @@ template <int Dim>
 struct Terms {
   double c_v;
   double c_a;
-  double tau;
-  double density;
   double pressure_per_mass;  ///< e_I/m_I of (E27)
   std::span<const std::int32_t> row;
   std::span<const std::uint8_t> fixed;
@@ -24,9 +22,12 @@ struct Terms {
   std::span<const Vec<Dim>> u_i;
   std::span<const std::uint32_t> node;
   std::span<const typename matrix::Divergence<Dim>::value_type> divergence;
-  std::span<const typename matrix::Laplacian<Dim>::value_type> laplacian;
+  std::span<const typename matrix::Stabilization<Dim>::value_type> stabilization;
+  std::span<const double> source;
   std::span<const typename matrix::Viscosity<Dim>::value_type> viscosity;  ///< empty if inviscid
 
+  /// Whether the nodes at the ends of an entry share a particle: only then has the pressure term a value.
+  bool coupled(std::size_t r, std::size_t k) const { return stabilization[r][(Dim + 1) * k + Dim] != 0; }
   bool is_fixed(std::uint32_t i, std::size_t d) const { return fixed[i] >> d & 1; }
   /// D_IJ . q with J at place k of the stencil of row r.
   double dot_divergence(std::size_t r, std::size_t k, const Vec<Dim>& q) const {
@@ -47,7 +48,7 @@ void displacement_column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::
   if (t.is_fixed(j, d)) return emit(column, 1.0);
   stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
     const std::int32_t row = t.row[i];
-    if (row < 0 || t.laplacian[r_j][to_i] == 0) return;
+    if (row < 0 || !t.coupled(r_j, to_i)) return;
     const auto r_i = static_cast<std::size_t>(row);
     const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
     const std::size_t first = unknowns_per_row(Dim) * r_i;
@@ -58,8 +59,7 @@ void displacement_column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::
       const double friction = t.viscosity.empty() ? 0 : t.c_v * t.viscosity[r_i][Dim * (Dim * to_j + e) + d];
       emit(first + e, inertia + friction);
     }
-    emit(first + Dim, t.c_v * t.divergence[r_i][Dim * to_j + d] +
-                          t.tau * t.density * t.c_a * t.divergence[r_j][Dim * to_i + d]);
+    emit(first + Dim, t.c_v * t.divergence[r_i][Dim * to_j + d] + t.c_a * t.stabilization[r_i][(Dim + 1) * to_j + d]);
   });
 }
 
@@ -69,12 +69,14 @@ void pressure_column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::size
   const std::uint32_t j = t.node[r_j];
   stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
     const std::int32_t row = t.row[i];
-    if (row < 0 || t.laplacian[r_j][to_i] == 0) return;
-    const std::size_t first = unknowns_per_row(Dim) * static_cast<std::size_t>(row);
+    if (row < 0 || !t.coupled(r_j, to_i)) return;
+    const auto r_i = static_cast<std::size_t>(row);
+    const std::size_t first = unknowns_per_row(Dim) * r_i;
     for (std::size_t e = 0; e < Dim; ++e) {
       if (!t.is_fixed(i, e)) emit(first + e, -t.divergence[r_j][Dim * to_i + e]);
     }
-    emit(first + Dim, t.tau * t.laplacian[r_j][to_i] + (i == j ? t.pressure_per_mass * t.m_i[i] : 0));
+    const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
+    emit(first + Dim, t.stabilization[r_i][(Dim + 1) * to_j + Dim] + (i == j ? t.pressure_per_mass * t.m_i[i] : 0));
   });
 }
 
@@ -107,10 +109,17 @@ void fill_matrix(const Terms<Dim>& t, const Stencil<Dim>& stencil, matrix::Patte
   for_each_row(
       columns,
       [&](std::size_t c) {
-        auto at = static_cast<std::size_t>(pattern.next_outer[c]);
+        const auto first = static_cast<std::size_t>(pattern.next_outer[c]);
+        auto at = first;
         column<Dim>(t, stencil, c, [&](std::size_t row, double value) {
-          pattern.next_inner[at] = static_cast<int>(row);
-          values[at++] = value;
+          // Neighbours come with rising rows but across the ends of periodic axes.
+          auto place = at++;
+          for (; place > first && pattern.next_inner[place - 1] > static_cast<int>(row); --place) {
+            pattern.next_inner[place] = pattern.next_inner[place - 1];
+            values[place] = values[place - 1];
+          }
+          pattern.next_inner[place] = static_cast<int>(row);
+          values[place] = value;
         });
       },
       columns_per_task);
@@ -125,7 +134,7 @@ template <int Dim>
 void fill_right_hand_side(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r, double* out) {
   const std::uint32_t i = t.node[r];
   Vec<Dim> momentum = t.m_i[i] * (t.b_i[i] - t.a_known[i]);
-  double mass = 0;
+  double mass = t.source[r];
   stencil.for_each_neighbour(i, [&](std::size_t to_j, std::uint32_t j) {
     const Vec<Dim> v = t.v_known[j] + t.c_v * t.u_i[j];
     mass -= t.dot_divergence(r, to_j, v);
@@ -137,10 +146,6 @@ void fill_right_hand_side(const Terms<Dim>& t, const Stencil<Dim>& stencil, std:
         }
       }
     }
-    if (t.row[j] < 0) return;
-    const Vec<Dim> residual = t.a_known[j] - t.b_i[j];
-    mass -= t.tau * t.density *
-            t.dot_divergence(static_cast<std::size_t>(t.row[j]), stencil_size<Dim> - 1 - to_j, residual);
   });
   for (std::size_t d = 0; d < Dim; ++d) out[d] = t.is_fixed(i, d) ? 0 : momentum[static_cast<Eigen::Index>(d)];
   out[Dim] = mass;
@@ -172,31 +177,31 @@ double pressure_per_mass(double dt, double density, double spacing) {
 template <int Dim>
 void AssembleMonolithic<Dim>::operator()(
     Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-    Read<StabilizationTime> stabilization, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+    Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
     Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
     Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node,
-    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian, Update<matrix::Pattern> pattern,
+    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source, Update<matrix::Pattern> pattern,
     Write<matrix::Values> values, Write<matrix::RightHandSide> right_hand_side) const {
-  const Terms<Dim> terms{rates->velocity, rates->acceleration, stabilization->tau, fluid->density,
+  const Terms<Dim> terms{rates->velocity, rates->acceleration,
                          pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
                          m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(), node.span(),
-                         divergence.span(), laplacian.span(), {}};
+                         divergence.span(), stabilization.span(), source.span(), {}};
   assemble<Dim>(terms, *grid, *pattern, values->values, right_hand_side->values);
 }
 
 template <int Dim>
 void AssembleMonolithicViscous<Dim>::operator()(
     Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-    Read<StabilizationTime> stabilization, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+    Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
     Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
     Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node,
-    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
+    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source,
     Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values,
     Write<matrix::RightHandSide> right_hand_side) const {
-  const Terms<Dim> terms{rates->velocity, rates->acceleration, stabilization->tau, fluid->density,
+  const Terms<Dim> terms{rates->velocity, rates->acceleration,
                          pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
                          m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(), node.span(),
-                         divergence.span(), laplacian.span(), viscosity.span()};
+                         divergence.span(), stabilization.span(), source.span(), viscosity.span()};
   assemble<Dim>(terms, *grid, *pattern, values->values, right_hand_side->values);
 }
 

@@ -5,9 +5,9 @@
 ///
 /// (E25) Momentum, active I:  (m_I c_a + c_v K_II) u_I + c_v sum_J K_IJ u_J - sum_J D_JI p_J
 ///                            = m_I (b_I - a^_I) - sum_J K_IJ v'_J
-/// (E26) Mass, active I:      sum_J (c_v D_IJ + tau rho c_a D_JI) . u_J + tau sum_J L_IJ p_J + e_I p_I
-///                            = -sum_J D_IJ . v'_J - tau rho sum_J D_JI . (a^_J - b_J)
-/// Sums with u_J, p_J or a^_J run over active nodes; v'_J = v^_J + c_v u_J(E15) over all nodes.
+/// (E26) Mass, active I:      sum_J (c_v D_IJ + c_a G_IJ) . u_J + sum_J T_IJ p_J + e_I p_I = s_I - sum_J D_IJ . v'_J
+/// with G, T, s of the stabilization: (E24) PSPG has G_IJ = tau rho D_JI, T_IJ = tau L_IJ.
+/// Sums with u_J or p_J run over active nodes; v'_J = v^_J + c_v u_J(E15) over all nodes.
 /// (E27)                      e_I = eps dt m_I/(rho h)^2, eps = 1e-6: a lone particle gives its 3^d pressures d + 1
 ///                            equations, and a closed full box leaves one pressure free; e_I settles the rest.
 /// Kawano, Mihara, Hashimoto; Chandra et al., CMAME 419 (2024) 116644, doi:10.1016/j.cma.2023.116644.
@@ -26,11 +26,11 @@ template <int Dim>
 struct AssembleMonolithic {
   static constexpr std::string_view doc = "(E25) (E26) (E27) matrix and right-hand side, inviscid";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                  Read<StabilizationTime> stabilization, Read<node::Row> row, Read<node::Fixed> fixed,
+                  Read<node::Row> row, Read<node::Fixed> fixed,
                   Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
                   Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Laplacian<Dim>> laplacian, Update<matrix::Pattern> pattern,
+                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source, Update<matrix::Pattern> pattern,
                   Write<matrix::Values> values, Write<matrix::RightHandSide> right_hand_side) const;
 };
 
@@ -38,11 +38,11 @@ template <int Dim>
 struct AssembleMonolithicViscous {
   static constexpr std::string_view doc = "(E25) (E26) (E27) matrix and right-hand side, viscous";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                  Read<StabilizationTime> stabilization, Read<node::Row> row, Read<node::Fixed> fixed,
+                  Read<node::Row> row, Read<node::Fixed> fixed,
                   Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
                   Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Laplacian<Dim>> laplacian, Read<matrix::Viscosity<Dim>> viscosity,
+                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source, Read<matrix::Viscosity<Dim>> viscosity,
                   Update<matrix::Pattern> pattern, Write<matrix::Values> values,
                   Write<matrix::RightHandSide> right_hand_side) const;
 };

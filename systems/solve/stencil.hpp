@@ -11,7 +11,8 @@ class Stencil {
  public:
   explicit Stencil(const Grid<Dim>& grid) : grid_(grid) {}
 
-  /// Calls body(place, neighbour) for the neighbours inside the grid, rows rising; the place is that of matrix.hpp.
+  /// Calls body(place, neighbour) for the neighbours inside the grid; the place is that of matrix.hpp. Rows rise but
+  /// across the ends of periodic axes.
   template <class Body>
   void for_each_neighbour(std::uint32_t node, const Body& body) const {
     Index<Dim> at;
@@ -29,7 +30,7 @@ class Stencil {
   void visit(const Index<Dim>& at, std::size_t place, std::size_t row, const Body& body) const {
     constexpr auto axis = static_cast<std::size_t>(Axis);
     for (int step = -2; step <= 2; ++step) {
-      const int there = at[axis] + step;
+      const int there = grid_.wrapped(Axis, at[axis] + step);
       if (there < 0 || there >= grid_.nodes(Axis)) continue;
       const std::size_t next_place = 5 * place + static_cast<std::size_t>(step + 2);
       const std::size_t next_row =

@@ -5,11 +5,21 @@
 namespace minamo {
 
 template <int Dim>
-Vec<Dim> inside_box(const Grid<Dim>& grid, const Vec<Dim>& x) {
-  if ((x.array() >= grid.low.array()).all() && (x.array() <= grid.high.array()).all()) return x;
+Placed<Dim> inside_box(const Grid<Dim>& grid, Vec<Dim> x) {
   // Not on the wall itself, so that particles that come back again and again stay apart from it by more than rounding.
   const double margin = 1e-6 * grid.spacing;
-  return x.cwiseMax((grid.low.array() + margin).matrix()).cwiseMin((grid.high.array() - margin).matrix());
+  bool put_back = false;
+  for (int d = 0; d < Dim; ++d) {
+    if (x[d] >= grid.low[d] && x[d] <= grid.high[d]) continue;
+    if (grid.periodic[static_cast<std::size_t>(d)]) {
+      const double length = grid.high[d] - grid.low[d];
+      x[d] -= length * std::floor((x[d] - grid.low[d]) / length);
+    } else {
+      put_back = true;
+      x[d] = std::clamp(x[d], grid.low[d] + margin, grid.high[d] - margin);
+    }
+  }
+  return {x, put_back};
 }
 
 template <int Dim>
@@ -18,14 +28,14 @@ void Advect<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cell
                              Update<particle::Position<Dim>> x_p, Update<PutBack> put_back) const {
   gather<Dim>(*grid, *cells, y_p.span(), u_i.span(), [&](std::size_t p, const Vec<Dim>& u) { x_p[p] += u; });
   for (Vec<Dim>& x : x_p) {
-    const Vec<Dim> put = inside_box<Dim>(*grid, x);
-    put_back->count += put != x;
-    x = put;
+    const Placed<Dim> placed = inside_box<Dim>(*grid, x);
+    x = placed.x;
+    put_back->count += placed.put_back;
   }
 }
 
-template Vec<2> inside_box<2>(const Grid<2>&, const Vec<2>&);
-template Vec<3> inside_box<3>(const Grid<3>&, const Vec<3>&);
+template Placed<2> inside_box<2>(const Grid<2>&, Vec<2>);
+template Placed<3> inside_box<3>(const Grid<3>&, Vec<3>);
 template struct Advect<2>;
 template struct Advect<3>;
 

@@ -11,9 +11,16 @@
 
 namespace minamo {
 
-/// The point itself, or, if it lies outside the box, a point just inside the wall.
+/// A point inside the box.
 template <int Dim>
-Vec<Dim> inside_box(const Grid<Dim>& grid, const Vec<Dim>& x);
+struct Placed {
+  Vec<Dim> x;
+  bool put_back;  ///< whether a wall had to hold it
+};
+
+/// The point itself, its image along periodic axes, or a point just inside the wall that it went through.
+template <int Dim>
+Placed<Dim> inside_box(const Grid<Dim>& grid, Vec<Dim> x);
 
 /// (E11)  x_p^{n+1} = x_p^n + sum_I S_I(y_p) u_I. A particle that would leave the box is put back just inside the wall
 /// and counted.

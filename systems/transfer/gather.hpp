@@ -16,14 +16,14 @@ struct Sample {
   Mat<Dim> gradient;  ///< row i: gradient of component i
 };
 
-/// (E17)  q_p = sum_I S_Ip q_I; use(p, q_p) for every particle.
-template <int Dim, class Use>
+/// (E17)  q_p = sum_I S_Ip q_I; use(p, q_p) for every particle. The nodal field is a function of the node's row.
+template <int Dim, class AtNode, class Use>
 void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-            std::span<const Vec<Dim>> q_i, const Use& use) {
+            const AtNode& at_node, const Use& use) {
   for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
     const Support<Dim> support(grid, cell.node);
     std::array<Vec<Dim>, support_size<Dim>> q;
-    for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] = at_node(support.node[k]);
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
       const Weights<Dim> weights(support, y_p[p]);
       Vec<Dim> q_p = Vec<Dim>::Zero();
@@ -33,16 +33,22 @@ void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<co
   });
 }
 
-/// (E17), (E18)  with grad q_p = sum_I q_I (x) grad S_Ip; use(p, sample) for every particle.
 template <int Dim, class Use>
-void gather_with_gradient(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-                          std::span<const Vec<Dim>> q_i, const Use& use) {
+void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+            std::span<const Vec<Dim>> q_i, const Use& use) {
+  gather<Dim>(grid, cells, y_p, [&](std::size_t i) -> const Vec<Dim>& { return q_i[i]; }, use);
+}
+
+/// The value as in (E17) and sum_I q_I (x) w_Ip, where w_Ip is what slope(support, weights) makes of the weights.
+template <int Dim, class Slope, class Use>
+void gather_value_and_slope(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+                            std::span<const Vec<Dim>> q_i, const Slope& slope, const Use& use) {
   for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
     const Support<Dim> support(grid, cell.node);
     std::array<Vec<Dim>, support_size<Dim>> q;
     for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Weights<Dim> weights(support, y_p[p]);
+      const Weights<Dim> weights = slope(support, Weights<Dim>(support, y_p[p]), y_p[p]);
       Sample<Dim> sample{Vec<Dim>::Zero(), Mat<Dim>::Zero()};
       for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
         sample.value += weights(offset) * q[k];
@@ -51,6 +57,33 @@ void gather_with_gradient(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
       use(p, sample);
     }
   });
+}
+
+/// (E17), (E18)  with grad q_p = sum_I q_I (x) grad S_Ip; use(p, sample) for every particle.
+template <int Dim, class Use>
+void gather_with_gradient(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+                          std::span<const Vec<Dim>> q_i, const Use& use) {
+  const auto keep = [](const Support<Dim>&, const Weights<Dim>& weights, const Vec<Dim>&) { return weights; };
+  gather_value_and_slope<Dim>(grid, cells, y_p, q_i, keep, use);
+}
+
+/// (E17), (E45)  with C_p = sum_I S_Ip q_I (x) D_p^-1 (x_I - y_p) in the place of the gradient.
+template <int Dim, class Use>
+void gather_with_affine(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+                        std::span<const Vec<Dim>> q_i, const Use& use) {
+  const auto affine = [](const Support<Dim>& support, Weights<Dim> weights, const Vec<Dim>& y) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      // In the half cell at a wall w_a (x_a - y)/D is the slope itself, and does not divide by a vanishing D.
+      if (support.basis[d] != &inner_basis()) continue;
+      const auto axis = static_cast<Eigen::Index>(d);
+      const double xi = (y[axis] - support.centre[axis]) * support.per_spacing;
+      for (std::size_t a = 0; a < 3; ++a) {
+        weights.slope[d][a] = 4 * support.per_spacing * weights.value[d][a] * (static_cast<double>(a) - 1 - xi);
+      }
+    }
+    return weights;
+  };
+  gather_value_and_slope<Dim>(grid, cells, y_p, q_i, affine, use);
 }
 
 }  // namespace minamo

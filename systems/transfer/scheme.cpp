@@ -6,13 +6,17 @@
 namespace minamo {
 
 std::span<const TransferScheme> transfer_schemes() {
-  static const std::array<TransferScheme, 3> schemes{{
+  static const std::array<TransferScheme, 5> schemes{{
+      {"apic", "particles take over the grid velocity and its affine part; keeps angular momentum", "p2g_velocity_tpic",
+       "p2g_acceleration_tpic", {"g2p_velocity_apic"}, "g2p_acceleration_apic", true},
       {"flip", "particles add up the changes of the grid velocity; little damping, noisy", "p2g_velocity_pic",
-       "p2g_acceleration_pic", "g2p_velocity_flip", "g2p_acceleration_pic", false},
+       "p2g_acceleration_pic", {"g2p_velocity_flip"}, "g2p_acceleration_pic", false},
       {"pic", "particles take over the grid velocity; strong damping", "p2g_velocity_pic", "p2g_acceleration_pic",
-       "g2p_velocity_pic", "g2p_acceleration_pic", false},
+       {"g2p_velocity_pic"}, "g2p_acceleration_pic", false},
       {"tpic", "particles take over the grid velocity and its gradient; smooth, little damping", "p2g_velocity_tpic",
-       "p2g_acceleration_tpic", "g2p_velocity_tpic", "g2p_acceleration_tpic", true},
+       "p2g_acceleration_tpic", {"g2p_velocity_tpic"}, "g2p_acceleration_tpic", true},
+      {"xpic", "PIC whose damping shrinks with the order; XPIC(1) is PIC", "p2g_velocity_pic", "p2g_acceleration_pic",
+       {"filter_velocity_xpic", "g2p_velocity_xpic"}, "g2p_acceleration_pic", false},
   }};
   return schemes;
 }

@@ -15,7 +15,7 @@ struct TransferScheme {
   std::string doc;
   std::string p2g_velocity;
   std::string p2g_acceleration;
-  std::string g2p_velocity;
+  std::vector<std::string> g2p_velocity;
   std::string g2p_acceleration;
   bool carries_gradient;  ///< of velocity, and of acceleration where there is one
 };

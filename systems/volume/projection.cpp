@@ -2,7 +2,7 @@
 
 #include "systems/grid/node_volume.hpp"
 #include "systems/solve/stencil.hpp"
-#include "systems/transfer/advect.hpp"
+#include "systems/volume/shift.hpp"
 
 namespace minamo {
 
@@ -46,15 +46,13 @@ void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rat
 template <int Dim>
 void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Shift<Dim>> d_i,
                                      Update<particle::Position<Dim>> x_p) const {
-  const double longest = 0.1 * grid->spacing;  // a shift is a correction, not a motion
   for_each_row(x_p.size(), [&](std::size_t p) {
-    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, x_p[p]));
-    const Weights<Dim> weights(support, x_p[p]);
+    const Vec<Dim> x = fold<Dim>(*grid, x_p[p]);
+    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, x));
+    const Weights<Dim> weights(support, x);
     Vec<Dim> shift = Vec<Dim>::Zero();
     for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { shift += weights(offset) * d_i[support.node[k]]; });
-    const double length = shift.norm();
-    if (length > longest) shift *= longest / length;
-    x_p[p] = inside_box<Dim>(*grid, Vec<Dim>(x_p[p] + shift));
+    x_p[p] = shifted<Dim>(*grid, x_p[p], shift);
   });
 }
 

@@ -124,7 +124,9 @@ TEMPLATE_TEST_CASE_SIG("the corrected kernel is the moment-matrix correction of 
 TEMPLATE_TEST_CASE_SIG("the gradient of a weight is its finite difference", "[property]", ((int Dim), Dim), 2, 3) {
   const Grid<Dim> grid = small_grid<Dim>();
   const double step = 1e-5 * grid.spacing;
-  const Vec<Dim> x = some_place<Dim>(grid).cwiseMax(grid.low.array() + step).cwiseMin(grid.high.array() - step);
+  const Vec<Dim> x = some_place<Dim>(grid)
+                         .cwiseMax(grid.low + Vec<Dim>::Constant(step))
+                         .cwiseMin(grid.high - Vec<Dim>::Constant(step));
   CAPTURE(x.transpose());
   const auto weights = kernel_weights<Dim>(grid, x);
   double worst = 0;

@@ -17,6 +17,7 @@ Json flying_2d() {
     "fluid": {"density": 1000, "viscosity": 5},
     "particles": [{"shape": {"box": {"low": [0.75, 0.75], "high": [1.25, 1.25]}}, "per_cell": 3,
                    "velocity": ["0.7 - 2*y + sin(5*x)", "-0.4 + x*x"]}],
+    "stabilization": {"scheme": "pspg"}, "volume": {"scheme": "none"}, "solver": {"scheme": "umfpack"},
     "time": {"end": 1, "step": 0.002}})json");
 }
 
@@ -25,8 +26,9 @@ Json flying_3d() {
     "dimension": 3,
     "grid": {"low": [0, 0, 0], "high": [2, 2, 2], "cells": [8, 8, 8]},
     "fluid": {"density": 1000, "viscosity": 5},
-    "particles": [{"shape": {"box": {"low": [0.75, 0.75, 0.75], "high": [1.25, 1.25, 1.25]}}, "per_cell": 3,
+    "particles": [{"shape": {"box": {"low": [0.9, 0.9, 0.9], "high": [1.35, 1.35, 1.35]}}, "per_cell": 2,
                    "velocity": ["0.7 - 2*y + sin(5*x)", "-0.4 + x*x", "0.2*z + y*x"]}],
+    "stabilization": {"scheme": "pspg"}, "volume": {"scheme": "none"}, "solver": {"scheme": "umfpack"},
     "time": {"end": 1, "step": 0.002}})json");
 }
 

@@ -1,5 +1,6 @@
 #include "support/dense_equations.hpp"
 
+#include "components/matrix.hpp"
 #include "engine/clock.hpp"
 #include "support/kernels.hpp"
 

@@ -8,6 +8,7 @@
 #include "components/particle.hpp"
 #include "engine/system.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/support.hpp"
 #include "systems/transfer/mass.hpp"
 
 #include <cmath>
@@ -85,8 +86,7 @@ void set_grid(World& world, const Grid<Dim>& grid) {
 
 /// Particles with random masses at random places, sorted, with the nodal mass.
 template <int Dim>
-void fill(World& world, std::size_t count, std::uint64_t seed) {
-  const Grid<Dim> grid = small_grid<Dim>();
+void fill(World& world, std::size_t count, std::uint64_t seed, const Grid<Dim>& grid = small_grid<Dim>()) {
   set_grid<Dim>(world, grid);
   world.resize<Particles>(count);
   Random random(seed);

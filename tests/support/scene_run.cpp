@@ -1,6 +1,7 @@
 #include "support/scene_run.hpp"
 
 #include "engine/clock.hpp"
+#include "systems/register.hpp"
 #include "tools/scene_file.hpp"
 
 namespace minamo::scene_run {

@@ -2,11 +2,9 @@
 /// \file
 /// A run without files: a scene, its world and its schedules, stepped by hand.
 
-#include "engine/checkpoint.hpp"
-#include "systems/pipeline.hpp"
-#include "systems/register.hpp"
-
 #include "components/particle.hpp"
+#include "engine/schedule.hpp"
+#include "systems/pipeline.hpp"
 
 #include <algorithm>
 #include <map>

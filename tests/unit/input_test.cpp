@@ -90,7 +90,7 @@ TEST_CASE("a wrong value is reported with what its rule expects", "[error]") {
        [](Input& in) { in.expressions("a", 2, place_and_time, {.unit = "m/s"}); }},
       {"\"-H\"", "out of range", "a number > 0 or an expression in x, y, t [m]", "\"-H\" (string)",
        [](Input& in) { in.expression("a", place_and_time, {.unit = "m", .above = 0}); }},
-      {"\"1/0\"", "out of range", "a number or an expression in x, y, t", "\"1/0\" (string)",
+      {"\"1/0\"", "not finite", "a number or an expression in x, y, t", "\"1/0\" (string)",
        [](Input& in) { in.expression("a", place_and_time, {}); }},
       {"3", "wrong type", "an object of numbers", "3 (number)", [](Input& in) { in.named_numbers("a", ""); }},
       {"3", "wrong type", "an object", "3 (number)",

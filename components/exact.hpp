@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// The exact solution of a scene, to measure errors against.
+
+#include "engine/component.hpp"
+#include "engine/expression.hpp"
+
+#include <array>
+#include <vector>
+
+namespace minamo::exact {
+
+/// Particles are compared in this many parts side by side. Each has its own copy of the expressions, which keep their
+/// variables inside.
+inline constexpr std::size_t parts = 16;
+
+/// v_e. [m/s]
+struct Velocity {
+  std::array<std::vector<Expression>, parts> of_part;  ///< per direction, as scene_scope() says
+  static constexpr ComponentInfo info{"exact.velocity", "v_e", "m/s", Lifetime::constant};
+};
+
+/// p_e. [Pa]
+struct Pressure {
+  std::vector<Expression> of_part;
+  bool is_free = false;  ///< known up to a constant only
+  static constexpr ComponentInfo info{"exact.pressure", "p_e", "Pa", Lifetime::constant};
+};
+
+}  // namespace minamo::exact

@@ -1,0 +1,98 @@
+#include "systems/measure/error.hpp"
+
+#include "engine/parallel.hpp"
+#include "systems/measure/weighted_mean.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// add(sum, part, row) for every row, in exact::parts parts side by side, each with a sum of its own, which are then
+/// joined in order.
+template <class Sum, class Add>
+Sum sum_of_parts(std::size_t rows, const Add& add) {
+  std::array<Sum, exact::parts> sums{};
+  const auto sum_part = [&](std::size_t part) {
+    const std::size_t end = (part + 1) * rows / exact::parts;
+    for (std::size_t row = part * rows / exact::parts; row < end; ++row) add(sums[part], part, row);
+  };
+  constexpr std::size_t few = 512;  // particles: shorter than handing out the parts
+  for_each_row(exact::parts, sum_part, rows < few ? exact::parts : 1);
+  Sum total;
+  for (const Sum& sum : sums) total.join(sum);
+  return total;
+}
+
+/// difference / exact, both sums of weighted squares; the root mean square where the exact field is zero.
+double relative(double difference, double exact, double weight) {
+  return std::sqrt(difference / (exact > 0 ? exact : weight));
+}
+
+struct VelocitySum {
+  double weight = 0;
+  double difference = 0;  ///< sum w |v - v_e|^2
+  double exact = 0;       ///< sum w |v_e|^2
+
+  void join(const VelocitySum& other) {
+    weight += other.weight;
+    difference += other.difference;
+    exact += other.exact;
+  }
+};
+
+struct PressureSum {
+  WeightedMean difference;
+  WeightedMean exact;
+
+  void join(const PressureSum& other) {
+    difference.join(other.difference);
+    exact.join(other.exact);
+  }
+};
+
+}  // namespace
+
+// The density is the same everywhere, so that masses weigh like volumes.
+
+template <int Dim, class When>
+void MeasureErrorVelocityAt<Dim, When>::operator()(Read<exact::Velocity> exact, Read<When> when,
+                                                   Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                                                   Read<particle::Velocity<Dim>> v_p,
+                                                   Update<measure::Columns> columns) const {
+  const Arguments start(instant_of(*when));
+  const auto sum = sum_of_parts<VelocitySum>(x_p.size(), [&](VelocitySum& part_sum, std::size_t part, std::size_t p) {
+    Arguments arguments = start;
+    const Vec<Dim> v = vector_at<Dim>(exact->of_part[part], arguments.at<Dim>(x_p[p]));
+    part_sum.join({m_p[p], m_p[p] * (v_p[p] - v).squaredNorm(), m_p[p] * v.squaredNorm()});
+  });
+  columns->set("error_velocity", relative(sum.difference, sum.exact, sum.weight));
+}
+
+template <int Dim, class When>
+void MeasureErrorPressureAt<Dim, When>::operator()(Read<exact::Pressure> exact, Read<When> when,
+                                                   Read<particle::Mass> m_p, Read<particle::Configuration<Dim>> y_p,
+                                                   Read<particle::Pressure> p_p,
+                                                   Update<measure::Columns> columns) const {
+  const Arguments start(instant_of(*when));
+  const auto sum = sum_of_parts<PressureSum>(y_p.size(), [&](PressureSum& part_sum, std::size_t part, std::size_t p) {
+    Arguments arguments = start;
+    const double pressure = exact->of_part[part](arguments.at<Dim>(y_p[p]));
+    part_sum.difference.add(m_p[p], p_p[p] - pressure);
+    part_sum.exact.add(m_p[p], pressure);
+  });
+  const auto squares = [&](const WeightedMean& q) { return exact->is_free ? q.scatter : q.squares(); };
+  columns->set("error_pressure", relative(squares(sum.difference), squares(sum.exact), sum.exact.weight));
+}
+
+template struct MeasureErrorVelocityAt<2, Clock>;
+template struct MeasureErrorVelocityAt<3, Clock>;
+template struct MeasureErrorVelocityAt<2, ode::Values>;
+template struct MeasureErrorVelocityAt<3, ode::Values>;
+template struct MeasureErrorPressureAt<2, Rates>;
+template struct MeasureErrorPressureAt<3, Rates>;
+template struct MeasureErrorPressureAt<2, ode::AtBalances>;
+template struct MeasureErrorPressureAt<3, ode::AtBalances>;
+
+}  // namespace minamo

@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// How far the particles are from the exact solution of the scene, as columns of the history.
+///
+/// Both norms are relative. Where the exact field is zero at all particles (liquid at rest, the pressure of a free
+/// flight) there is nothing to relate to, and the column has the root mean square of the difference itself, in m/s or
+/// Pa. `When` tells the instant of the exact solution (components/instant.hpp).
+
+#include "components/exact.hpp"
+#include "components/instant.hpp"
+#include "components/measure.hpp"
+#include "components/particle.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E41)  error_velocity = sqrt(sum V_p |v_p - v_e(x_p)|^2 / sum V_p |v_e(x_p)|^2), at the end of the step.
+template <int Dim, class When>
+struct MeasureErrorVelocityAt {
+  static constexpr std::string_view doc = "(E41) error of the velocity";
+  void operator()(Read<exact::Velocity> exact, Read<When> when, Read<particle::Mass> m_p,
+                  Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                  Update<measure::Columns> columns) const;
+};
+template <int Dim>
+using MeasureErrorVelocity = MeasureErrorVelocityAt<Dim, Clock>;
+template <int Dim>
+using MeasureErrorVelocityOde = MeasureErrorVelocityAt<Dim, ode::Values>;
+
+/// (E42)  error_pressure = sqrt(sum V_p (p_p - p_e(y_p))^2 / sum V_p p_e(y_p)^2), p_p of (E33): where and when the
+/// balances hold, which with newmark is the end of the step on the configuration at its start, with midpoint the middle
+/// of the step. If the exact pressure is free, both p lose their mean sum V_p p / sum V_p first.
+template <int Dim, class When>
+struct MeasureErrorPressureAt {
+  static constexpr std::string_view doc = "(E42) error of the pressure";
+  void operator()(Read<exact::Pressure> exact, Read<When> when, Read<particle::Mass> m_p,
+                  Read<particle::Configuration<Dim>> y_p, Read<particle::Pressure> p_p,
+                  Update<measure::Columns> columns) const;
+};
+template <int Dim>
+using MeasureErrorPressure = MeasureErrorPressureAt<Dim, Rates>;
+template <int Dim>
+using MeasureErrorPressureOde = MeasureErrorPressureAt<Dim, ode::AtBalances>;
+
+}  // namespace minamo

@@ -1,0 +1,36 @@
+#include "systems/measure/probes.hpp"
+
+#include "systems/grid/support.hpp"
+
+namespace minamo {
+
+template <int Dim, class Velocity>
+void MeasureProbesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Read<measure::Probes<Dim>> probes,
+                                                Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<Velocity> v_i,
+                                                Update<measure::Columns> columns) const {
+  for (const auto& probe : probes->probes) {
+    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, probe.at));
+    const Weights<Dim> weights(support, probe.at);
+    double wet = 0;
+    double p_s = 0;
+    Vec<Dim> v_s = Vec<Dim>::Zero();
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
+      const std::size_t i = support.node[k];
+      if (m_i[i] == 0) return;
+      const double weight = weights(offset);
+      wet += weight;
+      p_s += weight * p_i[i];
+      v_s += weight * v_i[i];
+    });
+    if (wet > 0) v_s /= wet;
+    columns->set(probe.pressure, p_s);
+    for (int d = 0; d < Dim; ++d) columns->set(probe.velocity[static_cast<std::size_t>(d)], v_s[d]);
+  }
+}
+
+template struct MeasureProbesIn<2, node::NewVelocity<2>>;
+template struct MeasureProbesIn<3, node::NewVelocity<3>>;
+template struct MeasureProbesIn<2, node::Velocity<2>>;
+template struct MeasureProbesIn<3, node::Velocity<3>>;
+
+}  // namespace minamo

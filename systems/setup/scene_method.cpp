@@ -1,0 +1,61 @@
+#include "systems/setup/scene_method.hpp"
+
+#include "systems/transfer/scheme.hpp"
+
+namespace minamo {
+
+namespace {
+
+void read_transfer(Input& input, Scene& scene) {
+  Input::Variants variants;
+  for (const std::string& name : transfer_scheme_names()) {
+    variants.emplace_back(name, [&, name](Input& in) {
+      if (name == "flip") {
+        scene.flip_blend =
+            in.number("blend", {.doc = "share of FLIP, the rest is PIC", .fallback = 1, .at_least = 0, .at_most = 1});
+      } else if (name == "xpic") {
+        scene.xpic_order = static_cast<int>(
+            in.integer("order", {.doc = "order m; 1 is PIC", .fallback = 2, .at_least = 1, .at_most = 20}));
+      }
+    });
+  }
+  scene.transfer = input.variant("scheme", "transfer scheme", "tpic", variants);
+}
+
+void read_integrator(Input& input, Scene& scene) {
+  const auto read_newmark = [&](Input& in) {
+    scene.newmark_beta = in.number("beta", {.doc = "Newmark's beta", .fallback = 0.25, .at_most = 0.5, .above = 0});
+    scene.newmark_gamma =
+        in.number("gamma", {.doc = "Newmark's gamma", .fallback = 0.5, .at_least = 0.5, .at_most = 1});
+  };
+  scene.integrator =
+      input.variant("scheme", "integrator", "newmark", {{"midpoint", [](Input&) {}}, {"newmark", read_newmark}});
+}
+
+void read_volume(Input& input, Scene& scene) {
+  const auto read_rate = [&](Input& in) {
+    scene.volume_rate = in.number(
+        "rate", {.doc = "share of the excess that is corrected in a step", .fallback = 0.1, .at_most = 1, .above = 0});
+  };
+  scene.volume = input.variant("scheme", "volume correction", "none",
+                               {{"delta", [](Input&) {}}, {"none", [](Input&) {}}, {"projection", read_rate}});
+}
+
+}  // namespace
+
+void read_method(Input& input, Scene& scene) {
+  const auto block = [&](std::string_view key, std::string_view doc, void (*read)(Input&, Scene&)) {
+    input.object(key, doc, Input::Presence::optional, [&](Input& in) { read(in, scene); });
+  };
+  block("transfer", "transfer between particles and grid", read_transfer);
+  block("integrator", "time integration", read_integrator);
+  block("stabilization", "pressure stabilization", [](Input& in, Scene& s) {
+    s.stabilization = in.choice("scheme", std::vector<std::string>{"oss", "pspg", "vms"}, "stabilization", "pspg");
+  });
+  block("volume", "volume correction", read_volume);
+  block("solver", "linear solver", [](Input& in, Scene& s) {
+    s.solver = in.choice("scheme", std::vector<std::string>{"umfpack"}, "linear solver", "umfpack");
+  });
+}
+
+}  // namespace minamo

@@ -1,0 +1,11 @@
+#pragma once
+/// \file
+/// Reading of what a scene says about the method: transfer, integrator, stabilization, volume, solver.
+
+#include "systems/setup/scene.hpp"
+
+namespace minamo {
+
+void read_method(Input& input, Scene& scene);
+
+}  // namespace minamo

@@ -1,0 +1,83 @@
+#include "systems/solve/vms.hpp"
+
+#include "systems/solve/cell_matrix.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace minamo {
+
+namespace {
+
+constexpr double c_1 = 4;
+constexpr double c_2 = 2;
+
+/// tau_1 of (E50) in a cell; v_c is the velocity of the cell's own node, which lies in its middle. [m^3 s/kg]
+double tau_1(double dt, double spacing, const Fluid& fluid, double speed) {
+  const double h_s = spacing * std::sqrt(4 / std::numbers::pi);
+  return 1 / (fluid.density / dt + c_2 * fluid.density * speed / h_s + c_1 * fluid.viscosity / (h_s * h_s));
+}
+
+/// tau_2 of (E51). [Pa s]
+double tau_2(double spacing, double tau) { return 4 / std::numbers::pi * spacing * spacing / (c_1 * tau); }
+
+template <int Dim>
+double cell_tau(double dt, const Grid<Dim>& grid, const Fluid& fluid, std::span<const Vec<Dim>> v_i,
+                const Index<Dim>& own) {
+  return tau_1(dt, grid.spacing, fluid, v_i[grid.row(own)].norm());
+}
+
+}  // namespace
+
+template <int Dim>
+void StabilizeVms<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                   Read<Fluid> fluid, Read<Moments<Dim>> moments, Read<node::Row> row,
+                                   Read<node::Velocity<Dim>> v_i, Read<node::BodyForce<Dim>> b_i,
+                                   Read<node::KnownAcceleration<Dim>> a_known,
+                                   Write<matrix::Stabilization<Dim>> stabilization,
+                                   Write<matrix::StabilizationSource> source) const {
+  const auto rows = stabilization.span();
+  clear_rows(rows);
+  for_each_row(source.size(), [&](std::size_t r) { source[r] = 0; });
+  for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+    const Support<Dim> support(*grid, cell.node);
+    const double tau = cell_tau<Dim>(clock->step, *grid, *fluid, v_i.span(), cell.node);
+    const double h = support.per_spacing;
+    for (int d = 0; d < Dim; ++d) {
+      const auto laplacian = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, d, d));
+      add_to_rows<Dim>(support, row.span(), laplacian, tau * h * h, Dim + 1, Dim, rows);
+      const auto gradient = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, d, -1));
+      const double scale = tau * fluid->density * h;
+      add_to_rows<Dim>(support, row.span(), gradient, scale, Dim + 1, static_cast<std::size_t>(d), rows);
+      add_product<Dim>(support, row.span(), gradient, [&](std::size_t j) {
+        return row[j] < 0 ? 0 : -scale * (a_known[j][d] - b_i[j][d]);
+      }, source.span());
+    }
+  });
+}
+
+template <int Dim>
+void AddVmsBulkViscosity<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                          Read<Fluid> fluid, Read<Moments<Dim>> moments, Read<node::Row> row,
+                                          Read<node::Velocity<Dim>> v_i,
+                                          Update<matrix::Viscosity<Dim>> viscosity) const {
+  for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+    const Support<Dim> support(*grid, cell.node);
+    const double tau = cell_tau<Dim>(clock->step, *grid, *fluid, v_i.span(), cell.node);
+    const double scale = tau_2(grid->spacing, tau) * support.per_spacing * support.per_spacing;
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j) {
+        const auto matrix = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, i, j));
+        add_to_rows<Dim>(support, row.span(), matrix, scale, Dim * Dim, static_cast<std::size_t>(Dim * i + j),
+                         viscosity.span());
+      }
+    }
+  });
+}
+
+template struct StabilizeVms<2>;
+template struct StabilizeVms<3>;
+template struct AddVmsBulkViscosity<2>;
+template struct AddVmsBulkViscosity<3>;
+
+}  // namespace minamo

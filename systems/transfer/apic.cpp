@@ -1,0 +1,35 @@
+#include "systems/transfer/apic.hpp"
+
+#include "systems/transfer/gather.hpp"
+
+namespace minamo {
+
+template <int Dim>
+void G2PVelocityApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                      Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+                                      Write<particle::Velocity<Dim>> v_p,
+                                      Write<particle::VelocityGradient<Dim>> c_p) const {
+  gather_with_affine<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Sample<Dim>& v) {
+    v_p[p] = v.value;
+    c_p[p] = v.gradient;
+  });
+}
+
+template <int Dim>
+void G2PAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                          Read<particle::Configuration<Dim>> y_p,
+                                          Read<node::NewAcceleration<Dim>> a_i,
+                                          Write<particle::Acceleration<Dim>> a_p,
+                                          Write<particle::AccelerationGradient<Dim>> c_p) const {
+  gather_with_affine<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Sample<Dim>& a) {
+    a_p[p] = a.value;
+    c_p[p] = a.gradient;
+  });
+}
+
+template struct G2PVelocityApic<2>;
+template struct G2PVelocityApic<3>;
+template struct G2PAccelerationApic<2>;
+template struct G2PAccelerationApic<3>;
+
+}  // namespace minamo

@@ -1,0 +1,70 @@
+#include "systems/volume/delta.hpp"
+
+#include "systems/grid/node_volume.hpp"
+#include "systems/volume/shift.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// A particle's support and weights, wherever it is.
+template <int Dim>
+struct Place {
+  Support<Dim> support;
+  Weights<Dim> weights;
+
+  Place(const Grid<Dim>& grid, const Vec<Dim>& x)
+      : support(grid, dual_cell<Dim>(grid, x)), weights(support, x) {}
+};
+
+/// g_p of (E52).
+template <int Dim>
+Vec<Dim> slope(const Place<Dim>& place, std::span<const double> e_i) {
+  Vec<Dim> g = Vec<Dim>::Zero();
+  for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
+    g += e_i[place.support.node[k]] * place.weights.gradient(offset);
+  });
+  return g;
+}
+
+/// lambda of (E52); 0 if nothing responds.
+double step_length(std::span<const double> e_i, std::span<const double> r_i) {
+  double e_r = 0;
+  double r_r = 0;
+  for (std::size_t i = 0; i < e_i.size(); ++i) {
+    if (e_i[i] == 0) continue;
+    e_r += e_i[i] * r_i[i];
+    r_r += r_i[i] * r_i[i];
+  }
+  return r_r > 0 ? e_r / r_r : 0;
+}
+
+}  // namespace
+
+template <int Dim>
+void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Mass> m_p,
+                                   Read<node::Volume> v_i, Write<node::VolumeExcess> e_i,
+                                   Write<node::VolumeResponse> r_i, Update<particle::Position<Dim>> x_p) const {
+  for_each_row(e_i.size(), [&](std::size_t i) {
+    e_i[i] = std::max(0.0, v_i[i] - full_volume<Dim>(*grid, i));
+    r_i[i] = 0;
+  });
+  // One after the other: particles have left the cells that they are sorted by.
+  for (std::size_t p = 0; p < x_p.size(); ++p) {
+    const Place<Dim> place(*grid, fold<Dim>(*grid, x_p[p]));
+    const Vec<Dim> g = m_p[p] / fluid->density * slope<Dim>(place, e_i.span());
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
+      r_i[place.support.node[k]] += place.weights.gradient(offset).dot(g);
+    });
+  }
+  const double lambda = step_length(e_i.span(), r_i.span());
+  for_each_row(x_p.size(), [&](std::size_t p) {
+    const Place<Dim> place(*grid, fold<Dim>(*grid, x_p[p]));
+    x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(-lambda * slope<Dim>(place, e_i.span())));
+  });
+}
+
+template struct ShiftByDelta<2>;
+template struct ShiftByDelta<3>;
+
+}  // namespace minamo

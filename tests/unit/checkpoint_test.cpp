@@ -1,0 +1,75 @@
+#include "engine/checkpoint.hpp"
+
+#include "engine/hdf5.hpp"
+#include "support/folder.hpp"
+#include "support/scene_run.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <hdf5.h>
+
+#include <set>
+
+using namespace minamo;
+using namespace minamo::scene_run;
+
+namespace {
+
+struct NotPlain {
+  std::vector<int> values;
+  static constexpr ComponentInfo info{"not_plain", "", "1", Lifetime::state};
+};
+
+std::set<std::string> names_in(const std::string& path, const std::string& group) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  std::set<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* into) -> herr_t {
+    static_cast<std::set<std::string>*>(into)->insert(name);
+    return 0;
+  };
+  H5Literate_by_name(file, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names, H5P_DEFAULT);
+  H5Fclose(file);
+  return names;
+}
+
+Json small_scene() {
+  return with(scene_of_file("dam_break.json"), {"/grid/cells=[20, 20]", R"(/integrator={"scheme": "newmark"})"});
+}
+
+}  // namespace
+
+TEST_CASE("a checkpoint holds the state components and no other", "[unit]") {
+  const Folder folder;
+  SceneRun run(small_scene());
+  run.step(3);
+  write_checkpoint(folder / "c.h5", run.world(), "{}");
+  std::set<std::string> expected;
+  for (const auto& [name, storage] : run.world().components()) {
+    if (storage->info().lifetime == Lifetime::state) expected.insert(name);
+  }
+  CHECK(names_in(folder / "c.h5", "/state") == expected);
+  CHECK(expected.count("particle.position") == 1);
+  CHECK(expected.count("particle.acceleration_gradient") == 1);
+  CHECK(expected.count("clock") == 1);
+}
+
+TEST_CASE("a checkpoint holds the state bit for bit", "[unit]") {
+  const Folder folder;
+  SceneRun run(small_scene());
+  run.step(3);
+  write_checkpoint(folder / "c.h5", run.world(), "{}");
+  const Hdf5File file(folder / "c.h5", Hdf5File::Access::read);
+  std::vector<std::string> differ;
+  for (const auto& [name, bytes] : state(run.world())) {
+    if (file.read_bytes("/state/" + name) != bytes) differ.push_back(name);
+  }
+  CHECK(differ.empty());
+}
+
+TEST_CASE("a checkpoint appears under its name only when it is complete", "[unit]") {
+  const Folder folder;
+  World world;
+  world.resource<NotPlain>();
+  CHECK_THROWS_WITH(write_checkpoint(folder / "c.h5", world, "{}"), Catch::Contains("not_plain"));
+  CHECK_FALSE(std::filesystem::exists(folder / "c.h5"));
+}

@@ -1,0 +1,102 @@
+#include "support/kernels.hpp"
+
+#include "components/measure.hpp"
+#include "systems/measure/conservation.hpp"
+#include "systems/measure/volume.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace minamo;
+using namespace minamo::kernels;
+
+namespace {
+
+/// Two particles of 1 kg and 3 kg.
+void two_particles(World& world) {
+  set_grid<2>(world, small_grid<2>());
+  world.resize<Particles>(2);
+  world.column<particle::Mass>()[0] = 1;
+  world.column<particle::Mass>()[1] = 3;
+  world.column<particle::Position<2>>()[0] = {2, 0};
+  world.column<particle::Position<2>>()[1] = {3, -1};
+  world.column<particle::Velocity<2>>()[0] = {3, 4};
+  world.column<particle::Velocity<2>>()[1] = {0, -2};
+  world.resource<BodyForce>().of_place_and_time = {Expression(0), Expression(-10)};
+}
+
+/// 2 x 2 particles in every cell.
+void full_box(World& world, double density) {
+  const Grid<2> grid = small_grid<2>();
+  set_grid<2>(world, grid);
+  const int across = 2 * grid.cells[0];
+  world.resize<Particles>(static_cast<std::size_t>(across * 2 * grid.cells[1]));
+  for (std::size_t p = 0; p < world.rows<Particles>(); ++p) {
+    const auto i = static_cast<double>(p % static_cast<std::size_t>(across));
+    const auto j = static_cast<double>(p / static_cast<std::size_t>(across));
+    world.column<particle::Position<2>>()[p] = grid.low + grid.spacing / 4 * Vec<2>(2 * i + 1, 2 * j + 1);
+    world.column<particle::Mass>()[p] = density * grid.spacing * grid.spacing / 4;
+  }
+  world.resource<Fluid>().density = density;
+}
+
+}  // namespace
+
+TEST_CASE("energy is that of the particles, the floor of the box at zero", "[unit]") {
+  World world;
+  two_particles(world);
+  run<MeasureEnergy<2>>(world);
+  CHECK(world.resource<measure::Energy>().kinetic == 0.5 * 25 + 0.5 * 3 * 4);
+  CHECK(world.resource<measure::Energy>().potential == 10 * 2 + 3 * 10 * 1);  // the floor is at y = -2
+}
+
+TEST_CASE("momentum is that of the particles, about their centre", "[unit]") {
+  World world;
+  two_particles(world);
+  run<MeasureMomentum<2>>(world);
+  CHECK(world.resource<measure::Momentum<2>>().linear == Vec<2>(3, -2));
+  // Centre (2.75, -0.75): (-0.75, 0.75) x (3, 4) + 3 (0.25, -0.25) x (0, -2).
+  CHECK(world.resource<measure::Momentum<2>>().angular[0] == -0.75 * 4 - 0.75 * 3 + 3 * 0.25 * -2);
+}
+
+TEST_CASE("a velocity gradient adds the spin of its support", "[unit]") {
+  World world;
+  two_particles(world);
+  run<MeasureMomentum<2>>(world);
+  const double without = world.resource<measure::Momentum<2>>().angular[0];
+  // Both particles sit on inner nodes, where D = h^2/4; a rotation rate of 2 has dv/dx - du/dy = 4.
+  for (Mat<2>& grad_v : world.column<particle::VelocityGradient<2>>()) grad_v << 0, -2, 2, 0;
+  run<MeasureMomentumAffine<2>>(world);
+  const double spin = world.resource<measure::Momentum<2>>().angular[0] - without;
+  CHECK(spin == Approx((1 + 3) * 0.25 / 4 * 4).epsilon(1e-14));  // a few roundings
+}
+
+TEST_CASE("the largest speed is that of the fastest particle", "[unit]") {
+  World world;
+  two_particles(world);
+  run<MeasureMaxSpeed<2>>(world);
+  CHECK(world.resource<measure::MaxSpeed>().value == 5);
+}
+
+TEST_CASE("overlap is what particles have beyond the volume of their nodes", "[unit]") {
+  const double times = GENERATE(1.0, 2.0);
+  CAPTURE(times);
+  World world;
+  full_box(world, 700);
+  for (double& m : world.column<particle::Mass>()) m *= times;
+  run<MeasureOverlap<2>>(world);
+  // Per direction a lattice of 2 particles gives the nodes 17/32, 31/32, 1, ... of h; the integrals of their weights
+  // are 13/24, 23/24, 1, ... of h.
+  const auto axis = [](int node, int last, double wall, double second) {
+    const int from_wall = std::min(node, last - node);
+    return from_wall == 0 ? wall : from_wall == 1 ? second : 1;
+  };
+  double excess = 0;
+  for (int i = 0; i <= 7; ++i) {
+    for (int j = 0; j <= 5; ++j) {
+      const double got = times * axis(i, 7, 17. / 32, 31. / 32) * axis(j, 5, 17. / 32, 31. / 32);
+      excess += std::max(0.0, got - axis(i, 7, 13. / 24, 23. / 24) * axis(j, 5, 13. / 24, 23. / 24));
+    }
+  }
+  // Volumes of 35 cells, a few roundings each.
+  CHECK(world.resource<measure::Overlap>().value == Approx(excess / (35 * times)).margin(1e-14));
+}

@@ -1,0 +1,66 @@
+#include "support/kernels.hpp"
+
+#include "systems/grid/activate.hpp"
+#include "systems/grid/walls.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace minamo;
+using namespace minamo::kernels;
+
+namespace {
+
+/// Rows that Activate gives to nodes of these masses.
+std::vector<std::int32_t> rows(const std::vector<double>& masses, World& world) {
+  world.resize<Nodes>(masses.size());
+  std::copy(masses.begin(), masses.end(), world.column<node::Mass>().begin());
+  run<Activate<2>>(world);
+  const auto row = world.column<node::Row>();
+  return {row.begin(), row.end()};
+}
+
+}  // namespace
+
+TEST_CASE("nodes with more than 1e-4 of the mean mass of nodes with mass are active", "[unit]") {
+  World world;
+  // The mean over the four nodes with mass is 1 up to 1e-4.
+  CHECK(rows({2, 0, 0.9e-4, 2, 1.1e-4, 0}, world) == std::vector<std::int32_t>{0, -1, -1, 1, 2, -1});
+}
+
+TEST_CASE("a row of the matrix knows its node", "[unit]") {
+  World world;
+  rows({0, 1, 0, 1}, world);
+  const auto node = world.column<matrix::Node>();
+  CHECK(std::vector<std::uint32_t>(node.begin(), node.end()) == std::vector<std::uint32_t>{1, 3});
+}
+
+TEST_CASE("without mass no node is active", "[unit]") {
+  World world;
+  rows({0, 0}, world);
+  CHECK(world.rows<ActiveNodes>() == 0);
+}
+
+TEST_CASE("a wall holds the components that it fixes and no other", "[unit]") {
+  World world;
+  world.resize<Nodes>(4);
+  const auto fixed = world.column<node::Fixed>();
+  const auto v_i = world.column<node::Velocity<2>>();
+  for (std::size_t i = 0; i < 4; ++i) {
+    fixed[i] = static_cast<std::uint8_t>(i);
+    v_i[i] = {1, 2};
+  }
+  run<HoldVelocityAtWalls<2>>(world);
+  CHECK(v_i[0] == Vec<2>(1, 2));
+  CHECK(v_i[1] == Vec<2>(0, 2));
+  CHECK(v_i[2] == Vec<2>(1, 0));
+  CHECK(v_i[3] == Vec<2>(0, 0));
+}
+
+TEST_CASE("a wall holds the acceleration as it holds the velocity", "[unit]") {
+  World world;
+  world.resize<Nodes>(1);
+  world.column<node::Fixed>()[0] = 0b101;
+  world.column<node::Acceleration<3>>()[0] = {1, 2, 3};
+  run<HoldAccelerationAtWalls<3>>(world);
+  CHECK(world.column<node::Acceleration<3>>()[0] == Vec<3>(0, 2, 0));
+}

@@ -1,0 +1,153 @@
+#include "support/scene_run.hpp"
+
+#include "components/grid.hpp"
+#include "components/node.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <numeric>
+
+using namespace minamo;
+using namespace minamo::scene_run;
+
+namespace {
+
+/// Ten cells of 0.1 m; the particles are given.
+Json box(const std::string& particles) {
+  Json scene = Json::parse(R"({
+    "dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [10, 10]},
+    "fluid": {"density": 1000, "viscosity": 0}, "time": {"end": 1, "step": 0.001}})");
+  scene["particles"] = Json::parse(particles);
+  return scene;
+}
+
+std::vector<Vec<2>> places(const Json& scene) {
+  SceneRun run(scene);
+  return by_id<particle::Position<2>>(run.world());
+}
+
+double total_mass(World& world) {
+  const auto m_p = world.column<particle::Mass>();
+  return std::accumulate(m_p.begin(), m_p.end(), 0.0);
+}
+
+std::uint8_t fixed_at(World& world, int i, int j) {
+  return world.column<node::Fixed>()[world.resource<Grid<2>>().row({i, j})];
+}
+
+}  // namespace
+
+TEST_CASE("the dam break has 800 particles", "[unit]") {
+  CHECK(places(scene_of_file("dam_break.json")).size() == 800);
+}
+
+TEST_CASE("the liquid weighs density times area", "[unit]") {
+  SceneRun run(scene_of_file("dam_break.json"));
+  // 800 equal numbers, a rounding each.
+  CHECK(total_mass(run.world()) == Approx(1000 * 0.146 * 0.292).epsilon(1e-13));
+}
+
+TEST_CASE("the liquid weighs density times volume", "[unit]") {
+  SceneRun run(scene_of_file("dam_break_3d.json"));
+  CHECK(total_mass(run.world()) == Approx(1000 * 0.146 * 0.146 * 0.292).epsilon(1e-12));  // 24576 roundings at most
+}
+
+TEST_CASE("a lattice lies at the middles of equal parts of a cell", "[unit]") {
+  const auto x = places(box(R"([{"shape": {"box": {"low": [0.3, 0.5], "high": [0.4, 0.6]}}, "per_cell": 2}])"));
+  REQUIRE(x.size() == 4);
+  // x fastest; coordinates of size 1 with a rounding each.
+  CHECK((x[0] - Vec<2>(0.325, 0.525)).norm() < 1e-15);
+  CHECK((x[1] - Vec<2>(0.375, 0.525)).norm() < 1e-15);
+  CHECK((x[2] - Vec<2>(0.325, 0.575)).norm() < 1e-15);
+  CHECK((x[3] - Vec<2>(0.375, 0.575)).norm() < 1e-15);
+}
+
+TEST_CASE("a ball holds the lattice points within its radius", "[unit]") {
+  const auto all = places(box(R"([{"shape": {"where": "1"}, "per_cell": 4}])"));
+  const auto ball = places(box(R"([{"shape": {"ball": {"center": [0.52, 0.47], "radius": 0.2}}, "per_cell": 4}])"));
+  std::vector<Vec<2>> expected;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(expected),
+               [](const Vec<2>& x) { return (x - Vec<2>(0.52, 0.47)).norm() <= 0.2; });
+  CHECK(all.size() == 1600);
+  CHECK(ball == expected);
+}
+
+TEST_CASE("a region by expression holds the lattice points where it is true", "[unit]") {
+  const auto x = places(box(R"json([{"shape": {"where": "y < 0.5 && x > 0.2"}, "per_cell": 2}])json"));
+  CHECK(x.size() == 16 * 10);
+  CHECK(std::all_of(x.begin(), x.end(), [](const Vec<2>& at) { return at[1] < 0.5 && at[0] > 0.2; }));
+}
+
+TEST_CASE("jittered particles are one per part of a cell", "[unit]") {
+  const auto lattice = places(box(R"([{"shape": {"where": "1"}, "per_cell": 2}])"));
+  const auto jittered = places(box(R"([{"shape": {"where": "1"}, "per_cell": 2, "arrangement": "jittered"}])"));
+  REQUIRE(jittered.size() == lattice.size());
+  double farthest = 0;
+  double nearest = 1;
+  for (std::size_t p = 0; p < lattice.size(); ++p) {
+    const double distance = (jittered[p] - lattice[p]).cwiseAbs().maxCoeff();
+    farthest = std::max(farthest, distance);
+    nearest = std::min(nearest, distance);
+  }
+  CHECK(farthest <= 0.025 + 1e-15);
+  CHECK(nearest > 0);
+}
+
+TEST_CASE("jittered particles are the same for the same seed", "[unit]") {
+  const auto with_seed = [](const std::string& seed) {
+    return places(box(R"([{"shape": {"where": "1"}, "arrangement": "jittered", "seed": )" + seed + "}]"));
+  };
+  CHECK(with_seed("7") == with_seed("7"));
+  CHECK(with_seed("7") != with_seed("8"));
+}
+
+TEST_CASE("particles start with the velocity of their place and its gradient", "[unit]") {
+  SceneRun run(with(box(R"json([{"shape": {"box": {"low": [0.2, 0.2], "high": [0.6, 0.6]}},
+                                 "velocity": ["2*x*y", "x - 3*y"]}])json"),
+                    {R"(/transfer={"scheme": "tpic"})"}));
+  const auto x = by_id<particle::Position<2>>(run.world());
+  const auto v = by_id<particle::Velocity<2>>(run.world());
+  const auto grad_v = by_id<particle::VelocityGradient<2>>(run.world());
+  double worst = 0;
+  double worst_gradient = 0;
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    worst = std::max(worst, (v[p] - Vec<2>(2 * x[p][0] * x[p][1], x[p][0] - 3 * x[p][1])).norm());
+    Mat<2> expected;
+    expected << 2 * x[p][1], 2 * x[p][0], 1, -3;
+    worst_gradient = std::max(worst_gradient, (grad_v[p] - expected).norm());
+  }
+  CHECK(worst < 1e-15);           // one or two roundings of numbers of size 1
+  CHECK(worst_gradient < 1e-11);  // central differences over 2e-4 m: exact for quadratics up to 1e-16/2e-4
+}
+
+TEST_CASE("slip walls hold the normal component, corners both", "[unit]") {
+  SceneRun run(with(box(R"([{"shape": {"where": "1"}}])"), {R"(/walls="slip")"}));
+  CHECK(fixed_at(run.world(), 0, 5) == 0b01);
+  CHECK(fixed_at(run.world(), 10, 5) == 0b01);
+  CHECK(fixed_at(run.world(), 5, 0) == 0b10);
+  CHECK(fixed_at(run.world(), 10, 10) == 0b11);
+  CHECK(fixed_at(run.world(), 1, 9) == 0);
+}
+
+TEST_CASE("a no-slip wall holds all components on its own side", "[unit]") {
+  SceneRun run(with(box(R"([{"shape": {"where": "1"}}])"), {R"(/walls={"x": ["slip", "no_slip"]})"}));
+  CHECK(fixed_at(run.world(), 0, 5) == 0b01);
+  CHECK(fixed_at(run.world(), 10, 5) == 0b11);
+  CHECK(fixed_at(run.world(), 5, 10) == 0b10);
+}
+
+TEST_CASE("overlapping regions are refused", "[unit]") {
+  const Json scene = box(R"([{"shape": {"box": {"low": [0, 0], "high": [0.5, 0.5]}}},
+                             {"shape": {"box": {"low": [0.4, 0.4], "high": [0.6, 0.6]}}}])");
+  CHECK_THROWS_WITH(SceneRun(scene), Catch::Contains("/particles/1/shape: overlaps an earlier one"));
+}
+
+TEST_CASE("a region without particles is refused", "[unit]") {
+  const Json scene = box(R"([{"shape": {"box": {"low": [0.41, 0.41], "high": [0.42, 0.42]}}}])");
+  CHECK_THROWS_WITH(SceneRun(scene), Catch::Contains("/particles/0/shape: no particle inside"));
+}
+
+TEST_CASE("a velocity that is not finite is refused", "[unit]") {
+  const Json scene = box(R"json([{"shape": {"where": "1"}, "velocity": ["1/(x - 0.025)", 0]}])json");
+  CHECK_THROWS_WITH(SceneRun(scene), Catch::Contains("/particles/0/velocity: not finite"));
+}

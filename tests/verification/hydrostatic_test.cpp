@@ -1,0 +1,59 @@
+#include "support/scenes.hpp"
+
+#include "components/grid.hpp"
+#include "components/node.hpp"
+
+using namespace minamo;
+using namespace minamo::scene_run;
+
+namespace {
+
+constexpr double depth = 0.5;  // [m]
+constexpr double g = 10;       // [m/s^2]
+constexpr double density = 1000;
+
+/// A tank of 10 cells of 0.1 m, half full, at rest; the walls' side is `gravity`.
+Json column(const std::string& gravity) {
+  Json scene = paper(Json::parse(R"({
+    "dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [10, 10]},
+    "fluid": {"density": 1000, "viscosity": 1e-3},
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.5]}}, "per_cell": 2}],
+    "time": {"end": 0.2, "step": 0.002}})"));
+  scene["body_force"] = Json::parse(gravity);
+  return scene;
+}
+
+/// Largest |p - rho g (H - y)| over nodes below y = `up_to`, over rho g H.
+double pressure_error(World& world, double up_to) {
+  const Grid<2>& grid = world.resource<Grid<2>>();
+  const auto p_i = world.column<node::Pressure>();
+  double worst = 0;
+  for (int j = 0; j <= grid.cells[1]; ++j) {
+    for (int i = 0; i <= grid.cells[0]; ++i) {
+      const Vec<2> x = grid.position({i, j});
+      if (x[1] > up_to) continue;
+      worst = std::max(worst, std::abs(p_i[grid.row({i, j})] - density * g * (depth - x[1])));
+    }
+  }
+  return worst / (density * g * depth);
+}
+
+double largest_speed(World& world) {
+  double largest = 0;
+  for (const Vec<2>& v : world.column<particle::Velocity<2>>()) largest = std::max(largest, v.norm());
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("a column at rest has the hydrostatic pressure", "[verification]") {
+  SceneRun run(any_method(column("[0, -10]")));
+  run.step(100);
+  CHECK(pressure_error(run.world(), 0.45) < 0.02);
+}
+
+TEST_CASE("a column at rest stays at rest", "[verification]") {
+  SceneRun run(any_method(column("[0, -10]")));
+  run.step(100);
+  CHECK(largest_speed(run.world()) < 0.02);
+}
