@@ -149,7 +149,7 @@ std::string table_rows(const ObjectShape& shape, const std::string& pointer, con
     const std::string meaning = key.schema.value("description", "") + condition(key.name);
     rows += fmt::format("| {} | {} | {} | {} |\n", cell(here), cell(type_text(key)), cell(default_text(key)),
                         cell(meaning));
-    if (key.object) rows += table_rows(*key.object, here + (is_list(key) ? "/*" : ""));
+    if (key.object) rows += table_rows(*key.object, here + (is_list(key) || key.names_objects ? "/*" : ""));
   }
   for (const ChoiceShape& choice : shape.choices)
     for (const Alternative& alternative : choice.alternatives)

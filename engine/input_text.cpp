@@ -90,7 +90,7 @@ class TextCheck : public nlohmann::json_sax<Json> {
     // What reads, copies and prints a document calls itself once per level; this keeps the stack safe.
     constexpr std::size_t deepest = 100;
     if (levels_.size() == deepest) {
-      problems_.push_back({file_, pointer(), "nested too deeply", "at most 100 levels", {}, {}});
+      problems_.push_back({file_, {}, "nested too deeply", "at most 100 levels", {}, {}});
       return false;
     }
     levels_.push_back(std::move(level));
@@ -200,6 +200,12 @@ void set_value(Json& document, const std::string& assignment) {
     fail({file, pointer, "not JSON", "a JSON value, text in quotes: '" + quoted + "'", value, {}});
   }
   place = parse_json(value, file);
+  document = std::move(changed);
+}
+
+void set_value(Json& document, const std::string& pointer, const Json& value, const std::string& file) {
+  Json changed = document;
+  place_of(changed, pointer, file) = value;
   document = std::move(changed);
 }
 

@@ -21,4 +21,8 @@ Json parse_json(const std::string& text, const std::string& file);
 /// \throws InputError
 void set_value(Json& document, const std::string& assignment);
 
+/// The same with pointer and value apart; `file` is what the messages call the assignment.
+/// \throws InputError
+void set_value(Json& document, const std::string& pointer, const Json& value, const std::string& file);
+
 }  // namespace minamo

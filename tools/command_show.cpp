@@ -54,6 +54,13 @@ std::string accesses(const System& system, bool writes) {
   return names;
 }
 
+/// As a cell of a Markdown table.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
+
 void list_systems(const SystemRegistry& registry) {
   std::cout << "| system | does | reads | writes |\n|---|---|---|---|\n";
   for (const auto& [name, entry] : registry.entries()) {
@@ -85,7 +92,7 @@ void list_components(const SystemRegistry& registry) {
   };
   std::cout << "| component | symbol | unit | lifetime |\n|---|---|---|---|\n";
   for (const auto& [name, info] : components) {
-    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, info->symbol, info->unit, lifetime(info->lifetime));
+    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, cell(info->symbol), info->unit, lifetime(info->lifetime));
   }
 }
 

@@ -26,7 +26,15 @@ struct RunOptions {
   bool quiet = false;
 };
 
+struct StudyOptions {
+  std::string study;
+  std::string out;  ///< empty: out/studies/NAME
+  int threads = 0;  ///< 0: all processors
+  bool quiet = false;
+};
+
 int run_scene(const RunOptions& options, const SystemRegistry& registry);
+int run_study(const StudyOptions& options, const SystemRegistry& registry);
 int check_scenes(const std::vector<std::string>& scenes, const SystemRegistry& registry);
 int show_graph(const std::string& scene, const std::string& format, const SystemRegistry& registry);
 int list(const std::string& what, const SystemRegistry& registry);

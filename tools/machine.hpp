@@ -18,6 +18,9 @@ std::string cpu_model();
 /// Largest resident memory of the process so far. [byte]
 std::int64_t peak_memory();
 
+/// Processor time of the process so far, all threads. [s]
+double process_seconds();
+
 /// Wall and processor time since its construction.
 class Stopwatch {
  public:
@@ -26,6 +29,7 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double cpu_begin_ = process_seconds();
 };
 
 }  // namespace minamo

@@ -69,30 +69,54 @@ void add_run(CLI::App& app, RunOptions& options) {
   app.add_flag("--quiet", options.quiet, "print nothing but problems");
 }
 
+/// Adds the command line of `minamo study`.
+void add_study(CLI::App& app, StudyOptions& options) {
+  app.footer("A study file names a scene, lists of values, and the error that counts; scenes/README.md says how.\n"
+             "Every combination is run into DIR/VARIANT. Written are a table, study.csv, and study.png, which needs\n"
+             "python3 with matplotlib. A variant that fails is a row; the others go on.");
+  app.add_option("STUDY", options.study, "study file, like scenes/studies/taylor_green.json")->required();
+  app.add_option("--out", options.out, "folder for the results; by default out/studies/NAME");
+  app.add_option("--threads", options.threads, "threads; by default one per processor")->check(whole_number(1));
+  app.add_flag("--quiet", options.quiet, "print nothing but problems");
+}
+
+/// What the commands that run nothing are told.
+struct ShowOptions {
+  std::vector<std::string> scenes;
+  std::string scene;
+  std::string format = "dot";
+  std::string what;
+  bool as_table = false;
+};
+
+/// Adds the commands that run nothing.
+void add_showing(CLI::App& app, ShowOptions& options) {
+  CLI::App* check = app.add_subcommand("check", "report every problem of every scene file");
+  check->add_option("SCENE", options.scenes, "scene files")->required();
+  CLI::App* graph = app.add_subcommand("graph", "show the systems that a scene needs, their data and edges");
+  graph->add_option("SCENE", options.scene, "scene file")->required();
+  graph->add_option("--format", options.format, "dot or json")->check(CLI::IsMember({"dot", "json"}));
+  CLI::App* listing = app.add_subcommand("list", "list systems, components, schemes or solvers");
+  listing->add_option("WHAT", options.what, "systems, components, schemes or solvers")
+      ->required()
+      ->check(CLI::IsMember({"systems", "components", "schemes", "solvers"}));
+  CLI::App* schema = app.add_subcommand("schema", "print the JSON Schema of a scene");
+  schema->add_flag("--table", options.as_table, "print the keys as a Markdown table instead");
+}
+
 int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) {
   CLI::App app("minamo: incompressible free-surface flow with the material point method");
   app.set_version_flag("--version", std::string(version));
   app.require_subcommand(1);
 
-  RunOptions options;
+  RunOptions run_options;
   CLI::App* run = app.add_subcommand("run", "run a scene");
-  add_run(*run, options);
-  std::vector<std::string> scenes;
-  CLI::App* check = app.add_subcommand("check", "report every problem of every scene file");
-  check->add_option("SCENE", scenes, "scene files")->required();
-  std::string scene;
-  std::string format = "dot";
-  CLI::App* graph = app.add_subcommand("graph", "show the systems that a scene needs, their data and edges");
-  graph->add_option("SCENE", scene, "scene file")->required();
-  graph->add_option("--format", format, "dot or json")->check(CLI::IsMember({"dot", "json"}));
-  std::string what;
-  CLI::App* listing = app.add_subcommand("list", "list systems, components, schemes or solvers");
-  listing->add_option("WHAT", what, "systems, components, schemes or solvers")
-      ->required()
-      ->check(CLI::IsMember({"systems", "components", "schemes", "solvers"}));
-  bool as_table = false;
-  CLI::App* schema = app.add_subcommand("schema", "print the JSON Schema of a scene");
-  schema->add_flag("--table", as_table, "print the keys as a Markdown table instead");
+  add_run(*run, run_options);
+  StudyOptions study_options;
+  CLI::App* study = app.add_subcommand("study", "run all variants of a study, compare their error and wall time");
+  add_study(*study, study_options);
+  ShowOptions show;
+  add_showing(app, show);
 
   app.failure_message(command_line_problem);
   require_command(app, argc, argv);
@@ -102,13 +126,14 @@ int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) 
     return app.exit(error) == 0 ? exit_done : exit_bad_input;
   }
   if (*run) {
-    options.profile = run->count("--profile") > 0;
-    return run_scene(options, registry);
+    run_options.profile = run->count("--profile") > 0;
+    return run_scene(run_options, registry);
   }
-  if (*check) return check_scenes(scenes, registry);
-  if (*graph) return show_graph(scene, format, registry);
-  if (*listing) return list(what, registry);
-  return show_schema(as_table, registry);
+  if (*study) return run_study(study_options, registry);
+  if (app.got_subcommand("check")) return check_scenes(show.scenes, registry);
+  if (app.got_subcommand("graph")) return show_graph(show.scene, show.format, registry);
+  if (app.got_subcommand("list")) return list(show.what, registry);
+  return show_schema(show.as_table, registry);
 }
 
 }  // namespace

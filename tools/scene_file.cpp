@@ -16,6 +16,11 @@ SceneFile load_scene(const std::string& path, const std::vector<std::string>& ov
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
+  return understand_scene(json, path, registry, std::move(problems));
+}
+
+SceneFile understand_scene(const Json& json, const std::string& path, const SystemRegistry& registry,
+                           std::vector<Problem> problems) {
   Input::Document document(json, path);
   SceneFile file{read_scene(document.root(), registry), {}};
   document.finish();

@@ -19,6 +19,11 @@ struct SceneFile {
 SceneFile load_scene(const std::string& path, const std::vector<std::string>& overrides,
                      const SystemRegistry& registry);
 
+/// The same for a document that is in memory; `path` is what the messages call it.
+/// \param problems  those that are known already.
+SceneFile understand_scene(const Json& json, const std::string& path, const SystemRegistry& registry,
+                           std::vector<Problem> problems = {});
+
 /// seed_world() for the dimension of the scene. \throws InputError
 void seed(const Scene& scene, const std::string& file, World& world);
 

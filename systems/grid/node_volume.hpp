@@ -8,7 +8,7 @@
 
 namespace minamo {
 
-/// V_I, the integral of S_I over the box. [m^3; m^2 in 2-D]
+/// (E39)  V_I, the integral of S_I over the box: h^d, times 13/24 on a wall and 23/24 beside it. [m^3; m^2 in 2-D]
 template <int Dim>
 double full_volume(const Grid<Dim>& grid, std::size_t node) {
   double volume = 1;

@@ -34,17 +34,25 @@ std::string attribute(const std::string& name, std::string_view kind, const std:
                      "        </Attribute>\n", name, kind, item);
 }
 
+/// A vertex per particle. Without its list of points ParaView's Xdmf3 readers see points but no vertices, and draw
+/// nothing; any order of 0 ... n-1 will do, and `id` is one.
+std::string vertices(const std::string& ids, std::size_t n) {
+  return fmt::format("        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">\n"
+                     "          {}\n        </Topology>\n",
+                     n, ids);
+}
+
 template <int Dim>
 std::string grid_text(const FieldsFile::Frame& frame, std::size_t k) {
   const std::size_t n = frame.particles;
+  const std::string ids = data_item(k, "id", n, 1, R"(NumberType="Int" Precision="8")");
   std::string text = fmt::format(
       "      <Grid Name=\"particles\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n"
-      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n"
-      "        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
-      frame.time, n, Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
+      "{}        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
+      frame.time, vertices(ids, n), Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
   text += attribute("velocity", Dim == 2 ? "Matrix" : "Vector", data_item(k, "velocity", n, Dim));
   text += attribute("pressure", "Scalar", data_item(k, "pressure", n, 1));
-  text += attribute("id", "Scalar", data_item(k, "id", n, 1, R"(NumberType="Int" Precision="8")"));
+  text += attribute("id", "Scalar", ids);
   for (const std::string& field : frame.extra_fields) {
     text += attribute(field, "Matrix", data_item(k, field, n, Dim * Dim));
   }

@@ -16,17 +16,6 @@ RunTotals::Values values(const measure::Energy& energy, const measure::Momentum<
   return values;
 }
 
-template <int Dim>
-std::string header(const measure::Columns& further) {
-  const std::string momentum = Dim == 2 ? "momentum_x,momentum_y,angular_momentum"
-                                        : "momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
-                                          "angular_momentum_z";
-  std::string names = "step,time,dt,kinetic_energy,potential_energy," + momentum +
-                      ",max_speed,max_divergence,overlap,active_nodes,iterations,residual";
-  for (const auto& column : further.columns) names += "," + column.name;
-  return names + "\n";
-}
-
 void require_known(const measure::Columns& further, std::int64_t known) {
   const auto count = static_cast<std::int64_t>(further.columns.size());
   if (count <= known) return;
@@ -35,6 +24,17 @@ void require_known(const measure::Columns& further, std::int64_t known) {
 }
 
 }  // namespace
+
+template <int Dim>
+std::string history_header(const measure::Columns& further) {
+  const std::string momentum = Dim == 2 ? "momentum_x,momentum_y,angular_momentum"
+                                        : "momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
+                                          "angular_momentum_z";
+  std::string names = "step,time,dt,kinetic_energy,potential_energy," + momentum +
+                      ",max_speed,max_divergence,overlap,active_nodes,iterations,residual";
+  for (const auto& column : further.columns) names += "," + column.name;
+  return names;
+}
 
 template <int Dim>
 void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> energy,
@@ -55,7 +55,7 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   ++totals->rows;
   if (!history->file.is_open()) return;
 
-  if (is_start) history->file << header<Dim>(*further);
+  if (is_start) history->file << history_header<Dim>(*further) << '\n';
   fmt::memory_buffer row;
   const auto out = std::back_inserter(row);
   fmt::format_to(out, "{},{},{},{},", is_start ? 0 : clock->index + 1, is_start ? clock->time : clock->end_of_step,
@@ -70,6 +70,8 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
 }
 
+template std::string history_header<2>(const measure::Columns&);
+template std::string history_header<3>(const measure::Columns&);
 template struct WriteHistory<2>;
 template struct WriteHistory<3>;
 

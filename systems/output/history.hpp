@@ -36,6 +36,10 @@ struct RunTotals {
   static constexpr ComponentInfo info{"history.totals", "", "", Lifetime::state};
 };
 
+/// The first line of history.csv, without its end.
+template <int Dim>
+std::string history_header(const measure::Columns& further);
+
 /// The header comes with the first row, because it is then that measure::Columns knows its names.
 /// \throws std::runtime_error if a system sets a column that the header does not have.
 template <int Dim>

@@ -126,6 +126,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, const std::string&
   return seeds;
 }
 
+/// (E6)  m_p = rho (h/n)^d for n per cell and direction, v_p = v(x_p), grad v_p by central differences.
 template <int Dim>
 void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& seeds, const std::string& file,
                    World& world, std::vector<Problem>& problems) {

@@ -1,8 +1,6 @@
-#include "support/scene_run.hpp"
+#include "support/scenes.hpp"
 
 #include "components/node.hpp"
-
-#include <catch2/catch.hpp>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -11,32 +9,23 @@ namespace {
 
 /// A blob that flies, turns and strains in the middle of a box without touching a wall. No gravity.
 Json flying_2d() {
-  return Json::parse(R"json({
+  return paper(Json::parse(R"json({
     "dimension": 2,
     "grid": {"low": [0, 0], "high": [2, 2], "cells": [16, 16]},
     "fluid": {"density": 1000, "viscosity": 5},
     "particles": [{"shape": {"box": {"low": [0.75, 0.75], "high": [1.25, 1.25]}}, "per_cell": 3,
                    "velocity": ["0.7 - 2*y + sin(5*x)", "-0.4 + x*x"]}],
-    "stabilization": {"scheme": "pspg"}, "volume": {"scheme": "none"}, "solver": {"scheme": "umfpack"},
-    "time": {"end": 1, "step": 0.002}})json");
+    "time": {"end": 1, "step": 0.002}})json"));
 }
 
 Json flying_3d() {
-  return Json::parse(R"json({
+  return paper(Json::parse(R"json({
     "dimension": 3,
     "grid": {"low": [0, 0, 0], "high": [2, 2, 2], "cells": [8, 8, 8]},
     "fluid": {"density": 1000, "viscosity": 5},
     "particles": [{"shape": {"box": {"low": [0.9, 0.9, 0.9], "high": [1.35, 1.35, 1.35]}}, "per_cell": 2,
                    "velocity": ["0.7 - 2*y + sin(5*x)", "-0.4 + x*x", "0.2*z + y*x"]}],
-    "stabilization": {"scheme": "pspg"}, "volume": {"scheme": "none"}, "solver": {"scheme": "umfpack"},
-    "time": {"end": 1, "step": 0.002}})json");
-}
-
-Json method(const Json& scene) {
-  const std::string transfer = GENERATE("pic", "flip", "tpic");
-  const std::string integrator = GENERATE("newmark", "midpoint");
-  CAPTURE(transfer, integrator);
-  return with(scene, {R"(/transfer={"scheme": ")" + transfer + "\"}", R"(/integrator={"scheme": ")" + integrator + "\"}"});
+    "time": {"end": 1, "step": 0.002}})json"));
 }
 
 template <int Dim>
@@ -60,26 +49,26 @@ bool has_light_nodes(World& world) {
 }  // namespace
 
 TEST_CASE("a step in free space conserves linear momentum while no node is light", "[property]") {
-  SceneRun run(method(flying_2d()));
+  SceneRun run(any_method(flying_2d()));
   run.start();
   const Vec<2> before = momentum<2>(run.world());
   run.step(3);
   REQUIRE_FALSE(has_light_nodes(run.world()));
-  // Of 250 kg with speeds of 2 m/s: the solver leaves 1e-12 of the internal forces.
-  CHECK((momentum<2>(run.world()) - before).norm() < 1e-9);
+  // Sums of 500 kg m/s over 144 particles and 100 nodes, some hundred roundings a step: 1e-12 measured.
+  CHECK((momentum<2>(run.world()) - before).norm() < 1e-11);
 }
 
 TEST_CASE("a step in free space conserves linear momentum while no node is light, in space", "[property]") {
-  SceneRun run(method(flying_3d()));
+  SceneRun run(any_method(flying_3d()));
   run.start();
   const Vec<3> before = momentum<3>(run.world());
   run.step(2);
   REQUIRE_FALSE(has_light_nodes(run.world()));
-  CHECK((momentum<3>(run.world()) - before).norm() < 1e-9);  // as in the plane, of 125 kg
+  CHECK((momentum<3>(run.world()) - before).norm() < 1e-11);  // as in the plane
 }
 
 TEST_CASE("light nodes take little linear momentum away", "[property]") {
-  SceneRun run(method(flying_2d()));
+  SceneRun run(any_method(flying_2d()));
   run.start();
   const Vec<2> before = momentum<2>(run.world());
   bool light = false;
@@ -88,8 +77,8 @@ TEST_CASE("light nodes take little linear momentum away", "[property]") {
     light = light || has_light_nodes(run.world());
   }
   CHECK(light);
-  // A light node leaves out its share of the pressure gradient.
-  CHECK((momentum<2>(run.world()) - before).norm() < 1e-3 * before.norm());
+  // A light node leaves out its share of the pressure gradient: at most 7e-6 over these 60 steps.
+  CHECK((momentum<2>(run.world()) - before).norm() < 2e-5 * before.norm());
 }
 
 TEST_CASE("a step keeps the mass of every particle", "[property]") {

@@ -46,10 +46,12 @@ Blocks<Rows, Columns> plain_sum(World& world, const Pair& pair) {
   const std::size_t n = small_grid<Dim>().node_count();
   Blocks<Rows, Columns> sum(n * n, Eigen::Matrix<double, Rows, Columns>::Zero());
   for_each_particle<Dim>(world, [&](double V_p, const PlainWeights<Dim>& w) {
+    std::vector<std::size_t> reached;
     for (std::size_t i = 0; i < n; ++i) {
-      if (w.value[i] == 0 && w.gradient[i].norm() == 0) continue;
-      for (std::size_t j = 0; j < n; ++j) {
-        if (w.value[j] == 0 && w.gradient[j].norm() == 0) continue;
+      if (w.value[i] != 0 || w.gradient[i].norm() != 0) reached.push_back(i);
+    }
+    for (const std::size_t i : reached) {
+      for (const std::size_t j : reached) {
         sum[n * i + j] += V_p * pair(w.value[i], w.gradient[i], w.value[j], w.gradient[j]);
       }
     }

@@ -24,7 +24,7 @@ inline Json with_method(const Json& scene, const std::string& transfer, const st
 
 /// Every transfer scheme with every integrator.
 inline Json any_method(const Json& scene) {
-  const std::string transfer = GENERATE("pic", "flip", "tpic");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "apic", "xpic");
   const std::string integrator = GENERATE("newmark", "midpoint");
   CAPTURE(transfer, integrator);
   return with_method(scene, transfer, integrator);

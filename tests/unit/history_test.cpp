@@ -17,7 +17,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// The rows of the history of some steps, split into fields.
+/// The lines of the history of some steps, split into fields; the header is the first.
 std::vector<std::vector<std::string>> history(const Json& scene, int steps) {
   const Folder folder;
   SceneRun run(scene);
@@ -36,31 +36,49 @@ constexpr std::size_t columns_2d = 14;
 }  // namespace
 
 TEST_CASE("the history in the plane has the columns of the interface", "[unit]") {
-  CHECK(history_header<2>() ==
+  CHECK(history_header<2>({}) ==
         "step,time,dt,kinetic_energy,potential_energy,momentum_x,momentum_y,angular_momentum,max_speed,"
         "max_divergence,overlap,active_nodes,iterations,residual");
 }
 
 TEST_CASE("the history in space has the columns of the interface", "[unit]") {
-  CHECK(history_header<3>() ==
+  CHECK(history_header<3>({}) ==
         "step,time,dt,kinetic_energy,potential_energy,momentum_x,momentum_y,momentum_z,angular_momentum_x,"
         "angular_momentum_y,angular_momentum_z,max_speed,max_divergence,overlap,active_nodes,iterations,residual");
 }
 
 TEST_CASE("the history has a row for the start and one per step", "[unit]") {
   const auto rows = history(small_scene(), 3);
-  REQUIRE(rows.size() == 4);
-  CHECK(rows[0][0] == "0");
-  CHECK(rows[0][1] == "0");
-  CHECK(rows[0][2] == "0");
-  CHECK(rows[3][0] == "3");
-  CHECK(rows[3][1] == "0.003");
-  CHECK(rows[3][2] == "0.001");
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[0][0] == "step");
+  CHECK(rows[1][0] == "0");
+  CHECK(rows[1][1] == "0");
+  CHECK(rows[1][2] == "0");
+  CHECK(rows[4][0] == "3");
+  CHECK(rows[4][1] == "0.003");
+  CHECK(rows[4][2] == "0.001");
   CHECK(std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.size() == columns_2d; }));
 }
 
 TEST_CASE("the history has an empty potential energy where the force varies in time", "[unit]") {
   const auto rows = history(with(small_scene(), {R"(/body_force=[0, "-9.81*t"])"}), 1);
-  CHECK(rows.at(1).at(4).empty());
-  CHECK(rows.at(1).size() == columns_2d);
+  CHECK(rows.at(2).at(4).empty());
+  CHECK(rows.at(2).size() == columns_2d);
+}
+
+TEST_CASE("probes come after the columns of every history, errors last", "[unit]") {
+  const auto rows = history(with(small_scene(), {R"(/exact={"velocity": [0, 0], "pressure": 0})",
+                                                 R"(/probes=[{"name": "wall", "at": [0, 0.1]}])"}),
+                            1);
+  const std::vector<std::string> further(rows.at(0).begin() + columns_2d, rows.at(0).end());
+  CHECK(further == std::vector<std::string>{"wall_pressure", "wall_velocity_x", "wall_velocity_y", "error_velocity",
+                                            "error_pressure"});
+  CHECK(std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.size() == columns_2d + 5; }));
+}
+
+TEST_CASE("a column that the header does not have ends the run", "[error]") {
+  SceneRun run(small_scene());
+  run.step();
+  run.world().resource<measure::Columns>().set("enstrophy", 1);
+  CHECK_THROWS_WITH(run.step(), Catch::Contains("column enstrophy of history.csv was not measured at the start"));
 }

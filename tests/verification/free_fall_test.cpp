@@ -40,8 +40,8 @@ struct Errors {
   }
 };
 
-// The solver leaves roundings of speeds of 3 m/s, times the condition of the pressures of loose particles: see (E27).
-constexpr double solver_rounding = 1e-10;
+// Twenty steps with roundings of 1e-15 of coordinates and speeds of 3: 2e-14 measured.
+constexpr double solver_rounding = 1e-12;
 
 }  // namespace
 
@@ -73,6 +73,6 @@ TEST_CASE("a blob in free fall has no pressure", "[verification]") {
   run.step(steps);
   double largest = 0;
   for (const double p : run.world().column<node::Pressure>()) largest = std::max(largest, std::abs(p));
-  // Beside rho g R = 7000 Pa.
-  CHECK(largest < 1e-5);
+  // The solver's rounding, 1e-12 of rho g R = 7000 Pa, more at nodes that (E27) alone ties down: 6e-8 measured.
+  CHECK(largest < 1e-6);
 }

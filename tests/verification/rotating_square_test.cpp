@@ -21,8 +21,7 @@ double centre_pressure(World& world) {
   return world.column<node::Pressure>()[grid.row({grid.cells[0] / 2, grid.cells[1] / 2})];
 }
 
-constexpr double exact_centre = -147.343;         // -0.147343 rho omega^2 L^2 [Pa]
-constexpr double exact_spin = 1000.0 / 6;         // rho omega L^4/6 [kg m^2/s]
+constexpr double exact_centre = -147.343;  // -0.147343 rho omega^2 L^2 [Pa]
 
 }  // namespace
 
@@ -31,13 +30,19 @@ TEST_CASE("the rotating square has the exact pressure in its centre after a step
   CAPTURE(integrator);
   SceneRun run(patch(integrator));
   run.step();
-  CHECK(centre_pressure(run.world()) == Approx(exact_centre).epsilon(0.05));
+  // 2.3 to 3.1 % at 8 cells across; 0.4 to 0.5 % at 20, the free surface being first order.
+  CHECK(centre_pressure(run.world()) == Approx(exact_centre).epsilon(0.04));
 }
 
 TEST_CASE("the rotating square starts with its exact angular momentum", "[verification]") {
   SceneRun run(patch("newmark"));
   run.start();
-  CHECK(run.world().resource<measure::Momentum<2>>().angular[0] == Approx(exact_spin).epsilon(0.02));
+  // rho omega L^4/6 of the square, less what 32 points across leave out, plus (D_11 + D_22) omega = h^2/2 omega per mass
+  // that the gradients carry.
+  constexpr double of_lattice = 1000. / 6 * (1 - 1. / (32 * 32));
+  constexpr double of_gradients = 1000 * 0.125 * 0.125 / 2;
+  // Gradients by central differences over 2.5e-4 m: rounding of 1e-12 of the coordinates' 5e-16.
+  CHECK(run.world().resource<measure::Momentum<2>>().angular[0] == Approx(of_lattice + of_gradients).epsilon(1e-11));
 }
 
 TEST_CASE("the rotating square keeps its angular momentum", "[verification]") {
@@ -47,18 +52,33 @@ TEST_CASE("the rotating square keeps its angular momentum", "[verification]") {
   run.start();
   const double before = run.world().resource<measure::Momentum<2>>().angular[0];
   run.step(20);
-  CHECK(run.world().resource<measure::Momentum<2>>().angular[0] == Approx(before).epsilon(1e-3));
+  // 4e-4 with newmark, 3e-5 with midpoint: what the pressure of a blurred surface does.
+  CHECK(run.world().resource<measure::Momentum<2>>().angular[0] == Approx(before).epsilon(6e-4));
 }
 
-TEST_CASE("the first pressures of Newmark do not oscillate", "[verification]") {
-  SceneRun run(patch("newmark"));
+/// Largest change of the centre's pressure from one of the first steps to the next.
+double largest_jump(SceneRun& run) {
   std::vector<double> p;
   for (int k = 0; k < 6; ++k) {
     run.step();
     p.push_back(centre_pressure(run.world()));
   }
-  CAPTURE(p);
   double jump = 0;
   for (std::size_t k = 1; k < p.size(); ++k) jump = std::max(jump, std::abs(p[k] - p[k - 1]));
-  CHECK(jump < 0.01 * std::abs(exact_centre));
+  return jump;
+}
+
+TEST_CASE("the first pressures of Newmark do not oscillate", "[verification]") {
+  SceneRun run(patch("newmark"));
+  // 3.5 % from the first step to the second at 8 cells across, 0.6 % at 20, for any time step; see the next case for
+  // what a wrong start does.
+  CHECK(largest_jump(run) < 0.05 * std::abs(exact_centre));
+}
+
+TEST_CASE("without its starting acceleration Newmark's pressures oscillate", "[verification]") {
+  SceneRun run(patch("newmark"));
+  run.start();
+  for (Vec<2>& a : run.world().column<particle::Acceleration<2>>()) a.setZero();
+  for (Mat<2>& grad_a : run.world().column<particle::AccelerationGradient<2>>()) grad_a.setZero();
+  CHECK(largest_jump(run) > 0.5 * std::abs(exact_centre));
 }

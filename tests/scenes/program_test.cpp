@@ -1,0 +1,172 @@
+#include "support/folder.hpp"
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+#include "engine/hdf5.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+
+using namespace minamo;
+
+namespace {
+
+std::string scene(const std::string& name) { return std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name; }
+
+using Arguments = std::vector<std::string>;
+
+/// `minamo run` of the dam break on a coarse grid, with more arguments.
+Arguments dam_break(const std::string& out, const Arguments& more) {
+  Arguments arguments{"run", scene("dam_break.json"), "--out", out, "--threads", "1", "--quiet",
+                      "--set", "/grid/cells=[20, 20]"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+Json json_of(const std::string& path) { return Json::parse(text_of(path)); }
+
+std::vector<std::string> lines_of(const std::string& path) {
+  std::istringstream text(text_of(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> missing(const Json& object, const std::vector<std::string>& keys) {
+  std::vector<std::string> names;
+  for (const std::string& key : keys) {
+    if (!object.contains(key)) names.push_back(key);
+  }
+  return names;
+}
+
+/// Names of the datasets of a frame that differ between two runs.
+std::vector<std::string> differing_fields(const std::string& a, const std::string& b, const std::string& frame) {
+  const Hdf5File file_a(a + "/fields.h5", Hdf5File::Access::read);
+  const Hdf5File file_b(b + "/fields.h5", Hdf5File::Access::read);
+  std::vector<std::string> names;
+  for (const char* field : {"position", "velocity", "pressure", "id", "velocity_gradient"}) {
+    const std::string dataset = "/particles/" + frame + "/" + field;
+    if (file_a.read_bytes(dataset) != file_b.read_bytes(dataset)) names.emplace_back(field);
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a run leaves its files", "[scene]") {
+  const Folder folder;
+  REQUIRE(run_program(dam_break(folder / "out", {"--steps", "3"})).code == 0);
+  const std::string file = GENERATE("scene.json", "history.csv", "fields.h5", "fields.xdmf", "summary.json");
+  CAPTURE(file);
+  CHECK(std::filesystem::file_size(folder / "out" + "/" + file) > 0);
+}
+
+TEST_CASE("a run writes a history of its start and every step", "[scene]") {
+  const Folder folder;
+  REQUIRE(run_program(dam_break(folder / "out", {"--steps", "3"})).code == 0);
+  const auto lines = lines_of(folder / "out/history.csv");
+  REQUIRE(lines.size() == 5);
+  CHECK(lines[0].starts_with("step,time,dt,kinetic_energy,potential_energy,momentum_x,momentum_y,angular_momentum,"
+                             "max_speed,max_divergence,overlap,active_nodes,iterations,residual"));
+  CHECK(lines[4].starts_with("3,0.003,0.001,"));
+}
+
+TEST_CASE("a summary has the keys of the interface", "[scene]") {
+  const Folder folder;
+  REQUIRE(run_program(dam_break(folder / "out", {"--steps", "3"})).code == 0);
+  const Json summary = json_of(folder / "out/summary.json");
+  CHECK(missing(summary, {"scene", "status", "steps", "time", "wall_s", "cpu_s", "threads", "cpu_model", "version",
+                          "particles", "active_nodes_max", "unknowns_max", "peak_memory_bytes", "systems",
+                          "conservation", "errors"})
+            .empty());
+  CHECK(missing(summary["conservation"], {"mass", "momentum", "angular_momentum", "energy", "overlap_max"}).empty());
+  CHECK(missing(summary["systems"][0], {"name", "calls", "seconds", "share"}).empty());
+  CHECK(summary["status"] == "done");
+  CHECK(summary["steps"] == 3);
+  CHECK(summary["particles"] == 200);
+  CHECK(summary["conservation"]["mass"].get<double>() == Approx(42.632).epsilon(1e-12));  // 200 roundings
+}
+
+TEST_CASE("the scene as run has defaults and overrides, and gives the same bits again", "[scene]") {
+  const Folder folder;
+  const Arguments more{"--steps", "5", "--set", R"(/output={"every": 0.002})"};
+  REQUIRE(run_program(dam_break(folder / "first", more)).code == 0);
+  CHECK(json_of(folder / "first/scene.json")["grid"]["cells"] == Json({20, 20}));
+  REQUIRE(run_program({"run", folder / "first/scene.json", "--out", folder / "second", "--threads", "2", "--steps", "5",
+                       "--quiet"})
+              .code == 0);
+  CHECK(json_of(folder / "first/scene.json") == json_of(folder / "second/scene.json"));
+  CHECK(differing_fields(folder / "first", folder / "second", "3").empty());
+}
+
+TEST_CASE("bad input ends with 2 and runs nothing", "[scene]") {
+  const Folder folder;
+  const auto [set, message] = GENERATE(table<std::string, std::string>(
+      {{R"(/transfer/scheme="flop")", "/transfer/scheme"}, {"/nonsense=1", "/nonsense"}, {"/time/step=-1", "/time/step"}}));
+  CAPTURE(set);
+  const ProgramEnd end = run_program(dam_break(folder / "out", {"--set", set}));
+  CHECK(end.code == 2);
+  CHECK_THAT(end.output, Catch::Contains(message));
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST_CASE("a scene that is not there ends with 2", "[scene]") {
+  CHECK(run_program({"run", "/nowhere/scene.json"}).code == 2);
+}
+
+TEST_CASE("an unknown option ends with 2", "[scene]") {
+  CHECK(run_program({"run", scene("dam_break.json"), "--nonsense"}).code == 2);
+}
+
+TEST_CASE("check accepts every scene", "[scene]") {
+  Arguments arguments{"check"};
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(MINAMO_SOURCE_DIR) + "/scenes")) {
+    if (entry.path().extension() == ".json" && !json_of(entry.path()).contains("scene")) arguments.push_back(entry.path());
+  }
+  const ProgramEnd end = run_program(arguments);
+  CHECK(end.code == 0);
+  CHECK_THAT(end.output, Catch::Contains("dam_break.json: valid, 800 particles"));
+}
+
+TEST_CASE("a run that fails ends with 3, says where, and leaves a checkpoint and a summary", "[scene]") {
+  const Folder folder;
+  // The force leaves the range of numbers at t = 0.0035, in the fourth step.
+  const ProgramEnd end = run_program(dam_break(folder / "out", {"--steps", "9", "--set", R"json(/body_force=[0, "-9.81/(t < 0.0035)"])json"}));
+  CHECK(end.code == 3);
+  CHECK_THAT(end.output, Catch::Contains("step 4"));
+  CHECK_THAT(end.output, Catch::Contains("solve"));
+  CHECK(std::filesystem::exists(folder / "out/checkpoint.h5"));
+  CHECK(json_of(folder / "out/summary.json")["status"] == "failed");
+  CHECK(json_of(folder / "out/summary.json")["steps"] == 3);
+}
+
+TEST_CASE("an interrupted run ends with 130 and leaves a checkpoint", "[scene]") {
+  const Folder folder;
+  const int signal = GENERATE(SIGINT, SIGTERM);
+  CAPTURE(signal);
+  Program program(dam_break(folder / "out", {}));
+  constexpr std::size_t a_few_rows = 2000;
+  wait_for_file(folder / "out/history.csv", a_few_rows);
+  program.send(signal);
+  CHECK(program.wait().code == 130);
+  CHECK(std::filesystem::exists(folder / "out/checkpoint.h5"));
+  CHECK(json_of(folder / "out/summary.json")["status"] == "interrupted");
+}
+
+TEST_CASE("graph shows the systems of a scene and what they touch", "[scene]") {
+  const ProgramEnd end = run_program({"graph", scene("dam_break_pic.json"), "--format", "json"});
+  REQUIRE(end.code == 0);
+  const Json graph = Json::parse(end.output);
+  CHECK_FALSE(graph["systems"].empty());
+  CHECK_THAT(end.output, !Catch::Contains("velocity_gradient"));
+  CHECK_THAT(end.output, Catch::Contains("p2g_velocity_pic"));
+}
+
+TEST_CASE("--steps 0 writes the start alone", "[scene]") {
+  const Folder folder;
+  REQUIRE(run_program(dam_break(folder / "out", {"--steps", "0"})).code == 0);
+  CHECK(lines_of(folder / "out/history.csv").size() == 2);
+  CHECK(json_of(folder / "out/summary.json")["steps"] == 0);
+}

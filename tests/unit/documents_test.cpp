@@ -1,0 +1,85 @@
+/// \file
+/// What the README files say of the program is what the program says of itself. `tools/catalogue` writes it anew.
+
+#include "support/program_output.hpp"
+#include "systems/pipeline.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <regex>
+#include <set>
+
+using namespace minamo;
+
+namespace {
+
+const std::string source = MINAMO_SOURCE_DIR;
+
+/// The text between a line and the next `<!-- end -->`.
+std::string block(const std::string& text, const std::string& begin) {
+  const auto from = text.find(begin + "\n");
+  if (from == std::string::npos) return "no line " + begin;
+  const auto first = from + begin.size() + 1;
+  return text.substr(first, text.find("<!-- end -->", first) - first);
+}
+
+/// What stands in the first column of a Markdown table, without backticks.
+std::vector<std::string> first_column(const std::string& table) {
+  std::istringstream lines(table);
+  std::vector<std::string> column;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("| `")) column.push_back(line.substr(3, line.find('`', 3) - 3));
+  }
+  return column;
+}
+
+}  // namespace
+
+TEST_CASE("tables in the README files are those that the program prints", "[unit]") {
+  const auto [file, arguments] = GENERATE(table<std::string, std::vector<std::string>>({
+      {"scenes/README.md", {"schema", "--table"}},
+      {"systems/README.md", {"list", "systems"}},
+      {"systems/README.md", {"list", "components"}},
+  }));
+  std::string command = "<!-- minamo";
+  for (const std::string& argument : arguments) command += " " + argument;
+  command += " -->";
+  CAPTURE(file, command);
+  CHECK(block(text_of(source + "/" + file), command) == output_of_program("/", arguments).out);
+}
+
+TEST_CASE("systems/README.md has the slots of a step in order", "[unit]") {
+  CHECK(first_column(block(text_of(source + "/systems/README.md"), "<!-- slots -->")) == slot_names());
+}
+
+TEST_CASE("the example in scenes/README.md is valid", "[unit]") {
+  const std::string text = text_of(source + "/scenes/README.md");
+  const auto from = text.find("```json\n") + 8;
+  const Folder folder;
+  std::ofstream(folder / "example.json") << text.substr(from, text.find("```", from) - from);
+  const ProgramOutput check = output_of_program(folder / "", {"check", "example.json"});
+  CHECK(check.err.empty());
+  CHECK(check.code == 0);
+}
+
+TEST_CASE("scenes/README.md names every function of expressions", "[unit]") {
+  const std::string text = text_of(source + "/scenes/README.md");
+  std::set<std::string> words;
+  const std::regex word("[a-z0-9]+");
+  for (std::sregex_iterator at(text.begin(), text.end(), word), end; at != end; ++at) words.insert(at->str());
+  for (const std::string& name : known_names({})) {
+    CAPTURE(name);
+    CHECK(words.contains(name));
+  }
+}
+
+TEST_CASE("scenes/README.md lists every scene", "[unit]") {
+  const std::string text = text_of(source + "/scenes/README.md");
+  for (const auto& entry : std::filesystem::directory_iterator(source + "/scenes")) {
+    const auto& path = entry.path();
+    if (path.extension() != ".json") continue;
+    const std::string link = "[" + path.stem().string() + "](" + path.filename().string() + ")";
+    CHECK_THAT(text, Catch::Contains(link));
+  }
+}

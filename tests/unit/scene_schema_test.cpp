@@ -1,0 +1,95 @@
+/// \file
+/// The JSON Schema of scenes against the scenes that we ship.
+
+#include "support/folder.hpp"
+
+#include "engine/input_text.hpp"
+#include "systems/register.hpp"
+#include "systems/setup/scene.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace minamo;
+
+namespace {
+
+Input::Document described() {
+  SystemRegistry registry;
+  register_systems(registry);
+  Input::Document document = Input::Document::describe();
+  describe_scene(document.root(), registry);
+  return document;
+}
+
+/// The schemas that say something of a key: of the object itself, and of the alternatives that bring it.
+std::vector<Json> schemas_of(const Json& schema, const std::string& key) {
+  std::vector<Json> found;
+  if (!schema.is_object()) return found;
+  if (schema.contains("properties") && schema["properties"].value(key, Json(false)).is_object()) {
+    found.push_back(schema["properties"][key]);
+  } else if (schema.contains("additionalProperties") && schema["additionalProperties"].is_object()) {
+    found.push_back(schema["additionalProperties"]);
+  }
+  for (const char* choice : {"allOf", "oneOf"}) {
+    for (const Json& part : schema.value(choice, Json::array())) {
+      const auto more = schemas_of(part, key);
+      found.insert(found.end(), more.begin(), more.end());
+    }
+  }
+  return found;
+}
+
+/// Pointers of the keys that none of the schemas knows.
+std::vector<std::string> unknown_keys(const std::vector<Json>& schemas, const Json& value, const std::string& pointer) {
+  std::vector<std::string> unknown;
+  for (const auto& [key, below] : value.items()) {
+    std::vector<Json> of_key;
+    for (const Json& schema : schemas) {
+      const auto more =
+          value.is_array() && schema.contains("items") ? std::vector<Json>{schema["items"]} : schemas_of(schema, key);
+      of_key.insert(of_key.end(), more.begin(), more.end());
+    }
+    const std::string at = pointer + "/" + key;
+    if (of_key.empty()) unknown.push_back(at);
+    if (of_key.empty() || !below.is_structured()) continue;
+    const auto deeper = unknown_keys(of_key, below, at);
+    unknown.insert(unknown.end(), deeper.begin(), deeper.end());
+  }
+  return unknown;
+}
+
+std::vector<std::string> scene_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(MINAMO_SOURCE_DIR) + "/scenes")) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+  }
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("every key of every scene is in the schema", "[unit]") {
+  const std::string file = GENERATE(from_range(scene_files()));
+  CAPTURE(file);
+  CHECK(unknown_keys({described().schema()}, read_json(file), "").empty());
+}
+
+TEST_CASE("the schema does not know every key", "[unit]") {
+  const Json scene = Json::parse(R"({"transfer": {"scheme": "flip", "blend": 1, "blond": 1}, "particles": [{"bal": {}}],
+                                     "walls": {"x": "slip", "w": "slip"}})");
+  CHECK(unknown_keys({described().schema()}, scene, "") ==
+        std::vector<std::string>{"/transfer/blond", "/particles/0/bal", "/walls/w"});
+}
+
+TEST_CASE("the schema holds in two and in three dimensions", "[unit]") {
+  const auto schema = described().schema();
+  const std::string list = GENERATE("/properties/grid/properties/low", "/properties/grid/properties/cells",
+                                    "/properties/body_force", "/properties/particles/items/properties/velocity");
+  CAPTURE(list);
+  const Json lengths = schema.at(Json::json_pointer(list));
+  CHECK(lengths["minItems"] == 2);
+  CHECK(lengths["maxItems"] == 3);
+  CHECK_FALSE(lengths.contains("default"));
+}
+
+TEST_CASE("describing a scene finds no problems", "[unit]") { CHECK(described().problems().empty()); }

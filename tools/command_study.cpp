@@ -1,0 +1,129 @@
+#include "tools/commands.hpp"
+
+#include "tools/interrupt.hpp"
+#include "tools/machine.hpp"
+#include "tools/single_run.hpp"
+#include "tools/study_picture.hpp"
+#include "tools/study_table.hpp"
+#include "tools/study_variant.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+namespace minamo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path output_folder(const StudyOptions& options) {
+  return options.out.empty() ? fs::path("out/studies") / fs::path(options.study).stem() : fs::path(options.out);
+}
+
+/// Makes the folder, without what an earlier study left in it beside the folders of its variants.
+void open_output(const fs::path& folder) {
+  make_output_folder(folder);
+  for (const char* name : {"study.csv", "study.png"}) {
+    std::error_code error;
+    fs::remove(folder / name, error);
+    if (!error) continue;
+    throw InputError({{folder.string(), {}, fmt::format("{} cannot be removed: {}", name, error.message()),
+                       "a folder for the results (--out)", {}, {}}});
+  }
+}
+
+StudyTable empty_table(const Study& study, int threads) {
+  StudyTable table;
+  table.heads = short_names(study.parameters);
+  for (const Parameter& parameter : study.parameters) {
+    if (parameter.key == resolution_key) table.resolution_at = table.keys.size();
+    table.keys.push_back(parameter.key);
+  }
+  table.cpu_model = cpu_model();
+  table.threads = threads;
+  return table;
+}
+
+/// Runs a variant. What goes wrong in it is a row as well.
+StudyRow run_variant(const Study& study, const Variant& variant, const RunPlan& general, const SystemRegistry& registry,
+                     const std::atomic<bool>& stop) {
+  StudyRow row{.values = variant.values, .resolution = variant.resolution, .error = {}, .status = "failed"};
+  try {
+    double farthest = 0;
+    RunPlan plan = general;
+    plan.folder /= variant.name;
+    plan.at_end = [&](World& world) { farthest = farthest_distance(world, variant.scene.scene.dimension); };
+    Profiler profiler;
+    const RunResult result = run_into_folder(variant.scene, plan, registry, profiler, stop);
+    row.time_step = variant.scene.scene.time.step.value_or(result.clock.step);
+    row.wall_seconds = result.loop_seconds;
+    row.steps = result.clock.index;
+    row.particles = result.summary.at("particles").get<std::int64_t>();
+    row.unknowns_max = result.summary.at("unknowns_max").get<std::int64_t>();
+    row.status = result.summary.at("status").get<std::string>();
+    if (result.outcome.ending == Ending::failed) spdlog::error("{}: {}", variant.name, result.outcome.message);
+    if (result.outcome.ending != Ending::done) return row;
+    row.error = error_of(study.error, result.summary, (plan.folder / "history.csv").string(), farthest);
+    if (!row.error) spdlog::error("{}: the error is not a finite number", variant.name);
+  } catch (const std::exception& failure) {
+    spdlog::error("{}: {}", variant.name, failure.what());
+  }
+  return row;
+}
+
+std::string one_line(const StudyRow& row) {
+  if (!row.error) return row.status;
+  return fmt::format("error {:.3e}, {:.3g} s, {} steps", *row.error, row.wall_seconds, row.steps);
+}
+
+int report(const Study& study, const StudyTable& table, std::size_t variants, const fs::path& folder, bool quiet) {
+  const bool interrupted = table.rows.size() < variants || table.rows.back().status == "interrupted";
+  const auto finished = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.status == "done"; });
+  if (!quiet) {
+    if (!study.title.empty()) std::cout << study.title << '\n';
+    std::cout << as_text(table) << "error: " << error_label(study.error) << "; wall: time loop, " << table.threads
+              << (table.threads == 1 ? " thread of " : " threads of ") << table.cpu_model
+              << "\nfrontier: no other variant is both faster and more accurate" << std::endl;
+  }
+  const bool has_error = std::any_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.error > 0.0; });
+  const bool drawn = has_error && draw_study(folder / "study.csv", study.title, error_label(study.error));
+  if (!quiet) spdlog::info("results in {}: study.csv{}", folder.string(), drawn ? ", study.png" : "");
+  if (interrupted) spdlog::warn("interrupted after {} of {} variants", finished, variants);
+  if (interrupted) return exit_interrupted;
+  return finished > 0 ? exit_done : exit_failed;
+}
+
+}  // namespace
+
+int run_study(const StudyOptions& options, const SystemRegistry& registry) {
+  const Study study = read_study(options.study);
+  const std::vector<Variant> variants = make_variants(study, registry);
+  const fs::path folder = output_folder(options);
+  open_output(folder);
+  const int threads = prepare_threads(options.threads);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  const RunPlan plan{.scene = study.scene,
+                     .folder = folder,
+                     .threads = threads,
+                     .steps = {},
+                     .quiet = options.quiet,
+                     .at_end = {}};
+  const std::atomic<bool>& stop = stop_on_signal();
+  StudyTable table = empty_table(study, threads);
+  for (const Variant& variant : variants) {
+    if (stop) break;
+    table.rows.push_back(run_variant(study, variant, plan, registry, stop));
+    // After every variant, so that a study that is cut off leaves what it has.
+    write_text(folder / "study.csv", as_csv(table));
+    if (options.quiet) continue;
+    spdlog::info("{}/{} {}: {}", table.rows.size(), variants.size(), variant.name, one_line(table.rows.back()));
+  }
+  return report(study, table, variants.size(), folder, options.quiet);
+}
+
+}  // namespace minamo

@@ -1,0 +1,1 @@
+"""Reads what a run of minamo leaves in its folder, and shows it."""

@@ -1,0 +1,169 @@
+"""Curves of history.csv over time, and what the time of a run went to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator, ScalarFormatter
+
+from reporting.runs import Run, labels
+
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")  # told apart by all eyes
+STYLES = ("solid", (0, (4, 1.5)), (0, (1, 1)))
+AXES = "xyz"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Columns of history.csv that share a unit."""
+
+    title: str
+    columns: dict[str, str]  # column: its name in the legend
+    unit: str = ""
+    logarithmic: bool = False
+
+
+def panels(runs: list[Run]) -> list[Panel]:
+    """What is worth a panel: nothing that is empty, or always zero, in all runs. Several runs: a column per panel."""
+    per_metre = all(run.dimension == 2 for run in runs)
+    shown = [_with_columns(panel, runs) for panel in _known_panels(per_metre) + _further_panels(runs)]
+    shown = [panel for panel in shown if panel.columns]
+    return shown if len(runs) == 1 else [single for panel in shown for single in _one_by_one(panel)]
+
+
+def _known_panels(per_metre: bool) -> list[Panel]:
+    """Columns of every run; in the plane, quantities per metre of depth."""
+    energy, momentum, angular = ("J/m", "N s/m", "J s/m") if per_metre else ("J", "N s", "J s")
+    turning = {"angular_momentum": ""} | {f"angular_momentum_{axis}": axis for axis in AXES}
+    return [
+        Panel("energy", {"kinetic_energy": "kinetic", "potential_energy": "potential", "total_energy": "sum"}, energy),
+        Panel("momentum", {f"momentum_{axis}": axis for axis in AXES}, momentum),
+        Panel("angular momentum", turning, angular),
+        Panel("largest speed", {"max_speed": ""}, "m/s"),
+        Panel("largest divergence", {"max_divergence": ""}, "1/s"),
+        Panel("overlap / volume", {"overlap": ""}, "1"),
+        Panel("error of the velocity", {"error_velocity": ""}, "", True),
+        Panel("error of the pressure", {"error_pressure": ""}, "", True),
+        Panel("active nodes", {"active_nodes": ""}),
+        Panel("iterations", {"iterations": ""}),
+        Panel("residual, relative", {"residual": ""}, "1", True),
+    ] + [Panel("time step", {"dt": ""}, "s")]
+
+
+def _further_panels(runs: list[Run]) -> list[Panel]:
+    """Probes and what other systems have added."""
+    known = {column for panel in _known_panels(True) for column in panel.columns} | {"step", "time"}
+    further = dict.fromkeys(column for run in runs for column in run.history if column not in known)
+    return [Panel(column.replace("_", " "), {column: ""}) for column in further]
+
+
+def series(run: Run, column: str) -> np.ndarray | None:
+    """A column of the history; the sum of the energies is made here."""
+    if column == "total_energy":
+        parts = [run.history.get(name) for name in ("kinetic_energy", "potential_energy")]
+        return None if any(part is None for part in parts) else parts[0] + parts[1]
+    return run.history.get(column)
+
+
+def _with_columns(panel: Panel, runs: list[Run]) -> Panel:
+    columns = {column: name for column, name in panel.columns.items()
+               if any(_says_something(series(run, column), column) for run in runs)}
+    return Panel(panel.title, columns, panel.unit, panel.logarithmic)
+
+
+def _says_something(values: np.ndarray | None, column: str) -> bool:
+    if values is None or not np.any(np.nan_to_num(values)):
+        return False
+    return column != "dt" or np.ptp(values[1:-1]) > 1e-9 * values.max() if len(values) > 3 else True
+
+
+def _one_by_one(panel: Panel) -> list[Panel]:
+    many = len(panel.columns) > 1
+    return [Panel(f"{panel.title}, {name}" if many else panel.title, {column: ""}, panel.unit, panel.logarithmic)
+            for column, name in panel.columns.items()]
+
+
+def draw_history(runs: list[Run], width: float = 10.0, across: int = 3) -> Figure | None:
+    """A panel per quantity, a colour per run."""
+    shown = panels([run for run in runs if run.history])
+    if not shown:
+        return None
+    down = -(-len(shown) // across)
+    figure = Figure(figsize=(width, 1.95 * down + 0.3), constrained_layout=True)
+    axes = figure.subplots(down, across, squeeze=False).flatten()
+    for place, panel in zip(axes, shown):
+        _draw_panel(place, panel, runs)
+    for place in axes[len(shown):]:
+        place.set_axis_off()
+    for place in axes[max(0, len(shown) - across):len(shown)]:
+        place.set_xlabel("$t$ [s]", fontsize=9)
+    if len(runs) > 1:
+        handles = [place.get_lines()[0] for place in axes[:1] for _ in (0,)] and axes[0].get_lines()[:len(runs)]
+        figure.legend(handles, labels(runs), loc="upper center", ncol=len(runs), frameon=False, fontsize=10,
+                      bbox_to_anchor=(0.5, 1.03))
+    return figure
+
+
+def _draw_panel(axes, panel: Panel, runs: list[Run]) -> None:
+    for run, colour in zip(runs, COLOURS):
+        for (column, name), style in zip(panel.columns.items(), STYLES):
+            values = series(run, column)
+            if values is not None:
+                axes.plot(run.history["time"], values, linestyle=style, label=name, linewidth=0.9,
+                          color=colour if len(runs) > 1 else COLOURS[list(panel.columns).index(column)])
+    axes.set_title(panel.title + (f" [{panel.unit}]" if panel.unit else ""), fontsize=9.5, loc="left")
+    _quiet(axes)
+    if panel.logarithmic:
+        axes.set_yscale("log")
+    else:
+        axes.yaxis.set_major_locator(MaxNLocator(4))
+        formatter = ScalarFormatter(useMathText=True)
+        formatter.set_powerlimits((-3, 4))
+        axes.yaxis.set_major_formatter(formatter)
+        axes.yaxis.get_offset_text().set_fontsize(8)
+    if any(panel.columns.values()):
+        axes.legend(fontsize=8, frameon=False, handlelength=1.8, borderaxespad=0.1)
+
+
+def _quiet(axes) -> None:
+    """Two axes, faint grid, small numbers."""
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.grid(color="0.92", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.tick_params(labelsize=8, length=2.5)
+    axes.margins(x=0.01)
+
+
+def draw_systems(runs: list[Run], width: float = 10.0, count: int = 12) -> Figure | None:
+    """Seconds per system, the dearest first, the others in one bar."""
+    runs = [run for run in runs if run.summary.get("systems")]
+    if not runs:
+        return None
+    seconds = [{row["name"]: row["seconds"] for row in run.summary["systems"]} for run in runs]
+    names = sorted({name for each in seconds for name in each}, key=lambda name: -max(s.get(name, 0) for s in seconds))
+    top, others = names[:count], names[count:]
+    bars = [[each.get(name, 0) for name in top] + [sum(each.get(name, 0) for name in others)] for each in seconds]
+    captions = top + [f"{len(others)} others"] if others else top
+    return _bars(runs, [row[:len(captions)] for row in bars], captions, width)
+
+
+def _bars(runs: list[Run], bars: list[list[float]], captions: list[str], width: float) -> Figure:
+    figure = Figure(figsize=(width, 0.4 + len(captions) * (0.12 + 0.14 * len(runs))), constrained_layout=True)
+    axes = figure.subplots()
+    thick = 0.8 / len(runs)
+    for k, (run, row, label) in enumerate(zip(runs, bars, labels(runs))):
+        places = np.arange(len(row)) + (k - 0.5 * (len(runs) - 1)) * thick
+        drawn = axes.barh(places, row, 0.92 * thick, color=COLOURS[k % len(COLOURS)], label=label)
+        wall = run.summary["wall_s"]
+        axes.bar_label(drawn, [f"{value:.3g} s   {100 * value / wall:.1f} %" for value in row], padding=4, fontsize=8)
+    axes.set_yticks(range(len(captions)), captions, fontsize=8.5)
+    axes.invert_yaxis()
+    axes.set_xlabel("wall time [s]", fontsize=9)
+    _quiet(axes)
+    axes.grid(axis="y", visible=False)
+    axes.margins(x=0.16, y=0.01)
+    if len(runs) > 1:
+        axes.legend(loc="lower right", frameon=False, fontsize=10)
+    return figure

@@ -1,0 +1,164 @@
+"""The results of a run: scene.json, summary.json, history.csv and the frames of fields.h5. Nothing is drawn here."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+
+class NoResults(Exception):
+    """A folder does not hold what is wanted of it."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The particles at an output time, in the order of their ids."""
+
+    time: float  # [s]
+    position: np.ndarray  # [m], particles x dimension
+    velocity: np.ndarray  # [m/s], particles x dimension
+    pressure: np.ndarray  # [Pa]
+
+    @property
+    def speed(self) -> np.ndarray:
+        """Magnitude of the velocity. [m/s]"""
+        return np.linalg.norm(self.velocity, axis=1)
+
+
+class Run:
+    """A folder with results. What a run that failed or still goes on has not written yet is empty."""
+
+    def __init__(self, folder: str | Path):
+        self.folder = Path(folder)
+        if not (self.folder / "scene.json").is_file():
+            raise NoResults(f"{folder}: no results of minamo here (no scene.json); "
+                            "expected: a folder that `minamo run SCENE --out DIR` wrote")
+        self.scene = self._json("scene.json")
+        self.summary = self._json("summary.json")
+        self.history = self._history()
+        self.times = self._times()
+
+    def _json(self, name: str) -> dict[str, Any]:
+        path = self.folder / name
+        return json.loads(path.read_text()) if path.is_file() else {}
+
+    def _history(self) -> dict[str, np.ndarray]:
+        path = self.folder / "history.csv"
+        if not path.is_file():
+            return {}
+        header, *rows = path.read_text().splitlines()
+        names = header.split(",")
+        # The last row may be half written while the run goes on.
+        cells = [row.split(",") for row in rows if row.count(",") == len(names) - 1]
+        values = np.array([[float(cell or "nan") for cell in row] for row in cells]).reshape(-1, len(names))
+        return dict(zip(names, values.T))
+
+    def _open_fields(self) -> h5py.File:
+        try:
+            return h5py.File(self.folder / "fields.h5", "r")
+        except OSError as error:
+            raise NoResults(f"{self.folder}: fields.h5 cannot be read ({error})") from error
+
+    def _times(self) -> np.ndarray:
+        if not (self.folder / "fields.h5").is_file():
+            return np.empty(0)
+        with self._open_fields() as file:
+            particles = file.get("particles", {})
+            return np.array([float(particles[key].attrs["time"]) for key in sorted(particles, key=int)])
+
+    def frame(self, index: int) -> Frame:
+        """Frame `index` of fields.h5."""
+        with self._open_fields() as file:
+            group = file[f"particles/{index}"]
+            order = np.argsort(group["id"][:])
+            columns = [group[name][:][order] for name in ("position", "velocity", "pressure")]
+        return Frame(float(self.times[index]), *columns)
+
+    def frames(self) -> Iterator[Frame]:
+        """All frames, in the order of time."""
+        return (self.frame(index) for index in range(len(self.times)))
+
+    def frame_at(self, time: float, tolerance: float) -> Frame | None:
+        """The frame nearest to a time, if it is within the tolerance. [s]"""
+        if len(self.times) == 0:
+            return None
+        index = int(np.argmin(np.abs(self.times - time)))
+        return self.frame(index) if abs(self.times[index] - time) <= tolerance else None
+
+    @property
+    def name(self) -> str:
+        """Name of the folder."""
+        return self.folder.resolve().name
+
+    @property
+    def title(self) -> str:
+        """Title of the scene, or the name of the folder."""
+        return self.scene.get("title") or self.name
+
+    @property
+    def scheme(self) -> str:
+        """Transfer scheme, as it is written in papers."""
+        return self.scene.get("transfer", {}).get("scheme", "tpic").upper()
+
+    @property
+    def status(self) -> str:
+        """done, failed, interrupted, or that there is no end yet."""
+        return self.summary.get("status", "not finished")
+
+    @property
+    def dimension(self) -> int:
+        return int(self.scene["dimension"])
+
+    @property
+    def box(self) -> tuple[np.ndarray, np.ndarray]:
+        """Low and high corner of the grid. [m]"""
+        grid = self.scene["grid"]
+        return np.array(grid["low"], float), np.array(grid["high"], float)
+
+    @property
+    def spacing(self) -> float:
+        """Of the grid. [m]"""
+        low, high = self.box
+        return float((high[0] - low[0]) / self.scene["grid"]["cells"][0])
+
+    @property
+    def particle_size(self) -> float:
+        """Distance of the particles at the start. [m]"""
+        return self.spacing / max(region.get("per_cell", 2) for region in self.scene["particles"])
+
+    @property
+    def up(self) -> int:
+        """The axis against the body force; the last one if there is none."""
+        force = [entry if isinstance(entry, (int, float)) else 0 for entry in self.scene.get("body_force", [])]
+        return int(np.argmax(np.abs(force))) if any(force) else self.dimension - 1
+
+
+def labels(runs: list[Run]) -> list[str]:
+    """What tells the runs apart in a few letters: the scheme, else the title, else the folder."""
+    for names in ([run.scheme for run in runs], [run.title for run in runs], [run.name for run in runs]):
+        if len(set(names)) == len(runs):
+            return names
+    return [str(run.folder) for run in runs]
+
+
+def telling_times(run: Run, count: int) -> list[float]:
+    """Output times between which the particles move about equally far, first and last among them. [s]"""
+    if len(run.times) <= count:
+        return list(run.times)
+    moved, before = [0.0], None
+    for frame in run.frames():
+        if before is not None:
+            moved.append(moved[-1] + float(np.sqrt(np.mean((frame.position - before) ** 2))))
+        before = frame.position
+    way = np.array(moved) + 1e-9 * (moved[-1] or 1) * np.arange(len(moved))  # grows even where nothing moves
+    chosen = [0]
+    for k, wanted in enumerate(np.linspace(way[0], way[-1], count)[1:], start=1):
+        nearest = int(np.argmin(np.abs(way - wanted)))
+        chosen.append(min(max(nearest, chosen[-1] + 1), len(way) - (count - k)))
+    return [float(time) for time in run.times[chosen]]

@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// One run of a scene into a folder, as `minamo run` and every variant of a study do it.
+
+#include "engine/profiler.hpp"
+#include "engine/simulation.hpp"
+#include "tools/scene_file.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace minamo {
+
+struct RunPlan {
+  std::string scene;             ///< the scene file, as the messages and summary.json call it
+  std::filesystem::path folder;  ///< for the results
+  int threads = 1;               ///< that the caller has set, for summary.json
+  std::optional<std::int64_t> steps;
+  bool quiet = false;
+  std::function<void(World&)> at_end;  ///< called where the run is done; may be empty
+};
+
+struct RunResult {
+  Outcome outcome;
+  Clock clock;
+  Json summary;             ///< as in summary.json
+  double loop_seconds = 0;  ///< wall time of the time loop [s]
+};
+
+/// Runs the scene and writes all that a run leaves but the trace.
+/// \throws InputError if the scene cannot be seeded or the folder cannot be used; nothing is run then.
+RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const SystemRegistry& registry,
+                          Profiler& profiler, const std::atomic<bool>& stop);
+
+/// \throws std::runtime_error
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// Makes a folder for results, which may be there already. \throws InputError
+void make_output_folder(const std::filesystem::path& folder);
+
+}  // namespace minamo

@@ -1,0 +1,143 @@
+#include "tools/study_error.hpp"
+
+#include "components/particle.hpp"
+#include "systems/output/history.hpp"
+#include "tools/history_reader.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace minamo {
+
+namespace {
+
+const std::vector<std::string> names{"overlap", "pressure", "velocity"};
+constexpr std::string_view doc = "what the variants are compared by";
+
+ErrorOfHistory read_history(Input& in) {
+  ErrorOfHistory error;
+  error.expression = in.text("history", {.doc = "expression in columns of history.csv"});
+  error.target = in.number("target", {.unit = "", .doc = "what its mean should be, not 0"});
+  error.from = in.number("from", {.unit = "s", .doc = "begin of the mean", .fallback = 0, .at_least = 0});
+  error.to = in.number("to", {.unit = "s", .doc = "end of the mean", .above = 0});
+  if (in.sound("target") && error.target == 0) in.problem("target", "out of range", "a number other than 0");
+  if (in.sound("from") && in.sound("to") && !(error.from < error.to) && !in.describing())
+    in.problem("to", "no time in between", fmt::format("a time after from = {} s", error.from));
+  return error;
+}
+
+/// The columns that the history of a scene has; those of its extra systems are known when it runs.
+std::vector<std::string> columns_of(const Scene& scene) {
+  measure::Columns further;
+  for (const ProbeScene& probe : scene.probes) {
+    further.set(probe.name + "_pressure", 0);
+    for (int d = 0; d < scene.dimension; ++d) further.set(fmt::format("{}_velocity_{}", probe.name, "xyz"[d]), 0);
+  }
+  if (!scene.exact.velocity.empty()) further.set("error_velocity", 0);
+  if (scene.exact.pressure) further.set("error_pressure", 0);
+  std::istringstream header(scene.dimension == 2 ? history_header<2>(further) : history_header<3>(further));
+  std::vector<std::string> columns;
+  for (std::string name; std::getline(header, name, ',');) columns.push_back(name);
+  return columns;
+}
+
+std::vector<Problem> missing_columns(const ErrorOfHistory& error, const Scene& scene, const std::string& file) {
+  std::vector<Problem> problems;
+  const std::vector<std::string> columns = columns_of(scene);
+  try {
+    const Expression expression(error.expression, {columns, {}});
+  } catch (const ExpressionError& problem) {
+    problems.push_back({file, "/error/history", std::string("not an expression: ") + problem.what(),
+                        "an expression in columns of history.csv", shown(Json(error.expression)),
+                        closest_name(problem.token, columns)});
+  }
+  if (error.to > scene.time.end * (1 + 1e-9)) {
+    problems.push_back({file, "/error/to", "after the end of the run",
+                        fmt::format("a time up to {} s", scene.time.end), fmt::format("{} s", error.to), {}});
+  }
+  return problems;
+}
+
+std::vector<Problem> missing_exact(const std::string& field, const Scene& scene, const std::string& file) {
+  const bool has = field == "velocity" ? !scene.exact.velocity.empty() : scene.exact.pressure.has_value();
+  if (has || field == "overlap") return {};
+  return {{file, "/error", "the scene has no exact " + field, "a scene with /exact/" + field, shown(Json(field)), {}}};
+}
+
+template <int Dim>
+double farthest_distance(World& world) {
+  const auto m_p = world.column<particle::Mass>();
+  const auto x_p = world.column<particle::Position<Dim>>();
+  double mass = 0;
+  Vec<Dim> moment = Vec<Dim>::Zero();
+  for (std::size_t p = 0; p < x_p.size(); ++p) {
+    mass += m_p[p];
+    moment += m_p[p] * x_p[p];
+  }
+  const Vec<Dim> center = moment / mass;
+  double farthest = 0;
+  for (const Vec<Dim>& x : x_p) farthest = std::max(farthest, (x - center).norm());
+  return farthest;
+}
+
+double relative(double value, double exact) { return std::abs(value - exact) / std::abs(exact); }
+
+}  // namespace
+
+ErrorMeasure read_error_measure(Input& input) {
+  if (input.names("error").empty() && !input.describing()) return ErrorOfSummary{input.choice("error", names, doc)};
+  ErrorMeasure measure;
+  input.object("error", doc, Input::Presence::required, [&](Input& error) {
+    error.one_of(doc, {{"history", [&](Input& in) { measure = read_history(in); }},
+                       {"farthest", [&](Input& in) {
+                          measure = ErrorOfFarthest{in.number(
+                              "farthest", {.unit = "m",
+                                           .doc = "largest distance of a particle from the centre of mass at the end",
+                                           .above = 0})};
+                        }}});
+  });
+  return measure;
+}
+
+std::vector<Problem> missing_for(const ErrorMeasure& measure, const Scene& scene, const std::string& file) {
+  if (const auto* of_summary = std::get_if<ErrorOfSummary>(&measure))
+    return missing_exact(of_summary->name, scene, file);
+  if (const auto* of_history = std::get_if<ErrorOfHistory>(&measure)) return missing_columns(*of_history, scene, file);
+  return {};
+}
+
+std::string error_label(const ErrorMeasure& measure) {
+  if (const auto* of_summary = std::get_if<ErrorOfSummary>(&measure)) {
+    return of_summary->name == "overlap" ? "largest overlap" : "relative error of the " + of_summary->name;
+  }
+  if (const auto* of_history = std::get_if<ErrorOfHistory>(&measure)) {
+    return fmt::format("relative error of the mean of {}, {} to {} s", of_history->expression, of_history->from,
+                       of_history->to);
+  }
+  return "relative error of the farthest particle's distance";
+}
+
+std::optional<double> error_of(const ErrorMeasure& measure, const Json& summary, const std::string& history_file,
+                               double farthest) {
+  double error = 0;
+  if (const auto* of_summary = std::get_if<ErrorOfSummary>(&measure)) {
+    const bool is_overlap = of_summary->name == "overlap";
+    error = (is_overlap ? summary.at("conservation").at("overlap_max") : summary.at("errors").at(of_summary->name))
+                .get<double>();
+  } else if (const auto* of_history = std::get_if<ErrorOfHistory>(&measure)) {
+    const History history(history_file);
+    error = relative(history.mean(of_history->expression, of_history->from, of_history->to), of_history->target);
+  } else {
+    error = relative(farthest, std::get<ErrorOfFarthest>(measure).exact);
+  }
+  return std::isfinite(error) ? std::optional(error) : std::nullopt;
+}
+
+double farthest_distance(World& world, int dimension) {
+  return dimension == 2 ? farthest_distance<2>(world) : farthest_distance<3>(world);
+}
+
+}  // namespace minamo
