@@ -23,8 +23,8 @@ fs::path output_folder(const RunOptions& options) {
 
 int report(const RunResult& result, const fs::path& folder, bool quiet) {
   if (result.outcome.ending == Ending::failed) {
-    std::cerr << result.outcome.message << "\nthe state before this step is in "
-              << (folder / "checkpoint.h5").string() << '\n';
+    std::cerr << result.outcome.message << "\nthe state before this step is in " << (folder / "checkpoint.h5").string()
+              << '\n';
     return exit_failed;
   }
   const bool interrupted = result.outcome.ending == Ending::interrupted;

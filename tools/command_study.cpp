@@ -32,8 +32,12 @@ void open_output(const fs::path& folder) {
     std::error_code error;
     fs::remove(folder / name, error);
     if (!error) continue;
-    throw InputError({{folder.string(), {}, fmt::format("{} cannot be removed: {}", name, error.message()),
-                       "a folder for the results (--out)", {}, {}}});
+    throw InputError({{folder.string(),
+                       {},
+                       fmt::format("{} cannot be removed: {}", name, error.message()),
+                       "a folder for the results (--out)",
+                       {},
+                       {}}});
   }
 }
 
@@ -83,14 +87,16 @@ std::string one_line(const StudyRow& row) {
 
 int report(const Study& study, const StudyTable& table, std::size_t variants, const fs::path& folder, bool quiet) {
   const bool interrupted = table.rows.size() < variants || table.rows.back().status == "interrupted";
-  const auto finished = std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.status == "done"; });
+  const auto finished =
+      std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.status == "done"; });
   if (!quiet) {
     if (!study.title.empty()) std::cout << study.title << '\n';
     std::cout << as_text(table) << "error: " << error_label(study.error) << "; wall: time loop, " << table.threads
               << (table.threads == 1 ? " thread of " : " threads of ") << table.cpu_model
               << "\nfrontier: no other variant is both faster and more accurate" << std::endl;
   }
-  const bool has_error = std::any_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.error > 0.0; });
+  const bool has_error =
+      std::any_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.error > 0.0; });
   const bool drawn = has_error && draw_study(folder / "study.csv", study.title, error_label(study.error));
   if (!quiet) spdlog::info("results in {}: study.csv{}", folder.string(), drawn ? ", study.png" : "");
   if (interrupted) spdlog::warn("interrupted after {} of {} variants", finished, variants);
@@ -107,12 +113,8 @@ int run_study(const StudyOptions& options, const SystemRegistry& registry) {
   open_output(folder);
   const int threads = prepare_threads(options.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  const RunPlan plan{.scene = study.scene,
-                     .folder = folder,
-                     .threads = threads,
-                     .steps = {},
-                     .quiet = options.quiet,
-                     .at_end = {}};
+  const RunPlan plan{
+      .scene = study.scene, .folder = folder, .threads = threads, .steps = {}, .quiet = options.quiet, .at_end = {}};
   const std::atomic<bool>& stop = stop_on_signal();
   StudyTable table = empty_table(study, threads);
   for (const Variant& variant : variants) {

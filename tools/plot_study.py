@@ -8,6 +8,7 @@ import argparse
 import csv
 import pathlib
 import sys
+import textwrap
 
 # Okabe and Ito: colours that everybody can tell apart. Black is last because the frontier is dark as well.
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#F0E442", "#000000"]
@@ -67,7 +68,7 @@ def draw_lines(axes, parameters, rows):
 def draw_frontier(axes, rows):
     frontier = sorted((row for row in rows if row.get("frontier") == "1"), key=lambda row: row["x"])
     axes.plot([p["x"] for p in frontier], [p["y"] for p in frontier], color="0.25", linewidth=5, alpha=0.25,
-              solid_capstyle="round", zorder=1)
+              drawstyle="steps-post", zorder=1)
     axes.plot([p["x"] for p in frontier], [p["y"] for p in frontier], linestyle="none", marker="o", markersize=12,
               markerfacecolor="none", markeredgecolor="0.2", markeredgewidth=1.6,
               label="frontier: none is both\nfaster and more accurate")
@@ -102,7 +103,7 @@ def draw(parameters, rows, title, error, out):
     label_axis(axes.yaxis, [row["y"] for row in rows])
     machine = f"{rows[0].get('cpu_model', '')}, threads: {rows[0].get('threads', '?')}"
     axes.set_xlabel(f"wall time of the time loop [s]\n({machine})")
-    axes.set_ylabel(f"{error} [1]")
+    axes.set_ylabel(textwrap.fill(f"{error} [1]", 50))
     axes.set_title(title)
     axes.grid(which="major", color="0.85")
     axes.grid(which="minor", color="0.93", linewidth=0.5)

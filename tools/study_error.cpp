@@ -55,8 +55,12 @@ std::vector<Problem> missing_columns(const ErrorOfHistory& error, const Scene& s
                         closest_name(problem.token, columns)});
   }
   if (error.to > scene.time.end * (1 + 1e-9)) {
-    problems.push_back({file, "/error/to", "after the end of the run",
-                        fmt::format("a time up to {} s", scene.time.end), fmt::format("{} s", error.to), {}});
+    problems.push_back({file,
+                        "/error/to",
+                        "after the end of the run",
+                        fmt::format("a time up to {} s", scene.time.end),
+                        fmt::format("{} s", error.to),
+                        {}});
   }
   return problems;
 }

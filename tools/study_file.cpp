@@ -78,7 +78,8 @@ std::vector<Parameter> read_parameters(Input& vary) {
     parameters.push_back({name, {values.begin(), values.end()}});
     check_values(vary, name, key, parameters.back().values);
   }
-  if (!vary.describing() && vary.names("").empty()) vary.problem("", "nothing is varied", "at least one list of values");
+  if (!vary.describing() && vary.names("").empty())
+    vary.problem("", "nothing is varied", "at least one list of values");
   return parameters;
 }
 

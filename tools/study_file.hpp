@@ -19,7 +19,7 @@ struct Parameter {
 };
 
 struct Study {
-  std::string file;   ///< as the messages call it
+  std::string file;  ///< as the messages call it
   std::string title;
   std::string scene;  ///< path of the scene file
   std::vector<Parameter> parameters;

@@ -36,8 +36,9 @@ bool draw_study(const std::filesystem::path& csv, const std::string& title, cons
   const int status = std::system(command.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   if (code == 0) return true;
-  const std::string reason = code == no_matplotlib ? "it needs python3 and matplotlib: sudo apt-get install python3-matplotlib"
-                                                   : "tools/plot_study.py failed";
+  const std::string reason = code == no_matplotlib
+                                 ? "it needs python3 and matplotlib: sudo apt-get install python3-matplotlib"
+                                 : "tools/plot_study.py failed";
   spdlog::warn("{} is not drawn: {}", (csv.parent_path() / "study.png").string(), reason);
   return false;
 }

@@ -115,9 +115,10 @@ std::string as_text(const StudyTable& table) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const StudyRow& row = table.rows[i];
     Cells cells = row.values;
-    for (std::string& cell : std::vector<std::string>{
-             shown(row.error, "{:.3e}", "-"), shown(all[i].order, "{:.2f}", "-"), fmt::format("{:.3g}", row.wall_seconds),
-             std::to_string(row.steps), shown(all[i].rank, "{}", "-"), all[i].on_frontier ? "*" : "", row.status})
+    for (std::string& cell :
+         std::vector<std::string>{shown(row.error, "{:.3e}", "-"), shown(all[i].order, "{:.2f}", "-"),
+                                  fmt::format("{:.3g}", row.wall_seconds), std::to_string(row.steps),
+                                  shown(all[i].rank, "{}", "-"), all[i].on_frontier ? "*" : "", row.status})
       cells.push_back(std::move(cell));
     rows.push_back(std::move(cells));
   }

@@ -94,10 +94,14 @@ std::vector<double> variables(const Study& study, const Combination& combination
 
 void set_time_step(Json& scene, const Study& study, const Combination& combination, const std::string& file) {
   if (!study.time_step) return;
-  const double step = (*study.time_step)(variables(study, combination));
+  const std::vector<double> values = variables(study, combination);
+  const double step = (*study.time_step)(values);
   if (!std::isfinite(step) || step <= 0) {
-    throw InputError({{study.file, "/time_step", "no time step for variant " + combination.name, "a number > 0 [s]",
-                       fmt::format("{} s", step), {}}});
+    std::string got = fmt::format("{} s", step);
+    const std::vector<std::string> names = variables_of(study.parameters);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      got += fmt::format("{}{} = {}", k == 0 ? " with " : ", ", names[k], values[k]);
+    throw InputError({{study.file, "/time_step", "not a time step", "a number > 0 [s]", got, {}}});
   }
   set_value(scene, "/time/step", step, file);
   for (const char* other : {"cfl", "max_step"}) scene["time"].erase(other);
@@ -108,8 +112,7 @@ Json scene_of(const Json& scene, const Study& study, const Combination& combinat
   Json changed = scene;
   for (const auto& [pointer, value] : study.settings) set_value(changed, pointer, value, file);
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {
-    if (is_pointer(study.parameters[k].key))
-      set_value(changed, study.parameters[k].key, combination.values[k], file);
+    if (is_pointer(study.parameters[k].key)) set_value(changed, study.parameters[k].key, combination.values[k], file);
   }
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {
     if (study.parameters[k].key == resolution_key) set_cells(changed, combination.values[k], file);

@@ -35,8 +35,7 @@ void P2GBodyForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>
 template <int Dim>
 void FreeFlight<Dim>::operator()(Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                                  Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
-                                 Read<node::KnownAcceleration<Dim>> a_known,
-                                 Write<node::Displacement<Dim>> u_i) const {
+                                 Read<node::KnownAcceleration<Dim>> a_known, Write<node::Displacement<Dim>> u_i) const {
   for_each_row(u_i.size(), [&](std::size_t i) {
     u_i[i].setZero();
     if (row[i] >= 0 || m_i[i] == 0) return;

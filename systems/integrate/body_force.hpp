@@ -51,8 +51,8 @@ struct P2GBodyForce {
 template <int Dim>
 struct FreeFlight {
   static constexpr std::string_view doc = "(E15) u_I of light nodes";
-  void operator()(Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-                  Read<node::BodyForce<Dim>> b_i, Read<Rates> rates, Read<node::KnownAcceleration<Dim>> a_known,
+  void operator()(Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+                  Read<Rates> rates, Read<node::KnownAcceleration<Dim>> a_known,
                   Write<node::Displacement<Dim>> u_i) const;
 };
 

@@ -29,7 +29,8 @@ using MeasureErrorVelocityOde = MeasureErrorVelocityAt<Dim, ode::Values>;
 
 /// (E42)  error_pressure = sqrt(sum V_p (p_p - p_e(y_p))^2 / sum V_p p_e(y_p)^2), p_p of (E33): where and when the
 /// balances hold, which with newmark is the end of the step on the configuration at its start, with midpoint the middle
-/// of the step. If the exact pressure is free, both p lose their mean sum V_p p / sum V_p first.
+/// of the step. If the exact pressure is free, both p lose their mean sum V_p p / sum V_p first. At the start p_p is
+/// that of (E13), one step ahead of x^0, against p_e at t = 0: an error of order dt that no step has.
 template <int Dim, class When>
 struct MeasureErrorPressureAt {
   static constexpr std::string_view doc = "(E42) error of the pressure";

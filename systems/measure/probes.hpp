@@ -10,9 +10,9 @@
 namespace minamo {
 
 /// (E43)  p_s = sum_I S_I(x_s) p_I.
-/// (E44)  v_s = sum_I S_I(x_s) v_I / sum_I S_I(x_s), over the nodes with mass, so that the surface does not slow it down.
-/// Both are zero where no node has mass: the probe is dry. The nodes have the values of the step: the pressure is that
-/// at the instant of the balances, the velocity that of its end.
+/// (E44)  v_s = sum_I S_I(x_s) v_I / sum_I S_I(x_s), over the nodes with mass, so that the surface does not slow it
+/// down. Both are zero where no node has mass: the probe is dry. The nodes have the values of the step: the pressure is
+/// that at the instant of the balances, the velocity that of its end.
 template <int Dim, class Velocity>
 struct MeasureProbesIn {
   static constexpr std::string_view doc = "(E43), (E44) pressure and velocity at the probes";

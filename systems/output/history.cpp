@@ -10,7 +10,8 @@ namespace {
 
 template <int Dim>
 RunTotals::Values values(const measure::Energy& energy, const measure::Momentum<Dim>& momentum) {
-  RunTotals::Values values{.energy = energy.kinetic + energy.potential.value_or(0), .momentum = {}, .angular_momentum = {}};
+  RunTotals::Values values{
+      .energy = energy.kinetic + energy.potential.value_or(0), .momentum = {}, .angular_momentum = {}};
   for (int d = 0; d < Dim; ++d) values.momentum[static_cast<std::size_t>(d)] = momentum.linear[d];
   for (int d = 0; d < rotations<Dim>; ++d) values.angular_momentum[static_cast<std::size_t>(d)] = momentum.angular[d];
   return values;
@@ -40,9 +41,8 @@ template <int Dim>
 void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> energy,
                                    Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
                                    Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap,
-                                   Read<matrix::Node> active, Read<SolveReport> solve,
-                                   Read<measure::Columns> further, Update<RunTotals> totals,
-                                   Update<HistoryFile> history) const {
+                                   Read<matrix::Node> active, Read<SolveReport> solve, Read<measure::Columns> further,
+                                   Update<RunTotals> totals, Update<HistoryFile> history) const {
   // The row of the start has no step behind it.
   const bool is_start = totals->rows == 0;
   totals->last = values<Dim>(*energy, *momentum);

@@ -22,9 +22,9 @@ struct HistoryFile {
 /// What a summary says of a whole run.
 struct RunTotals {
   struct Values {
-    double energy = 0;                           ///< kinetic, and potential where it exists [J]
-    std::array<double, 3> momentum{};            ///< [kg m/s]
-    std::array<double, 3> angular_momentum{};    ///< [kg m^2/s]
+    double energy = 0;                         ///< kinetic, and potential where it exists [J]
+    std::array<double, 3> momentum{};          ///< [kg m/s]
+    std::array<double, 3> angular_momentum{};  ///< [kg m^2/s]
   };
   Values first;
   Values last;

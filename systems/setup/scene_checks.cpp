@@ -37,11 +37,12 @@ std::optional<std::vector<int>> nearest_counts(const GridScene& grid) {
     double distance = 0;
     for (std::size_t d = 0; d < grid.low.size(); ++d) {
       const double cells = std::round((grid.high[d] - grid.low[d]) / h);
-      if (cells < 3 || cells > 1e9) return best;
+      if (cells > 1e9) return best;
       trial.cells[d] = static_cast<int>(cells);
       distance += std::abs(std::log(cells / grid.cells[d]));
     }
-    if (!all_equal(spacings(trial)) || (best && distance >= best_distance)) continue;
+    const bool too_few = *std::min_element(trial.cells.begin(), trial.cells.end()) < 3;
+    if (too_few || !all_equal(spacings(trial)) || (best && distance >= best_distance)) continue;
     best = trial.cells;
     best_distance = distance;
   }

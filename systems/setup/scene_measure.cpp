@@ -34,7 +34,8 @@ bool can_name_columns(const std::string& name) {
 }
 
 void check_probe_name(Input& input, const std::string& name, const std::vector<ProbeScene>& earlier) {
-  const bool is_twin = std::any_of(earlier.begin(), earlier.end(), [&](const auto& other) { return other.name == name; });
+  const bool is_twin =
+      std::any_of(earlier.begin(), earlier.end(), [&](const auto& other) { return other.name == name; });
   if (is_twin) {
     input.problem("name", "name is taken by an earlier probe", "a name for each probe", shown(Json(name)));
   } else if (!can_name_columns(name)) {
@@ -50,15 +51,14 @@ std::vector<OdeScene> read_ode(Input& input, const std::map<std::string, double>
   ExpressionScope of_rate{{"t"}, constants};
   of_rate.variables.insert(of_rate.variables.end(), names.begin(), names.end());
   std::vector<OdeScene> ode;
-  input.named_objects("ode", "variables integrated beside the flow, which expressions may use by name",
-                      [&](Input& in, const std::string& name) {
-                        const Expression start =
-                            in.expression("start", {{}, constants}, {.unit = "", .doc = "value at t = 0"});
-                        const Expression rate =
-                            in.expression("rate", of_rate, {.unit = "", .doc = "change per second"});
-                        if (std::find(names.begin(), names.end(), name) == names.end()) return;
-                        ode.push_back({name, start({}), rate});
-                      });
+  input.named_objects(
+      "ode", "variables integrated beside the flow, which expressions may use by name",
+      [&](Input& in, const std::string& name) {
+        const Expression start = in.expression("start", {{}, constants}, {.unit = "", .doc = "value at t = 0"});
+        const Expression rate = in.expression("rate", of_rate, {.unit = "", .doc = "change per second"});
+        if (std::find(names.begin(), names.end(), name) == names.end()) return;
+        ode.push_back({name, start({}), rate});
+      });
   return ode;
 }
 
@@ -67,8 +67,8 @@ ExactScene read_exact(Input& input, const Scene& scene) {
   const auto scope = scene_scope(scene.constants, scene.ode);
   const auto dimension = static_cast<std::size_t>(scene.dimension);
   input.object("exact", "the exact solution, to measure errors", Input::Presence::only_if_present, [&](Input& in) {
-    exact.velocity =
-        in.optional_expressions("velocity", dimension, scope, {.unit = "m/s", .doc = "exact velocity"}).value_or(exact.velocity);
+    exact.velocity = in.optional_expressions("velocity", dimension, scope, {.unit = "m/s", .doc = "exact velocity"})
+                         .value_or(exact.velocity);
     exact.pressure = in.optional_expression("pressure", scope, {.unit = "Pa", .doc = "exact pressure"});
     exact.pressure_is_free =
         in.choice("pressure_mean", std::vector<std::string>{"fixed", "free"},

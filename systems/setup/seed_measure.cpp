@@ -19,7 +19,8 @@ void seed_ode(const Scene& scene, const std::string& file, World& world, std::ve
   auto& equations = world.resource<ode::Equations>();
   static_cast<Instant&>(world.resource<ode::Values>()) = start;
   std::vector<double> arguments{0};
-  arguments.insert(arguments.end(), start.ode.begin(), start.ode.begin() + static_cast<std::ptrdiff_t>(start.ode_count));
+  arguments.insert(arguments.end(), start.ode.begin(),
+                   start.ode.begin() + static_cast<std::ptrdiff_t>(start.ode_count));
   for (const OdeScene& variable : scene.ode) {
     equations.name.push_back(variable.name);
     equations.rate.push_back(variable.rate);

@@ -122,3 +122,15 @@ TEST_CASE("describing gives values that fit their rules", "[unit]") {
   CHECK(in.has("e"));
   CHECK(in.describing());
 }
+
+TEST_CASE("the schema and the table describe objects whose names the user chooses", "[unit]") {
+  auto document = Input::Document::describe();
+  document.root().named_objects("growth", "what grows", [](Input& one, const std::string&) {
+    one.number("start", {.unit = "m", .doc = "start"});
+  });
+  const Json growth = document.schema()["properties"]["growth"];
+  CHECK(growth["additionalProperties"]["required"] == Json({"start"}));
+  CHECK(growth["additionalProperties"]["properties"]["start"]["type"] == "number");
+  CHECK(document.schema()["required"].empty());
+  CHECK_THAT(document.key_table(), Catch::Contains("| /growth/*/start | number [m] | required | start |"));
+}

@@ -125,3 +125,58 @@ TEST_CASE("a document without problems is valid", "[unit]") {
   document.finish();
   CHECK_NOTHROW(document.require_valid());
 }
+
+TEST_CASE("objects are read under the names that the user chose", "[unit]") {
+  std::vector<std::string> names;
+  double sum = 0;
+  const auto rules = [&](Input& input) {
+    input.named_objects("growth", "what grows", [&](Input& one, const std::string& name) {
+      names.push_back(name);
+      sum += one.number("start", {.doc = "start", .fallback = 3});
+    });
+  };
+  const Reading reading = read(R"({"growth": {"b": {"start": 1}, "a": {}}})", rules);
+  CHECK(reading.problems.empty());
+  CHECK(names == std::vector<std::string>{"b", "a"});
+  CHECK(sum == 4);
+  CHECK(reading.echo.dump() == R"({"growth":{"b":{"start":1},"a":{"start":3}}})");
+  CHECK(read("{}", rules).echo.dump() == R"({"growth":{}})");
+}
+
+TEST_CASE("problems below names that the user chose have their place", "[error]") {
+  const auto rules = [](Input& input) {
+    input.named_objects("growth", "what grows",
+                        [](Input& one, const std::string&) { one.number("start", {.doc = "start"}); });
+  };
+  CHECK(messages(R"({"growth": {"a": 1, "b": {}, "c": {"start": 1, "stop": 2}}})", rules) ==
+        Messages{"a.json: /growth/a: wrong type\n  expected  an object\n  got       1 (number)",
+                 "a.json: /growth/b/start: missing key\n  expected  a number",
+                 "a.json: /growth/c/stop: unknown key\n  expected  one of [\"start\"]\n  got       2 (number)"});
+  CHECK(messages(R"({"growth": 1})", rules) ==
+        Messages{"a.json: /growth: wrong type\n  expected  an object of objects\n  got       1 (number)"});
+}
+
+TEST_CASE("the names of an object are known before it is read", "[unit]") {
+  std::vector<std::string> names;
+  const auto rules = [&](Input& input) {
+    names = input.names("growth");
+    input.named_objects("growth", "what grows", [](Input&, const std::string&) {});
+  };
+  read(R"({"growth": {"b": {}, "a": {}}})", rules);
+  CHECK(names == std::vector<std::string>{"b", "a"});
+  read(R"({"growth": 1})", rules);
+  CHECK(names.empty());
+}
+
+TEST_CASE("an optional expression may be absent", "[unit]") {
+  const auto given = [](const std::string& text) {
+    return value_of<std::size_t>(text, [](Input& input) {
+      const auto one = input.optional_expression("p", place_and_time, {.doc = "pressure"});
+      const auto list = input.optional_expressions("v", 2, place_and_time, {.doc = "velocity"});
+      return (one ? 1U : 0U) + (list ? 10 * list->size() : 0U);
+    });
+  };
+  CHECK(given("{}") == 0);
+  CHECK(given(R"({"p": "x"})") == 1);
+  CHECK(given(R"({"p": 2, "v": ["x", 1]})") == 21);
+}

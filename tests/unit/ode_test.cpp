@@ -117,8 +117,8 @@ TEST_CASE("an ode variable that becomes infinite ends the run and keeps its last
   world.resource<Rates>().time = 3;
   world.resource<ode::Equations>() = {{"a"}, rates({"a^2"})};
   static_cast<Instant&>(world.resource<ode::Values>()) = start({1});
-  CHECK_THROWS_WITH(run<IntegrateOde<2>>(world), Catch::StartsWith("ode variable a is ") &&
-                                                     Catch::EndsWith(" at t = 3 s; its rate is a^2"));
+  CHECK_THROWS_WITH(run<IntegrateOde<2>>(world),
+                    Catch::StartsWith("ode variable a is ") && Catch::EndsWith(" at t = 3 s; its rate is a^2"));
   CHECK(world.resource<ode::Values>().ode[0] == 1);
   CHECK(world.resource<ode::Values>().time == 0);
 }

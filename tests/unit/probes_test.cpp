@@ -87,20 +87,22 @@ TEST_CASE("nodes without mass do not slow a probe at the surface down", "[unit]"
 }
 
 TEST_CASE("a probe in a hydrostatic column shows its pressure, the start included", "[unit]") {
-  const Json scene = scene_run::with(scene_run::scene_of_file("hydrostatic.json"),
-                                     {R"(/probes=[{"name": "low", "at": [1, 0.1]}, {"name": "dry", "at": [0.5, 0.9]}])"});
+  const Json scene =
+      scene_run::with(scene_run::scene_of_file("hydrostatic.json"),
+                      {R"(/probes=[{"name": "low", "at": [1, 0.1]}, {"name": "dry", "at": [0.5, 0.9]}])"});
   SceneRun run(scene);
   const int steps = GENERATE(0, 3);
   CAPTURE(steps);
   run.start();
   run.step(steps);
   CHECK(std::abs(column(run.world(), "low_pressure") / (1000 * 9.81 * 0.4) - 1) < 0.01);  // 8 cells below the surface
-  CHECK(std::abs(column(run.world(), "low_velocity_y")) < 1e-3);  // g dt is 1e-2
+  CHECK(std::abs(column(run.world(), "low_velocity_y")) < 1e-3);                          // g dt is 1e-2
   CHECK(column(run.world(), "dry_pressure") == 0);
   CHECK(column(run.world(), "dry_velocity_x") == 0);
 }
 
 TEST_CASE("a scene without probes has no system for them", "[unit]") {
-  const auto step = make_pipeline(scene_run::read(scene_run::scene_of_file("dam_break.json")), scene_run::registry()).step;
+  const auto step =
+      make_pipeline(scene_run::read(scene_run::scene_of_file("dam_break.json")), scene_run::registry()).step;
   CHECK(std::none_of(step.begin(), step.end(), [](const System& system) { return system.name == "measure_probes"; }));
 }

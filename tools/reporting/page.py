@@ -15,7 +15,8 @@ from reporting.runs import Run, labels
 from reporting.strips import Strip, draw_strip, png
 
 STYLE = """
-body { font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; color: #222; max-width: 1040px; margin: 2em auto; padding: 0 1em; }
+body { font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; color: #222;
+       max-width: 1040px; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.5em; margin: 0 0 .2em; }
 h2 { font-size: 1.1em; margin: 1.8em 0 .5em; padding-bottom: .2em; border-bottom: 1px solid #ddd; }
 h3 { font-size: 1em; margin: 1em 0 .2em; }
@@ -58,7 +59,8 @@ def _headline(run: Run) -> str:
 
 
 def _failures(runs: list[Run]) -> list[str]:
-    return [f"<pre class=\"failed\">{escape(run.summary['message'])}</pre>" for run in runs if run.summary.get("message")]
+    messages = [run.summary["message"] for run in runs if run.summary.get("message")]
+    return [f"<pre class=\"failed\">{escape(message)}</pre>" for message in messages]
 
 
 def duration(seconds: float) -> str:
@@ -88,11 +90,12 @@ def facts(run: Run) -> dict[str, str]:
     }
     if not summary:
         return found
+    wall, steps = summary["wall_s"], summary["steps"]
     return found | {
-        "Simulated": f"{summary['time']:.6g} s in {summary['steps']} steps",
+        "Simulated": f"{summary['time']:.6g} s in {steps} steps",
         "Particles": f"{summary['particles']}, {scene['particles'][0].get('per_cell')} per cell and direction",
         "Unknowns": f"at most {summary['unknowns_max']}",
-        "Wall time": f"{duration(summary['wall_s'])}, {1e3 * summary['wall_s'] / max(1, summary['steps']):.3g} ms per step",
+        "Wall time": f"{duration(wall)}, {1e3 * wall / max(1, steps):.3g} ms per step",
         "CPU time": f"{duration(summary['cpu_s'])} on {summary['threads']} thread{'s'[:summary['threads'] != 1]}",
         "CPU": summary["cpu_model"],
         "Memory": f"{summary['peak_memory_bytes'] / 2**20:.0f} MiB",
@@ -121,7 +124,8 @@ def _time_step(time: dict[str, Any]) -> str:
 def _scene(runs: list[Run]) -> str:
     """One run: facts in two columns. Several: a column each, rows that differ marked."""
     if len(runs) == 1:
-        rows = "".join(f"<div><b>{name}</b><span>{escape(value)}</span></div>" for name, value in facts(runs[0]).items())
+        rows = "".join(f"<div><b>{name}</b><span>{escape(value)}</span></div>"
+                       for name, value in facts(runs[0]).items())
         return f"<div class=\"facts\">{rows}</div>"
     columns = [facts(run) for run in runs]
     names = dict.fromkeys(name for column in columns for name in column)
@@ -140,7 +144,8 @@ def _pictures(strips: list[Strip]) -> list[str]:
         return []
     found = ["<h2>Particles</h2>"]
     for strip in strips:
-        found += [f"<h3>Coloured by {strip.field.name}</h3>", _image(draw_strip(strip), f"particles by {strip.field.name}")]
+        caption = f"Coloured by {strip.field.name}"
+        found += [f"<h3>{caption}</h3>", _image(draw_strip(strip), caption)]
     return found
 
 
@@ -155,7 +160,8 @@ def _image(figure: Figure, text: str) -> str:
 def _balance(runs: list[Run]) -> str:
     """What is conserved but for walls, body force and viscosity: at the start, at the end, the difference."""
     head = "<th></th><th></th>" + "".join(f"<th class=\"number\">{name}</th>" for name in ("start", "end", "change"))
-    rows = "".join(_balance_rows(run, label) for run, label in zip(runs, labels(runs)) if run.summary)
+    names = labels(runs) if len(runs) > 1 else [""]
+    rows = "".join(_balance_rows(run, name) for run, name in zip(runs, names) if run.summary)
     return f"<table><tr>{head}</tr>{rows}</table>" if rows else "<p>No summary.json yet.</p>"
 
 

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, ScalarFormatter
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator, NullFormatter, ScalarFormatter
 
 from reporting.runs import Run, labels
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")  # told apart by all eyes
+COLOURS = 3 * ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")  # told apart by all eyes
 STYLES = ("solid", (0, (4, 1.5)), (0, (1, 1)))
 AXES = "xyz"
 
@@ -38,7 +39,7 @@ def _known_panels(per_metre: bool) -> list[Panel]:
     energy, momentum, angular = ("J/m", "N s/m", "J s/m") if per_metre else ("J", "N s", "J s")
     turning = {"angular_momentum": ""} | {f"angular_momentum_{axis}": axis for axis in AXES}
     return [
-        Panel("energy", {"kinetic_energy": "kinetic", "potential_energy": "potential", "total_energy": "sum"}, energy),
+        Panel("energy", {f"{kind}_energy": kind for kind in ("kinetic", "potential", "total")}, energy),
         Panel("momentum", {f"momentum_{axis}": axis for axis in AXES}, momentum),
         Panel("angular momentum", turning, angular),
         Panel("largest speed", {"max_speed": ""}, "m/s"),
@@ -49,7 +50,8 @@ def _known_panels(per_metre: bool) -> list[Panel]:
         Panel("active nodes", {"active_nodes": ""}),
         Panel("iterations", {"iterations": ""}),
         Panel("residual, relative", {"residual": ""}, "1", True),
-    ] + [Panel("time step", {"dt": ""}, "s")]
+        Panel("time step", {"dt": ""}, "s"),
+    ]
 
 
 def _further_panels(runs: list[Run]) -> list[Panel]:
@@ -81,7 +83,7 @@ def _says_something(values: np.ndarray | None, column: str) -> bool:
 
 def _one_by_one(panel: Panel) -> list[Panel]:
     many = len(panel.columns) > 1
-    return [Panel(f"{panel.title}, {name}" if many else panel.title, {column: ""}, panel.unit, panel.logarithmic)
+    return [Panel(f"{name} {panel.title}" if many else panel.title, {column: ""}, panel.unit, panel.logarithmic)
             for column, name in panel.columns.items()]
 
 
@@ -91,40 +93,51 @@ def draw_history(runs: list[Run], width: float = 10.0, across: int = 3) -> Figur
     if not shown:
         return None
     down = -(-len(shown) // across)
-    figure = Figure(figsize=(width, 1.95 * down + 0.3), constrained_layout=True)
+    head = 0.3 if len(runs) > 1 else 0.0
+    height = 1.9 * down + 0.2 + head
+    figure = Figure(figsize=(width, height), constrained_layout={"rect": (0, 0, 1, 1 - head / height), "h_pad": 0.08})
     axes = figure.subplots(down, across, squeeze=False).flatten()
     for place, panel in zip(axes, shown):
         _draw_panel(place, panel, runs)
     for place in axes[len(shown):]:
         place.set_axis_off()
-    for place in axes[max(0, len(shown) - across):len(shown)]:
+    for place in axes[across * (down - 1):]:
         place.set_xlabel("$t$ [s]", fontsize=9)
     if len(runs) > 1:
-        handles = [place.get_lines()[0] for place in axes[:1] for _ in (0,)] and axes[0].get_lines()[:len(runs)]
-        figure.legend(handles, labels(runs), loc="upper center", ncol=len(runs), frameon=False, fontsize=10,
-                      bbox_to_anchor=(0.5, 1.03))
+        lines = [Line2D([], [], color=colour, linewidth=1.6) for colour in COLOURS]
+        figure.legend(lines, labels(runs), loc="upper center", ncol=len(runs), frameon=False, fontsize=10)
     return figure
 
 
 def _draw_panel(axes, panel: Panel, runs: list[Run]) -> None:
-    for run, colour in zip(runs, COLOURS):
-        for (column, name), style in zip(panel.columns.items(), STYLES):
+    for k, run in enumerate(runs):
+        for j, (column, name) in enumerate(panel.columns.items()):
             values = series(run, column)
             if values is not None:
-                axes.plot(run.history["time"], values, linestyle=style, label=name, linewidth=0.9,
-                          color=colour if len(runs) > 1 else COLOURS[list(panel.columns).index(column)])
+                axes.plot(run.history["time"], values, linestyle=STYLES[j], label=name, linewidth=0.8,
+                          color=COLOURS[k if len(runs) > 1 else j])
     axes.set_title(panel.title + (f" [{panel.unit}]" if panel.unit else ""), fontsize=9.5, loc="left")
     _quiet(axes)
-    if panel.logarithmic:
-        axes.set_yscale("log")
-    else:
-        axes.yaxis.set_major_locator(MaxNLocator(4))
-        formatter = ScalarFormatter(useMathText=True)
-        formatter.set_powerlimits((-3, 4))
-        axes.yaxis.set_major_formatter(formatter)
-        axes.yaxis.get_offset_text().set_fontsize(8)
+    _logarithmic(axes) if panel.logarithmic else _linear(axes)
     if any(panel.columns.values()):
         axes.legend(fontsize=8, frameon=False, handlelength=1.8, borderaxespad=0.1)
+
+
+def _logarithmic(axes) -> None:
+    """Whole decades."""
+    values = np.concatenate([line.get_ydata() for line in axes.get_lines()])
+    values = values[values > 0]
+    axes.set_yscale("log")
+    axes.set_ylim(10 ** np.floor(np.log10(values.min())), 10 ** np.ceil(np.log10(values.max())))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def _linear(axes) -> None:
+    axes.yaxis.set_major_locator(MaxNLocator(4))
+    formatter = ScalarFormatter(useOffset=False, useMathText=True)
+    formatter.set_powerlimits((-3, 4))
+    axes.yaxis.set_major_formatter(formatter)
+    axes.yaxis.get_offset_text().set_fontsize(8)
 
 
 def _quiet(axes) -> None:
@@ -155,9 +168,10 @@ def _bars(runs: list[Run], bars: list[list[float]], captions: list[str], width: 
     thick = 0.8 / len(runs)
     for k, (run, row, label) in enumerate(zip(runs, bars, labels(runs))):
         places = np.arange(len(row)) + (k - 0.5 * (len(runs) - 1)) * thick
-        drawn = axes.barh(places, row, 0.92 * thick, color=COLOURS[k % len(COLOURS)], label=label)
+        drawn = axes.barh(places, row, 0.92 * thick, color=COLOURS[k], label=label)
         wall = run.summary["wall_s"]
-        axes.bar_label(drawn, [f"{value:.3g} s   {100 * value / wall:.1f} %" for value in row], padding=4, fontsize=8)
+        texts = [f"{value:.3g} s   {100 * value / wall:.1f} %" if value else "" for value in row]
+        axes.bar_label(drawn, texts, padding=4, fontsize=8)
     axes.set_yticks(range(len(captions)), captions, fontsize=8.5)
     axes.invert_yaxis()
     axes.set_xlabel("wall time [s]", fontsize=9)

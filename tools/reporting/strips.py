@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 import io
-import re
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -16,9 +14,10 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-from PIL import Image
 
+from reporting.references import Curves, corners_at
 from reporting.runs import Frame, NoResults, Run, labels
+from reporting.views import View, project, view_of
 
 WALL = "#303030"
 REFERENCE_COLOURS = ("#e31a1c", "#ff7f00", "#6a3d9a")
@@ -40,43 +39,15 @@ FIELDS = {"speed": Field("speed", "m/s", "viridis"), "pressure": Field("pressure
 
 
 @dataclass(frozen=True)
-class Curves:
-    """Lines of a reference at one time."""
-
-    name: str
-    time: float  # [s]
-    segments: list[np.ndarray]  # [m], points x 2
-
-
-@dataclass(frozen=True)
 class Strip:
     """What a picture strip shows."""
 
     runs: list[Run]
     times: list[float]  # [s]
     field: Field
-    references: list[Curves] = field(default_factory=list)
+    references: Sequence[Curves] = ()
     corners: bool = False
     width: float = 10.0  # [inch]
-
-
-def read_references(folder: Path) -> list[Curves]:
-    """All NAME_tT.csv of a folder: lines at time T, rows of `segment,x,y`; underscores of NAME are shown as blanks."""
-    found = []
-    for path in sorted(folder.glob("*_t*.csv")):
-        name, time = re.fullmatch(r"(.*)_t([0-9.]+)", path.stem).groups()
-        found.append(Curves(name.replace("_", " "), float(time), _segments(path)))
-    if not found:
-        raise NoResults(f"{folder}: no reference here; expected: files NAME_tT.csv with the columns segment,x,y")
-    return found
-
-
-def _segments(path: Path) -> list[np.ndarray]:
-    segments: dict[str, list[tuple[float, float]]] = {}
-    with path.open(newline="") as file:
-        for row in csv.DictReader(file):
-            segments.setdefault(row["segment"], []).append((float(row["x"]), float(row["y"])))
-    return [np.array(points) for points in segments.values()]
 
 
 def draw_strip(strip: Strip) -> Figure:
@@ -86,7 +57,7 @@ def draw_strip(strip: Strip) -> Figure:
         raise NoResults(f"{', '.join(str(run.folder) for run in strip.runs)}: no frame at t = "
                         f"{', '.join(f'{time:g}' for time in strip.times)} s")
     norm, extend = _scale(strip.field, [frame for row in frames for frame in row if frame])
-    views = [_view(strip, run, frames) for run in strip.runs]
+    views = [view_of(run, _in_the_box_of(run, strip, frames)) for run in strip.runs]
     figure, panels = _layout(strip, views)
     for axes, run, row, view in zip(panels, strip.runs, frames, views):
         for panel, time, frame in zip(axes, strip.times, row):
@@ -95,6 +66,13 @@ def draw_strip(strip: Strip) -> Figure:
     _colour_bar(figure, strip.field, norm, extend)
     _legend(figure, strip)
     return figure
+
+
+def _in_the_box_of(run: Run, strip: Strip, frames: list[list[Frame | None]]) -> list[np.ndarray]:
+    """All points to be shown of runs with the same box, so that their pictures have the same view. [m]"""
+    points = [frame.position for other, row in zip(strip.runs, frames) if np.array_equal(other.box, run.box)
+              for frame in row if frame]
+    return points + [corners_at(run, time) for time in strip.times] if strip.corners else points
 
 
 def _tolerance(run: Run) -> float:
@@ -112,53 +90,6 @@ def _scale(shown: Field, frames: list[Frame]) -> tuple[Normalize, str]:
     beyond = (values.min() < low - 0.02 * (ticks[-1] - low), values.max() > ticks[-1])
     extend = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[beyond]
     return Normalize(low, ticks[-1]), extend
-
-
-# The view of a run: limits in the plane of the picture, and for space how to get there.
-
-
-@dataclass(frozen=True)
-class View:
-    """Part of the picture plane that is shown."""
-
-    low: np.ndarray
-    high: np.ndarray
-
-    @property
-    def aspect(self) -> float:
-        return float((self.high[1] - self.low[1]) / (self.high[0] - self.low[0]))
-
-
-def _view(strip: Strip, run: Run, frames: list[list[Frame | None]]) -> View:
-    """The whole box; of a box whose walls nothing comes near, the part with particles. The same for equal boxes."""
-    low, high = run.box
-    marks = [corners_at(run, time) for time in strip.times] if strip.corners else []
-    shown = [frame.position for other, row in zip(strip.runs, frames) if np.array_equal(other.box, run.box)
-             for frame in row if frame] + marks
-    if run.dimension == 3:
-        corners = project(run, np.array(list(product(*zip(low, high)))))[0]
-        low, high = corners.min(axis=0), corners.max(axis=0)
-    elif shown:
-        points = np.concatenate(shown)
-        near = 3 * run.spacing
-        if np.all(points.min(axis=0) > low + near) and np.all(points.max(axis=0) < high - near):
-            half = np.full(2, 1.05 * 0.5 * np.ptp(points, axis=0).max())
-            middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-            low, high = middle - half, middle + half
-    margin = 0.015 * (high - low).max()
-    return View(low - margin, high + margin)
-
-
-def project(run: Run, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Parallel projection of points in space, seen from the front, a little from the right and above.
-
-    Returns the place in the picture and the distance from the eye.
-    """
-    turn, tilt = np.radians(25), np.radians(22)
-    rightward, upward = np.eye(3)[0 if run.up != 0 else 1], np.eye(3)[run.up]
-    right, into, up = points @ rightward, points @ np.cross(upward, rightward), points @ upward
-    across, away = np.cos(turn) * right + np.sin(turn) * into, np.cos(turn) * into - np.sin(turn) * right
-    return np.column_stack([across, np.cos(tilt) * up + np.sin(tilt) * away]), np.cos(tilt) * away - np.sin(tilt) * up
 
 
 def _layout(strip: Strip, views: list[View]) -> tuple[Figure, list[list]]:
@@ -255,22 +186,6 @@ def _reference_colours(strip: Strip) -> dict[str, str]:
     return dict(zip(dict.fromkeys(names), REFERENCE_COLOURS))
 
 
-def corners_at(run: Run, time: float) -> np.ndarray:
-    """Where the corners of the boxes of liquid are that no wall touches. [m]
-
-    At a corner two free surfaces meet, the pressure gradient vanishes, and the liquid goes on as it started: x + t v(x).
-    For a square of side L that rotates at the rate w: (L/2) (1 - wt, 1 + wt) and its turned copies.
-    """
-    boxes = [region["shape"]["box"] for region in run.scene["particles"] if "box" in region["shape"]]
-    if not boxes or run.dimension != 2:
-        raise NoResults(f"{run.folder}: no box of liquid in the plane, so no corners to mark")
-    start = run.frame(0)
-    basis = np.column_stack([np.ones(len(start.position)), start.position])
-    fit = np.linalg.lstsq(basis, start.velocity, rcond=None)[0]  # v at the start is linear in x
-    corners = np.array([corner for box in boxes for corner in product(*zip(box["low"], box["high"]))])
-    return corners + time * np.column_stack([np.ones(len(corners)), corners]) @ fit
-
-
 def _name_rows_and_columns(strip: Strip, panels: list[list]) -> None:
     decimals = max(len(f"{time:.4g}".partition(".")[2]) for time in strip.times)
     for panel, time in zip(panels[0], strip.times):
@@ -293,14 +208,11 @@ def _colour_bar(figure: Figure, shown: Field, norm: Normalize, extend: str) -> N
     bar.outline.set_linewidth(0.5)
 
 
-def png(figure: Figure, dots_per_inch: int = 150) -> bytes:
-    """A figure as PNG with a palette, a third of the size of one without."""
-    raw, small = io.BytesIO(), io.BytesIO()
-    figure.savefig(raw, dpi=dots_per_inch, facecolor="white")
-    image = Image.open(raw).convert("RGB").quantize(method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
-    image.putpalette([255 if part > 251 else part for part in image.getpalette()])  # white is white
-    image.save(small, "PNG", optimize=True)
-    return small.getvalue()
+def png(figure: Figure, dots_per_inch: int = 120) -> bytes:
+    """A figure as a PNG file."""
+    file = io.BytesIO()
+    figure.savefig(file, dpi=dots_per_inch, facecolor="white", pil_kwargs={"optimize": True})
+    return file.getvalue()
 
 
 def _legend(figure: Figure, strip: Strip) -> None:

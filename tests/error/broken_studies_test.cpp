@@ -1,0 +1,149 @@
+/// \file
+/// Broken study files, and what the program says about them.
+
+#include "support/program_output.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+using namespace minamo;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Case = std::tuple<std::string, std::string>;
+
+/// A folder with a scene and a study.
+class StudyFolder : public Folder {
+ public:
+  explicit StudyFolder(const std::string& study) {
+    fs::copy_file(fs::path(MINAMO_SOURCE_DIR) / "scenes/taylor_green.json", *this / "scene.json");
+    std::ofstream(*this / "a.json") << study;
+  }
+};
+
+/// A study is refused with a text, and nothing is written.
+void check_refused(const std::string& study, const std::string& text) {
+  CAPTURE(study);
+  const StudyFolder folder(study);
+  const ProgramOutput run = output_of_program(folder / "", {"study", "a.json"});
+  CHECK(run.err == text);
+  CHECK(run.code == 2);
+  CHECK(run.out.empty());
+  CHECK_FALSE(fs::exists(folder / "out"));
+}
+
+}  // namespace
+
+TEST_CASE("a study file with keys missing or misspelt is refused with every problem told", "[error]") {
+  const auto [study, text] = GENERATE(values<Case>({
+      {R"({})", "a.json: /scene: missing key\n"
+                "  expected  a string\n"
+                "a.json: /vary: missing key\n"
+                "  expected  an object\n"
+                "a.json: /error: missing key\n"
+                "  expected  one of [\"overlap\", \"pressure\", \"velocity\"]\n"},
+      {R"({"scene": "scene.json", "vary": {}, "error": "velocty"})",
+       "a.json: /vary: nothing is varied\n"
+       "  expected  at least one list of values\n"
+       "a.json: /error: unknown name\n"
+       "  expected  one of [\"overlap\", \"pressure\", \"velocity\"]\n"
+       "  got       \"velocty\" (string)\n"
+       "  closest   \"velocity\"\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8]}, "eror": "velocity"})", "a.json: /eror: unknown key\n"
+                                                                                 "  got       \"velocity\" (string)\n"
+                                                                                 "  closest   \"error\"\n"},
+  }));
+  check_refused(study, text);
+}
+
+TEST_CASE("a study that varies or sets what it cannot is refused", "[error]") {
+  const auto [study, text] = GENERATE(values<Case>({
+      {R"({"scene": "scene.json", "vary": {"cells": 8, "/transfer/scheme": []}, "error": "velocity"})",
+       "a.json: /vary/cells: wrong type\n"
+       "  expected  a list of at least one value\n"
+       "  got       8 (number)\n"
+       "a.json: /vary/~1transfer~1scheme: empty list\n"
+       "  expected  a list of at least one value\n"
+       "  got       [] (list)\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8, 8.5, 8, [2, 3]]}, "error": "velocity"})",
+       "a.json: /vary/cells/1: wrong value\n"
+       "  expected  a whole number >= 3, the cells along x, or a list of them per direction\n"
+       "  got       8.5 (number)\n"
+       "a.json: /vary/cells/2: given twice\n"
+       "  expected  a list of different values\n"
+       "  got       8 (number)\n"
+       "a.json: /vary/cells/3: wrong value\n"
+       "  expected  a whole number >= 3, the cells along x, or a list of them per direction\n"
+       "  got       [2,3] (list)\n"},
+      {R"({"scene": "scene.json", "vary": {"cels": [8]}, "error": "velocity"})",
+       "a.json: /vary/cels: used nowhere\n"
+       "  expected  a JSON pointer like /transfer/scheme, \"cells\", or a name that time_step uses\n"
+       "  got       \"cels\" (string)\n"
+       "  closest   \"cells\"\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8]}, "set": {"transfer": 1}, "error": "velocity"})",
+       "a.json: /set/transfer: not a JSON pointer\n"
+       "  expected  /key/key, like /transfer/scheme\n"
+       "  got       \"transfer\" (string)\n"},
+  }));
+  check_refused(study, text);
+}
+
+TEST_CASE("a study whose time step or error makes no sense is refused", "[error]") {
+  const auto [study, text] = GENERATE(values<Case>({
+      {R"({"scene": "scene.json", "vary": {"cells": [8]}, "time_step": "0.1/cell", "error": "velocity"})",
+       "a.json: /time_step: not an expression: unknown name \"cell\" at character 5\n"
+       "  expected  a number > 0 or an expression in cells [s]\n"
+       "  got       \"0.1/cell\" (string)\n"
+       "  closest   \"cells\"\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8]}, "error": {"history": "overlap", "target": 0, "from": 3, "to": 2}})",
+       "a.json: /error/target: out of range\n"
+       "  expected  a number other than 0\n"
+       "  got       0 (number)\n"
+       "a.json: /error/to: no time in between\n"
+       "  expected  a time after from = 3 s\n"
+       "  got       2 (number)\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8]}, "error": {"farthst": 3}})",
+       "a.json: /error/farthst: unknown key\n"
+       "  got       3 (number)\n"
+       "  closest   \"farthest\"\n"},
+  }));
+  check_refused(study, text);
+}
+
+TEST_CASE("a study whose variants cannot all run is refused, and no problem is told twice", "[error]") {
+  const auto [study, text] = GENERATE(values<Case>({
+      {R"({"scene": "scent.json", "vary": {"cells": [8]}, "error": "velocity"})", "scent.json: no such file\n"
+                                                                                  "  closest   \"scene.json\"\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8, 16], "/transfer/scheme": ["pic", "apci"]}, "error": "velocity"})",
+       "scene.json: variant cells8_apci: /transfer/scheme: unknown name\n"
+       "  expected  one of [\"apic\", \"flip\", \"pic\", \"tpic\", \"xpic\"]\n"
+       "  got       \"apci\" (string)\n"
+       "  closest   \"apic\"\n"},
+      {R"({"scene": "scene.json", "vary": {"/particles/3/per_cell": [2, 3]}, "error": "velocity"})",
+       "scene.json: variant per_cell2: /particles/3: no such element\n"
+       "  expected  an index in [0, 0]\n"
+       "  got       \"3\" (string)\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8, 16], "/transfer/scheme": ["pic", "tpic"]},
+           "time_step": "12 - cells", "error": "velocity"})",
+       "a.json: /time_step: not a time step\n"
+       "  expected  a number > 0 [s]\n"
+       "  got       -4 s with cells = 16\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8, 16]}, "set": {"/exact": {"velocity": [0, 0]}}, "error": "pressure"})",
+       "a.json: /error: the scene has no exact pressure\n"
+       "  expected  a scene with /exact/pressure\n"
+       "  got       \"pressure\" (string)\n"},
+      {R"({"scene": "scene.json", "vary": {"cells": [8, 16]},
+           "error": {"history": "kinetic_enrgy", "target": 1, "to": 2}})",
+       "a.json: /error/history: not an expression: unknown name \"kinetic_enrgy\" at character 1\n"
+       "  expected  an expression in columns of history.csv\n"
+       "  got       \"kinetic_enrgy\" (string)\n"
+       "  closest   \"kinetic_energy\"\n"
+       "a.json: /error/to: after the end of the run\n"
+       "  expected  a time up to 0.25 s\n"
+       "  got       2 s\n"},
+  }));
+  check_refused(study, text);
+}

@@ -1,0 +1,111 @@
+#!/usr/bin/python3
+"""How far the water of a dam break is from that of OpenFOAM's interFoam.
+
+  tools/compare_interfoam.py out/dam_break out/dam_break_flip
+
+Prints the area that is water in one of the two and not in the other, over the area of the column at the start. Water is
+where the volume fraction exceeds 1/2, on a raster of 0.5 mm. That of interFoam (160 x 160 cells) is interpolated between
+the middles of cells. That of a run is sum_p V_p N((x - x_p)/h) N((y - y_p)/h) / h^2, N the quadratic B-spline,
+mirrored at the walls, h = 14.6 mm whatever the grid of the run, so that runs can be compared.
+For scenes with the tank and the column of scenes/dam_break.json.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+try:
+    import numpy as np
+
+    from reporting.runs import NoResults, Run
+except ModuleNotFoundError as missing:
+    sys.exit(f"tools/compare_interfoam.py needs the python module {missing.name}. Type this line, then call it again:\n"
+             "  sudo apt-get install --yes --no-install-recommends python3-h5py python3-matplotlib")
+
+REFERENCE = Path(__file__).resolve().parent.parent / "scenes/reference/dam_break_interfoam/alpha_160.npz"
+TANK = 0.584  # side [m]
+COLUMN = 0.146 * 0.292  # area of the water at the start [m^2]
+WIDTH = TANK / 40  # of the B-spline [m]
+PIXEL = 0.5e-3  # [m]
+CENTRES = (np.arange(round(TANK / PIXEL)) + 0.5) * PIXEL  # of pixels, along either side [m]
+TOLERANCE = 2e-3  # between an output time and one of the reference [s]
+
+
+def b_spline(distance: np.ndarray) -> np.ndarray:
+    """Quadratic B-spline of unit width."""
+    r = np.abs(distance)
+    return np.where(r < 0.5, 0.75 - r * r, np.where(r < 1.5, 0.5 * (1.5 - r) ** 2, 0.0))
+
+
+def spread(place: np.ndarray) -> np.ndarray:
+    """Weights of particles, and of their mirror images in two walls, at pixels: particles x pixels."""
+    images = (place, -place, 2 * TANK - place)
+    return sum(b_spline((CENTRES - image[:, None]) / WIDTH) for image in images)
+
+
+def water_of_particles(position: np.ndarray) -> np.ndarray:
+    """Pixels [y, x] that are water. The particles share the area of the column equally."""
+    fraction = np.zeros((len(CENTRES), len(CENTRES)))
+    for part in np.array_split(position, -(-len(position) // 1000)):
+        fraction += spread(part[:, 1]).T @ spread(part[:, 0])
+    return fraction * COLUMN / len(position) / WIDTH**2 > 0.5
+
+
+def water_of_cells(fraction: np.ndarray) -> np.ndarray:
+    """Pixels [y, x] that are water, from the volume fraction of cells [y, x]; constant next to the walls."""
+    cells = len(fraction)
+    place = np.clip(CENTRES / TANK * cells - 0.5, 0, cells - 1)
+    low = np.minimum(place.astype(int), cells - 2)
+    to_pixels = np.zeros((len(CENTRES), cells))
+    rows = np.arange(len(CENTRES))
+    to_pixels[rows, low] = 1 - (place - low)
+    to_pixels[rows, low + 1] = place - low
+    return to_pixels @ fraction @ to_pixels.T > 0.5
+
+
+def reference() -> dict[float, np.ndarray]:
+    """Water of interFoam by time [s]."""
+    with np.load(REFERENCE) as file:
+        frames = zip(file["time"], file["alpha"])
+        return {round(float(time), 6): water_of_cells(alpha / 255.0) for time, alpha in frames}
+
+
+def distances(run: Run, water: dict[float, np.ndarray]) -> dict[float, float]:
+    """Area of the symmetric difference over that of the column, at the times that the run has written."""
+    frames = {time: run.frame_at(time, TOLERANCE) for time in water}
+    return {time: float(np.count_nonzero(water_of_particles(frame.position) != water[time])) * PIXEL**2 / COLUMN
+            for time, frame in frames.items() if frame}
+
+
+def require_tank(run: Run) -> None:
+    low, high = run.box
+    if run.dimension != 2 or not np.allclose([*low, *high], [0, 0, TANK, TANK]):
+        raise NoResults(f"{run.folder}: not the tank of the reference; expected: a grid from (0, 0) to "
+                        f"({TANK}, {TANK}) m, got: from {low} to {high}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="tools/compare_interfoam.py", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+", metavar="DIR", help="what `minamo run --out DIR` wrote")
+    runs = [Run(folder) for folder in parser.parse_args().folders]
+    for run in runs:
+        require_tank(run)
+    water = reference()
+    width = max(5, *(len(run.name) for run in runs))
+    print(f"{'t [s]':{width}}", *(f"{time:6.1f}" for time in water))
+    for run in runs:
+        found = distances(run, water)
+        print(f"{run.name:{width}}", *(f"{found[time]:6.3f}" if time in found else "     -" for time in water))
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except NoResults as problem:
+        print(problem, file=sys.stderr)
+        sys.exit(2)
