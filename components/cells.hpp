@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// The dual cells that hold particles, in the order in which particles are sorted: blocks of 4^d dual cells (the last of
-/// an axis up to 7), cells within a block. Blocks of one colour share no node: they can be scattered from side by side.
+/// The dual cells that hold particles, in the order in which particles are sorted: blocks of 4^d dual cells (the last
+/// of an axis up to 7), cells within a block. Blocks of one colour share no node: they can be scattered from side by
+/// side.
 
 #include "components/types.hpp"
 #include "engine/component.hpp"
@@ -32,8 +33,8 @@ struct OccupiedCells {
   static constexpr ComponentInfo info{"cells", "c", "1", Lifetime::scratch};
 };
 
-/// sum over the particles of a cell of V_p xi^a eta^b (zeta^c), 0 <= a, b, c <= 4, at [a + 5 b + 25 c]; xi, eta, zeta in
-/// units of h from the cell's node. One entry per occupied cell. [m^3; m^2 in 2-D]
+/// sum over the particles of a cell of V_p xi^a eta^b (zeta^c), 0 <= a, b, c <= 4, at [a + 5 b + 25 c]; xi, eta, zeta
+/// in units of h from the cell's node. One entry per occupied cell. [m^3; m^2 in 2-D]
 template <int Dim>
 struct Moments {
   std::vector<std::array<double, stencil_size<Dim>>> of_cell;

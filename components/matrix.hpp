@@ -43,7 +43,7 @@ struct Viscosity : Column<ActiveNodes, std::array<double, stencil_size<Dim> * Di
 /// What the stabilization adds to the mass balance: at [(Dim + 1) k + d] per acceleration of the neighbour, at
 /// [(Dim + 1) k + Dim] per pressure. [m^(d-1) s, m^(d+1) s/kg]
 template <int Dim>
-struct Stabilization : Column<ActiveNodes, std::array<double, stencil_size<Dim> * (Dim + 1)>> {
+struct Stabilization : Column<ActiveNodes, std::array<double, stencil_size<Dim>*(Dim + 1)>> {
   static constexpr ComponentInfo info{"matrix.stabilization", "", "", Lifetime::scratch};
 };
 
@@ -54,9 +54,9 @@ struct StabilizationSource : Column<ActiveNodes, double> {
 
 /// Where the monolithic matrix has entries: compressed columns, (d + 1) unknowns per row of the tables, pressure last.
 struct Pattern {
-  std::vector<int> outer;      ///< start of every column, and the end
-  std::vector<int> inner;      ///< row of every entry, rising within a column
-  std::int64_t revision = 0;   ///< grows by one whenever the pattern is another than in the step before
+  std::vector<int> outer;       ///< start of every column, and the end
+  std::vector<int> inner;       ///< row of every entry, rising within a column
+  std::int64_t revision = 0;    ///< grows by one whenever the pattern is another than in the step before
   std::vector<int> next_outer;  ///< work space of the assembly
   std::vector<int> next_inner;
   static constexpr ComponentInfo info{"matrix.pattern", "", "1", Lifetime::cache};

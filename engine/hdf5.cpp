@@ -29,12 +29,12 @@ class Handle {
 hid_t open(const std::string& path, Hdf5File::Access access) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
   switch (access) {
-    case Hdf5File::Access::create:
-      return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    case Hdf5File::Access::extend:
-      return H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-    case Hdf5File::Access::read:
-      return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  case Hdf5File::Access::create:
+    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  case Hdf5File::Access::extend:
+    return H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  case Hdf5File::Access::read:
+    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   }
   return -1;
 }

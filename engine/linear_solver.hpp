@@ -17,7 +17,7 @@ concept SparseBackend = requires(Backend backend, const Matrix& matrix, const Ei
   backend.analyzePattern(matrix);
   backend.factorize(matrix);
   { backend.info() } -> std::convertible_to<Eigen::ComputationInfo>;
-  { backend.solve(b) };
+  {backend.solve(b)};
 };
 
 /// How the linear solve of the last step went.

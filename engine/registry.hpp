@@ -15,7 +15,7 @@ class SystemRegistry {
   /// What `minamo list systems` shows of a system.
   struct Entry {
     std::string name;
-    std::string doc;        ///< `Kernel::doc` where it has one: one line, with the equation's number
+    std::string doc;  ///< `Kernel::doc` where it has one: one line, with the equation's number
     std::function<System(int dimension, Input* options)> make;  ///< `options` may be null: no options given
   };
 

@@ -77,9 +77,9 @@ class Schedule {
 /// that cause it (a table's name: its rows). Lifetimes are told apart by colour, with a legend.
 std::string to_dot(std::span<const System> systems, std::string_view title);
 
-/// The same as JSON text: {"title", "systems": [{"name", "access": [{"mode", "component", "table", "unit", "lifetime"}]}],
-/// "edges": [{"from", "to", "components"}]}. "from" and "to" are places in "systems"; a table's name among the
-/// "components" means its rows; what an access does not have (the table of a resource) is null.
+/// The same as JSON text: {"title", "systems": [{"name", "access": [{"mode", "component", "table", "unit",
+/// "lifetime"}]}], "edges": [{"from", "to", "components"}]}. "from" and "to" are places in "systems"; a table's name
+/// among the "components" means its rows; what an access does not have (the table of a resource) is null.
 std::string to_json(std::span<const System> systems, std::string_view title);
 
 }  // namespace minamo

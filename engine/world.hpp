@@ -29,10 +29,10 @@ class Storage {
   virtual void resize(std::size_t rows) = 0;
   /// Row k becomes what row `order[k]` was.
   virtual void reorder(std::span<const std::uint32_t> order) = 0;
-  virtual std::size_t rows() const = 0;             ///< 1 for a resource
+  virtual std::size_t rows() const = 0;  ///< 1 for a resource
   virtual const std::type_info& value_type() const = 0;
-  virtual std::size_t value_bytes() const = 0;      ///< 0 if the value is not trivially copyable
-  virtual std::span<std::byte> bytes() = 0;         ///< empty if the value is not trivially copyable
+  virtual std::size_t value_bytes() const = 0;        ///< 0 if the value is not trivially copyable
+  virtual std::span<std::byte> bytes() = 0;           ///< empty if the value is not trivially copyable
   virtual std::size_t doubles_per_value() const = 0;  ///< 0 unless the value is made of doubles alone
 
  private:
@@ -46,7 +46,10 @@ template <class T>
 constexpr std::size_t doubles_in() {
   if constexpr (std::is_same_v<T, double>) {
     return 1;
-  } else if constexpr (requires { typename T::Scalar; { T::SizeAtCompileTime } -> std::convertible_to<int>; }) {
+  } else if constexpr (requires {
+                         typename T::Scalar;
+                         { T::SizeAtCompileTime } -> std::convertible_to<int>;
+                       }) {
     return std::is_same_v<typename T::Scalar, double> ? sizeof(T) / sizeof(double) : 0;
   } else {
     return 0;

@@ -36,9 +36,8 @@ struct Needs {
         exact_velocity(!scene.exact.velocity.empty()),
         exact_pressure(scene.exact.pressure.has_value()),
         probes(!scene.probes.empty()) {
-    uniform_force = std::none_of(scene.body_force.begin(), scene.body_force.end(), [](const Expression& b) {
-      return b.uses("x") || b.uses("y") || b.uses("z");
-    });
+    uniform_force = std::none_of(scene.body_force.begin(), scene.body_force.end(),
+                                 [](const Expression& b) { return b.uses("x") || b.uses("y") || b.uses("z"); });
   }
 };
 
@@ -117,8 +116,13 @@ std::vector<Slot> step_slots(const Needs& needs) {
 
 /// A backward Euler step on a configuration beside x^0 that leaves the particles where they are.
 std::vector<std::string> standing_step(const Needs& needs, const std::string& configure) {
-  std::vector<std::string> systems{configure, "bin", "p2g_mass", needs.transfer.p2g_velocity, "activate",
-                                   "hold_velocity_at_walls", "predict_backward_euler"};
+  std::vector<std::string> systems{configure,
+                                   "bin",
+                                   "p2g_mass",
+                                   needs.transfer.p2g_velocity,
+                                   "activate",
+                                   "hold_velocity_at_walls",
+                                   "predict_backward_euler"};
   for (const auto& part : {force_systems(needs), assemble_systems(needs), solve_systems(needs)}) {
     systems.insert(systems.end(), part.begin(), part.end());
   }
@@ -152,8 +156,8 @@ std::vector<std::string> output_systems(const Needs& needs) {
 }  // namespace
 
 const std::vector<std::string>& slot_names() {
-  static const std::vector<std::string> names{"configure", "bin",     "p2g", "walls",  "predict", "force",  "assemble",
-                                              "solve",     "correct", "g2p", "advect", "volume", "measure", "history"};
+  static const std::vector<std::string> names{"configure", "bin",     "p2g", "walls",  "predict", "force",   "assemble",
+                                              "solve",     "correct", "g2p", "advect", "volume",  "measure", "history"};
   return names;
 }
 

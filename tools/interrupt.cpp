@@ -4,18 +4,12 @@
 
 namespace minamo {
 
-namespace {
-
-std::atomic<bool> stop_requested{false};
-
-extern "C" void request_stop(int signal) {
-  stop_requested = true;
-  std::signal(signal, SIG_DFL);
-}
-
-}  // namespace
-
 const std::atomic<bool>& stop_on_signal() {
+  static std::atomic<bool> stop_requested{false};
+  const auto request_stop = [](int signal) {
+    stop_requested = true;
+    std::signal(signal, SIG_DFL);
+  };
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   return stop_requested;

@@ -73,8 +73,8 @@ def draw_frontier(axes, rows):
               markerfacecolor="none", markeredgecolor="0.2", markeredgewidth=1.6,
               label="frontier: none is both\nfaster and more accurate")
     for p in frontier if RESOLUTION in rows[0] else []:
-        axes.annotate(p[RESOLUTION], (p["x"], p["y"]), xytext=(-8, -8), textcoords="offset points", ha="right", va="top",
-                      fontsize=8, color="0.2")
+        axes.annotate(p[RESOLUTION], (p["x"], p["y"]), xytext=(-8, -8), textcoords="offset points", ha="right",
+                      va="top", fontsize=8, color="0.2")
 
 
 def label_axis(axis, values):

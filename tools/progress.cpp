@@ -13,7 +13,8 @@ namespace {
 
 std::string duration(double seconds) {
   const auto s = static_cast<long>(seconds);
-  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60) : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+  return s < 3600 ? fmt::format("{}:{:02}", s / 60, s % 60)
+                  : fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
 }  // namespace
@@ -29,7 +30,8 @@ void Progress::show(const Clock& clock, const SolveReport& solve) {
   double done = clock.time / end_;
   if (max_steps_) done = std::max(done, static_cast<double>(clock.index) / static_cast<double>(*max_steps_));
   const double remaining = done > 0 ? now * (1 - done) / done : 0;
-  fmt::print(stderr, "\r\033[K{:3.0f} %  t = {:.5g} of {:.5g} s  step {}  dt = {:.3g} s  {} particles  {} unknowns  {} left",
+  fmt::print(stderr,
+             "\r\033[K{:3.0f} %  t = {:.5g} of {:.5g} s  step {}  dt = {:.3g} s  {} particles  {} unknowns  {} left",
              100 * done, clock.time, end_, clock.index, clock.step, particles_, solve.unknowns, duration(remaining));
   std::fflush(stderr);
 }

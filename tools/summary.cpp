@@ -14,9 +14,12 @@ using Json = nlohmann::ordered_json;
 
 const char* status(Ending ending) {
   switch (ending) {
-    case Ending::done: return "done";
-    case Ending::interrupted: return "interrupted";
-    case Ending::failed: return "failed";
+  case Ending::done:
+    return "done";
+  case Ending::interrupted:
+    return "interrupted";
+  case Ending::failed:
+    return "failed";
   }
   return "";
 }

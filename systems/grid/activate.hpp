@@ -12,8 +12,7 @@ namespace minamo {
 template <int Dim>
 struct Activate {
   static constexpr std::string_view doc = "(E7) active nodes";
-  void operator()(Read<node::Mass> m_i, Resize<ActiveNodes> rows, Write<node::Row> row,
-                  Write<matrix::Node> node) const;
+  void operator()(Read<node::Mass> m_i, Resize<ActiveNodes> rows, Write<node::Row> row, Write<matrix::Node> node) const;
 };
 
 }  // namespace minamo

@@ -34,7 +34,8 @@ AxisBasis make_basis(int first, const Weights& weight) {
 }  // namespace
 
 const AxisBasis& inner_basis() {
-  static const AxisBasis inside = make_basis(-1, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
+  static const AxisBasis inside =
+      make_basis(-1, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
   return inside;
 }
 

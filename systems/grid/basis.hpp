@@ -2,12 +2,13 @@
 /// \file
 /// Quadratic B-spline with kernel correction at walls, one axis at a time, as polynomials within a dual cell.
 ///
-/// (E1)  S_I(x) = prod_d w_d, w(r) = 3/4 - r^2 for |r| <= 1/2, (3/2 - |r|)^2 / 2 for 1/2 <= |r| <= 3/2, r in units of h.
-/// (E2)  In the half cell next to a wall: w = 1 - s on the wall node, s on its neighbour, s the distance to the wall.
+/// (E1)  S_I(x) = prod_d w_d, w(r) = 3/4 - r^2 for |r| <= 1/2, (3/2 - |r|)^2 / 2 for 1/2 <= |r| <= 3/2, r in units of
+/// h. (E2)  In the half cell next to a wall: w = 1 - s on the wall node, s on its neighbour, s the distance to the
+/// wall.
 ///
-/// Kernel correction: Nakamura, Matsumura, Mizutani, CMAME 403 (2023) 115720, doi:10.1016/j.cma.2022.115720. They restore
-/// sum S = 1 and sum S x_I = x by weighted least squares on the nodes that are left. On a box with a multilinear
-/// correction that reduces to (E2), without a matrix per particle; tests/property/basis_test.cpp proves it.
+/// Kernel correction: Nakamura, Matsumura, Mizutani, CMAME 403 (2023) 115720, doi:10.1016/j.cma.2022.115720. They
+/// restore sum S = 1 and sum S x_I = x by weighted least squares on the nodes that are left. On a box with a
+/// multilinear correction that reduces to (E2), without a matrix per particle; tests/property/basis_test.cpp proves it.
 
 #include "components/grid.hpp"
 
@@ -17,8 +18,8 @@ namespace minamo {
 inline constexpr std::size_t weight_powers = 3;
 inline constexpr std::size_t product_powers = 5;
 
-/// The three weights of one axis within a dual cell: w_a(xi) = sum_k weight[a][k] xi^k, xi in units of h from the cell's
-/// own node. Node a is node `first + a` of the axis, `first` relative to the cell's own node.
+/// The three weights of one axis within a dual cell: w_a(xi) = sum_k weight[a][k] xi^k, xi in units of h from the
+/// cell's own node. Node a is node `first + a` of the axis, `first` relative to the cell's own node.
 struct AxisBasis {
   int first;
   std::array<std::array<double, weight_powers>, 3> weight;

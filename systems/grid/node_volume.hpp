@@ -33,7 +33,8 @@ void gather_node_volume(const Grid<Dim>& grid, double density, std::span<const V
     const Vec<Dim> x = fold<Dim>(grid, x_p[p]);
     const Support<Dim> support(grid, dual_cell<Dim>(grid, x));
     const Weights<Dim> weights(support, x);
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { v_i[support.node[k]] += weights(offset) * v; });
+    for_each_support<Dim>(
+        [&](std::size_t k, const Index<Dim>& offset) { v_i[support.node[k]] += weights(offset) * v; });
   }
 }
 

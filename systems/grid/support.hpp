@@ -117,7 +117,8 @@ Vec<Dim> fold(const Grid<Dim>& grid, Vec<Dim> y) {
 template <int Dim, class Body>
 void for_each_cell(const OccupiedCells<Dim>& cells, const Body& body) {
   constexpr std::size_t cells_per_task = 64;
-  for_each_row(cells.cells.size(), [&](std::size_t c) { body(c, cells.cells[c]); }, cells_per_task);
+  for_each_row(
+      cells.cells.size(), [&](std::size_t c) { body(c, cells.cells[c]); }, cells_per_task);
 }
 
 /// The same for kernels that write rows of nodes: one colour of blocks after the other, so that every node gets its

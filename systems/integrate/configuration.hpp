@@ -9,7 +9,8 @@
 
 namespace minamo {
 
-/// (E9)  y_p = x_p^n + s dt v_p^n, kept inside the box and, along periodic axes, folded into it. The share s of the step is what tells these systems apart.
+/// (E9)  y_p = x_p^n + s dt v_p^n, kept inside the box and, along periodic axes, folded into it. The share s of the
+/// step is what tells these systems apart.
 template <int Dim>
 struct ConfigureAtStart {  // s = 0
   static constexpr std::string_view doc = "(E9) y_p = x_p, newmark";

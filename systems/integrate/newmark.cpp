@@ -5,9 +5,9 @@
 namespace minamo {
 
 template <int Dim>
-void PredictNewmark<Dim>::operator()(Read<Clock> clock, Read<NewmarkParameters> newmark,
-                                     Read<node::Velocity<Dim>> v_i, Read<node::Acceleration<Dim>> a_i,
-                                     Write<Rates> rates, Write<node::KnownVelocity<Dim>> v_known,
+void PredictNewmark<Dim>::operator()(Read<Clock> clock, Read<NewmarkParameters> newmark, Read<node::Velocity<Dim>> v_i,
+                                     Read<node::Acceleration<Dim>> a_i, Write<Rates> rates,
+                                     Write<node::KnownVelocity<Dim>> v_known,
                                      Write<node::KnownAcceleration<Dim>> a_known) const {
   const double dt = clock->step;
   const double beta = newmark->beta;
@@ -21,8 +21,8 @@ void PredictNewmark<Dim>::operator()(Read<Clock> clock, Read<NewmarkParameters> 
 
 template <int Dim>
 void CorrectNewmark<Dim>::operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i,
-                                     Read<node::KnownVelocity<Dim>> v_known,
-                                     Read<node::KnownAcceleration<Dim>> a_known, Write<node::NewVelocity<Dim>> v_new,
+                                     Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+                                     Write<node::NewVelocity<Dim>> v_new,
                                      Write<node::NewAcceleration<Dim>> a_new) const {
   for_each_row(u_i.size(), [&](std::size_t i) {
     v_new[i] = rates->velocity * u_i[i] + v_known[i];

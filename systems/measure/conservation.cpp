@@ -61,7 +61,10 @@ struct MassPoint {
 template <int Dim>
 Vec<Dim> centre_of_mass(std::span<const double> m_p, std::span<const Vec<Dim>> x_p) {
   const auto sum = reduce_rows(
-      m_p.size(), MassPoint<Dim>{}, [&](std::size_t p) { return MassPoint<Dim>{m_p[p], m_p[p] * x_p[p]}; },
+      m_p.size(), MassPoint<Dim>{},
+      [&](std::size_t p) {
+        return MassPoint<Dim>{m_p[p], m_p[p] * x_p[p]};
+      },
       [](const MassPoint<Dim>& a, const MassPoint<Dim>& b) {
         return MassPoint<Dim>{a.mass + b.mass, a.first_moment + b.first_moment};
       });
@@ -96,8 +99,7 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
 
 template <int Dim>
 void MeasureMomentum<Dim>::operator()(Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
-                                      Read<particle::Velocity<Dim>> v_p,
-                                      Write<measure::Momentum<Dim>> momentum) const {
+                                      Read<particle::Velocity<Dim>> v_p, Write<measure::Momentum<Dim>> momentum) const {
   const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span());
   *momentum = reduce_rows(
       m_p.size(), measure::Momentum<Dim>{},

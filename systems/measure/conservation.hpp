@@ -14,9 +14,8 @@ namespace minamo {
 template <int Dim>
 struct MeasureEnergy {
   static constexpr std::string_view doc = "(E28) kinetic and potential energy";
-  void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p,
-                  Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                  Write<measure::Energy> energy) const;
+  void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Velocity<Dim>> v_p, Write<measure::Energy> energy) const;
 };
 
 /// (E29)  P = sum m_p v_p;  L = sum m_p (x_p - x_c) x v_p.

@@ -27,8 +27,8 @@ struct MeasureDivergence {
 template <int Dim>
 struct MeasureOverlap {
   static constexpr std::string_view doc = "(E32) overlap";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Mass> m_p, Write<node::Volume> v_i, Write<measure::Overlap> overlap) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p, Read<particle::Mass> m_p,
+                  Write<node::Volume> v_i, Write<measure::Overlap> overlap) const;
 };
 
 }  // namespace minamo

@@ -31,7 +31,8 @@ std::string data_item(std::size_t frame, const std::string& name, std::size_t ro
 
 std::string attribute(const std::string& name, std::string_view kind, const std::string& item) {
   return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n          {}\n"
-                     "        </Attribute>\n", name, kind, item);
+                     "        </Attribute>\n",
+                     name, kind, item);
 }
 
 /// A vertex per particle. Without its list of points ParaView's Xdmf3 readers see points but no vertices, and draw
@@ -46,10 +47,10 @@ template <int Dim>
 std::string grid_text(const FieldsFile::Frame& frame, std::size_t k) {
   const std::size_t n = frame.particles;
   const std::string ids = data_item(k, "id", n, 1, R"(NumberType="Int" Precision="8")");
-  std::string text = fmt::format(
-      "      <Grid Name=\"particles\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n"
-      "{}        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
-      frame.time, vertices(ids, n), Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
+  std::string text =
+      fmt::format("      <Grid Name=\"particles\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n"
+                  "{}        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
+                  frame.time, vertices(ids, n), Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
   text += attribute("velocity", Dim == 2 ? "Matrix" : "Vector", data_item(k, "velocity", n, Dim));
   text += attribute("pressure", "Scalar", data_item(k, "pressure", n, 1));
   text += attribute("id", "Scalar", ids);
@@ -68,7 +69,8 @@ void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Config
     const Support<Dim> support(*grid, dual_cell<Dim>(*grid, y_p[p]));
     const Weights<Dim> weights(support, y_p[p]);
     double sum = 0;
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { sum += weights(offset) * p_i[support.node[k]]; });
+    for_each_support<Dim>(
+        [&](std::size_t k, const Index<Dim>& offset) { sum += weights(offset) * p_i[support.node[k]]; });
     p_p[p] = sum;
   });
 }

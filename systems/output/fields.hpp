@@ -16,7 +16,7 @@ namespace minamo {
 /// Where the frames go, and what the XDMF index says of them.
 struct FieldsFile {
   struct Frame {
-    double time;                            ///< [s]
+    double time;  ///< [s]
     std::size_t particles;
     std::vector<std::string> extra_fields;  ///< beyond position, velocity, pressure, id
   };

@@ -2,8 +2,8 @@
 
 #include "systems/pipeline.hpp"
 #include "systems/setup/scene_checks.hpp"
-#include "systems/setup/scene_method.hpp"
 #include "systems/setup/scene_measure.hpp"
+#include "systems/setup/scene_method.hpp"
 #include "systems/setup/scene_walls.hpp"
 
 #include <spdlog/fmt/fmt.h>

@@ -29,7 +29,7 @@ void read_integrator(Input& input, Scene& scene) {
         in.number("gamma", {.doc = "Newmark's gamma", .fallback = 0.5, .at_least = 0.5, .at_most = 1});
   };
   scene.integrator =
-      input.variant("scheme", "integrator", "newmark", {{"midpoint", [](Input&) {}}, {"newmark", read_newmark}});
+      input.variant("scheme", "integrator", "midpoint", {{"midpoint", [](Input&) {}}, {"newmark", read_newmark}});
 }
 
 void read_volume(Input& input, Scene& scene) {
@@ -37,7 +37,7 @@ void read_volume(Input& input, Scene& scene) {
     scene.volume_rate = in.number(
         "rate", {.doc = "share of the excess that is corrected in a step", .fallback = 0.1, .at_most = 1, .above = 0});
   };
-  scene.volume = input.variant("scheme", "volume correction", "none",
+  scene.volume = input.variant("scheme", "volume correction", "projection",
                                {{"delta", [](Input&) {}}, {"none", [](Input&) {}}, {"projection", read_rate}});
 }
 

@@ -18,9 +18,11 @@ Json schema() {
   const Json axis{{"oneOf", {{{"enum", axis_wall_names}}, sides}}};
   Json axes{{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
   for (const std::string& x : axis_names) axes["properties"][x] = axis;
-  return {{"description", R"("slip" or "no_slip" for all sides, or per axis {"x": "slip"}, {"x": "periodic"}, or [low side, high side])"},
-          {"type", {"string", "object"}},
-          {"oneOf", {name, axes}}};
+  return {
+      {"description",
+       R"("slip" or "no_slip" for all sides, or per axis {"x": "slip"}, {"x": "periodic"}, or [low side, high side])"},
+      {"type", {"string", "object"}},
+      {"oneOf", {name, axes}}};
 }
 
 /// `at` is the place of the value, as Input::problem() takes it.

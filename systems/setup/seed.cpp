@@ -71,7 +71,8 @@ Mat<Dim> velocity_gradient_at(const std::vector<Expression>& velocity, const Vec
   Mat<Dim> gradient;
   for (int d = 0; d < Dim; ++d) {
     const Vec<Dim> aside = step * Vec<Dim>::Unit(d);
-    gradient.col(d) = (value_at<Dim>(velocity, x + aside, start) - value_at<Dim>(velocity, x - aside, start)) / (2 * step);
+    gradient.col(d) =
+        (value_at<Dim>(velocity, x + aside, start) - value_at<Dim>(velocity, x - aside, start)) / (2 * step);
   }
   return gradient;
 }

@@ -12,16 +12,16 @@ namespace minamo {
 template <int Dim>
 struct AssembleDivergence {
   static constexpr std::string_view doc = "(E21) D_IJ";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments,
-                  Read<node::Row> row, Write<matrix::Divergence<Dim>> divergence) const;
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments, Read<node::Row> row,
+                  Write<matrix::Divergence<Dim>> divergence) const;
 };
 
 /// (E22)  L_IJ = sum_p V_p grad S_I . grad S_J.
 template <int Dim>
 struct AssembleLaplacian {
   static constexpr std::string_view doc = "(E22) L_IJ";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments,
-                  Read<node::Row> row, Write<matrix::Laplacian<Dim>> laplacian) const;
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments, Read<node::Row> row,
+                  Write<matrix::Laplacian<Dim>> laplacian) const;
 };
 
 /// (E23)  K_IJ = mu sum_p V_p [(grad S_I . grad S_J) 1 + grad S_J (x) grad S_I]: the force of 2 mu D on node I.

@@ -52,7 +52,8 @@ void add_product(const Support<Dim>& support, std::span<const std::int32_t> row,
 template <class Rows>
 void clear_rows(const Rows& rows) {
   constexpr std::size_t rows_per_task = 256;
-  for_each_row(rows.size(), [&](std::size_t r) { rows[r].fill(0); }, rows_per_task);
+  for_each_row(
+      rows.size(), [&](std::size_t r) { rows[r].fill(0); }, rows_per_task);
 }
 
 }  // namespace minamo

@@ -19,8 +19,7 @@ template <int Dim>
 struct GatherMoments {
   static constexpr std::string_view doc = "(E19) moments of dual cells";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                  Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
-                  Write<Moments<Dim>> moments) const;
+                  Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p, Write<Moments<Dim>> moments) const;
 };
 
 /// sum_p V_p f_I g_J for the node pairs of a cell at [pair_place(I, J)], f and g products of weights and slopes.

@@ -26,8 +26,17 @@ struct Terms {
   std::span<const double> source;
   std::span<const typename matrix::Viscosity<Dim>::value_type> viscosity;  ///< empty if inviscid
 
-  /// Whether the nodes at the ends of an entry share a particle: only then has the pressure term a value.
-  bool coupled(std::size_t r, std::size_t k) const { return stabilization[r][(Dim + 1) * k + Dim] != 0; }
+  /// Whether node I of row r_i and node J at place `to_j` of its stencil share a particle: only then has an entry a
+  /// value. The pressure term alone does not tell: one particle in the middle of every cell makes it cancel for
+  /// neighbours along an axis.
+  bool coupled(std::size_t r_i, std::size_t to_j, std::size_t r_j) const {
+    if (stabilization[r_i][(Dim + 1) * to_j + Dim] != 0) return true;
+    const std::size_t to_i = stencil_size<Dim> - 1 - to_j;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (divergence[r_i][Dim * to_j + d] != 0 || divergence[r_j][Dim * to_i + d] != 0) return true;
+    }
+    return false;
+  }
   bool is_fixed(std::uint32_t i, std::size_t d) const { return fixed[i] >> d & 1; }
   /// D_IJ . q with J at place k of the stencil of row r.
   double dot_divergence(std::size_t r, std::size_t k, const Vec<Dim>& q) const {
@@ -48,9 +57,10 @@ void displacement_column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::
   if (t.is_fixed(j, d)) return emit(column, 1.0);
   stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
     const std::int32_t row = t.row[i];
-    if (row < 0 || !t.coupled(r_j, to_i)) return;
+    if (row < 0) return;
     const auto r_i = static_cast<std::size_t>(row);
     const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
+    if (!t.coupled(r_i, to_j, r_j)) return;
     const std::size_t first = unknowns_per_row(Dim) * r_i;
     for (std::size_t e = 0; e < Dim; ++e) {
       const bool diagonal = i == j && e == d;
@@ -69,13 +79,14 @@ void pressure_column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::size
   const std::uint32_t j = t.node[r_j];
   stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
     const std::int32_t row = t.row[i];
-    if (row < 0 || !t.coupled(r_j, to_i)) return;
+    if (row < 0) return;
     const auto r_i = static_cast<std::size_t>(row);
+    const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
+    if (!t.coupled(r_i, to_j, r_j)) return;
     const std::size_t first = unknowns_per_row(Dim) * r_i;
     for (std::size_t e = 0; e < Dim; ++e) {
       if (!t.is_fixed(i, e)) emit(first + e, -t.divergence[r_j][Dim * to_i + e]);
     }
-    const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
     emit(first + Dim, t.stabilization[r_i][(Dim + 1) * to_j + Dim] + (i == j ? t.pressure_per_mass * t.m_i[i] : 0));
   });
 }
@@ -175,33 +186,39 @@ double pressure_per_mass(double dt, double density, double spacing) {
 }  // namespace
 
 template <int Dim>
-void AssembleMonolithic<Dim>::operator()(
-    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-    Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-    Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
-    Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node,
-    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source, Update<matrix::Pattern> pattern,
-    Write<matrix::Values> values, Write<matrix::RightHandSide> right_hand_side) const {
-  const Terms<Dim> terms{rates->velocity, rates->acceleration,
-                         pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
-                         m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(), node.span(),
-                         divergence.span(), stabilization.span(), source.span(), {}};
+void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
+                                         Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+                                         Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
+                                         Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
+                                         Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                                         Read<matrix::Stabilization<Dim>> stabilization,
+                                         Read<matrix::StabilizationSource> source, Update<matrix::Pattern> pattern,
+                                         Write<matrix::Values> values,
+                                         Write<matrix::RightHandSide> right_hand_side) const {
+  const Terms<Dim> terms{
+      rates->velocity,      rates->acceleration, pressure_per_mass(clock->step, fluid->density, grid->spacing),
+      row.span(),           fixed.span(),        m_i.span(),
+      b_i.span(),           v_known.span(),      a_known.span(),
+      u_i.span(),           node.span(),         divergence.span(),
+      stabilization.span(), source.span(),       {}};
   assemble<Dim>(terms, *grid, *pattern, values->values, right_hand_side->values);
 }
 
 template <int Dim>
 void AssembleMonolithicViscous<Dim>::operator()(
-    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-    Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-    Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
-    Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node,
-    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source,
+    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
+    Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+    Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+    Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+    Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source,
     Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values,
     Write<matrix::RightHandSide> right_hand_side) const {
-  const Terms<Dim> terms{rates->velocity, rates->acceleration,
-                         pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
-                         m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(), node.span(),
-                         divergence.span(), stabilization.span(), source.span(), viscosity.span()};
+  const Terms<Dim> terms{
+      rates->velocity,      rates->acceleration, pressure_per_mass(clock->step, fluid->density, grid->spacing),
+      row.span(),           fixed.span(),        m_i.span(),
+      b_i.span(),           v_known.span(),      a_known.span(),
+      u_i.span(),           node.span(),         divergence.span(),
+      stabilization.span(), source.span(),       viscosity.span()};
   assemble<Dim>(terms, *grid, *pattern, values->values, right_hand_side->values);
 }
 

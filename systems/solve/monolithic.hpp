@@ -25,25 +25,24 @@ namespace minamo {
 template <int Dim>
 struct AssembleMonolithic {
   static constexpr std::string_view doc = "(E25) (E26) (E27) matrix and right-hand side, inviscid";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                  Read<node::Row> row, Read<node::Fixed> fixed,
-                  Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
-                  Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
-                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source, Update<matrix::Pattern> pattern,
-                  Write<matrix::Values> values, Write<matrix::RightHandSide> right_hand_side) const;
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
+                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+                  Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source,
+                  Update<matrix::Pattern> pattern, Write<matrix::Values> values,
+                  Write<matrix::RightHandSide> right_hand_side) const;
 };
 
 template <int Dim>
 struct AssembleMonolithicViscous {
   static constexpr std::string_view doc = "(E25) (E26) (E27) matrix and right-hand side, viscous";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                  Read<node::Row> row, Read<node::Fixed> fixed,
-                  Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
-                  Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
-                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source, Read<matrix::Viscosity<Dim>> viscosity,
-                  Update<matrix::Pattern> pattern, Write<matrix::Values> values,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
+                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+                  Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source,
+                  Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values,
                   Write<matrix::RightHandSide> right_hand_side) const;
 };
 

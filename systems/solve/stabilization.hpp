@@ -17,27 +17,25 @@
 namespace minamo {
 
 /// (E24)  PSPG: sum_p tau V_p grad S_I . (rho (a_p - b_p) + grad p_p), tau = [(2 rho/dt)^2 + (4 mu/h^2)^2]^(-1/2).
-/// T. E. Tezduyar et al., CMAME 95 (1992) 221, doi:10.1016/0045-7825(92)90141-6. There is no term with |v| in tau, which
-/// would not be Galilean invariant.
+/// T. E. Tezduyar et al., CMAME 95 (1992) 221, doi:10.1016/0045-7825(92)90141-6. There is no term with |v| in tau,
+/// which would not be Galilean invariant.
 template <int Dim>
 struct StabilizePspg {
   static constexpr std::string_view doc = "(E24) PSPG";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
-                  Read<node::BodyForce<Dim>> b_i, Read<node::KnownAcceleration<Dim>> a_known,
-                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Laplacian<Dim>> laplacian, Write<matrix::Stabilization<Dim>> stabilization,
-                  Write<matrix::StabilizationSource> source) const;
+                  Read<node::BodyForce<Dim>> b_i, Read<node::KnownAcceleration<Dim>> a_known, Read<matrix::Node> node,
+                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
+                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source) const;
 };
 
-/// (E48)  OSS, orthogonal subscales: sum_p tau V_p grad S_I . (grad p_p - g_p), tau of (E24), g the lumped projection of
-/// the pressure gradient of the step before. Nodes less than 60 % full take g_J = rho b_J: their projection is one-sided.
-/// R. Codina, CMAME 190 (2000) 1579, doi:10.1016/S0045-7825(00)00254-1; the lag of one step is ours.
+/// (E48)  OSS, orthogonal subscales: sum_p tau V_p grad S_I . (grad p_p - g_p), tau of (E24), g the lumped projection
+/// of the pressure gradient of the step before. Nodes less than 60 % full take g_J = rho b_J: their projection is
+/// one-sided. R. Codina, CMAME 190 (2000) 1579, doi:10.1016/S0045-7825(00)00254-1; the lag of one step is ours.
 template <int Dim>
 struct StabilizeOss {
   static constexpr std::string_view doc = "(E48) orthogonal subscales";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
-                  Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row, Read<node::Mass> m_i,
+                  Read<node::BodyForce<Dim>> b_i, Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
                   Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source) const;
 };

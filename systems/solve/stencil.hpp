@@ -33,8 +33,7 @@ class Stencil {
       const int there = grid_.wrapped(Axis, at[axis] + step);
       if (there < 0 || there >= grid_.nodes(Axis)) continue;
       const std::size_t next_place = 5 * place + static_cast<std::size_t>(step + 2);
-      const std::size_t next_row =
-          row * static_cast<std::size_t>(grid_.nodes(Axis)) + static_cast<std::size_t>(there);
+      const std::size_t next_row = row * static_cast<std::size_t>(grid_.nodes(Axis)) + static_cast<std::size_t>(there);
       if constexpr (Axis == 0) {
         body(next_place, static_cast<std::uint32_t>(next_row));
       } else {

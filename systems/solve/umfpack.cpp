@@ -43,7 +43,8 @@ void SolveUmfpack<Dim>::operator()(Read<Clock> clock, Read<matrix::Pattern> patt
   }
   backend.factorize(matrix);
   if (backend.info() != Eigen::Success) {
-    throw std::runtime_error("solve: UMFPACK finds the matrix singular " + place(*clock, right_hand_side->values.size()));
+    throw std::runtime_error("solve: UMFPACK finds the matrix singular " +
+                             place(*clock, right_hand_side->values.size()));
   }
   solution->values.resize(right_hand_side->values.size());
   Eigen::Map<Eigen::VectorXd> x(solution->values.data(), size);

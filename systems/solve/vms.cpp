@@ -49,9 +49,9 @@ void StabilizeVms<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
       const auto gradient = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, d, -1));
       const double scale = tau * fluid->density * h;
       add_to_rows<Dim>(support, row.span(), gradient, scale, Dim + 1, static_cast<std::size_t>(d), rows);
-      add_product<Dim>(support, row.span(), gradient, [&](std::size_t j) {
-        return row[j] < 0 ? 0 : -scale * (a_known[j][d] - b_i[j][d]);
-      }, source.span());
+      add_product<Dim>(
+          support, row.span(), gradient,
+          [&](std::size_t j) { return row[j] < 0 ? 0 : -scale * (a_known[j][d] - b_i[j][d]); }, source.span());
     }
   });
 }

@@ -12,8 +12,8 @@
 namespace minamo {
 
 /// (E50)  sum_p tau_1 V_p grad S_I . (rho (a_p - b_p) + grad p_p) in the mass balance,
-/// tau_1 = [rho/dt + c_2 rho |v_c|/h_s + c_1 mu/h_s^2]^-1, c_1 = 4, c_2 = 2, h_s = sqrt(4 h^2/pi), v_c the velocity v^n in
-/// the middle of the cell.
+/// tau_1 = [rho/dt + c_2 rho |v_c|/h_s + c_1 mu/h_s^2]^-1, c_1 = 4, c_2 = 2, h_s = sqrt(4 h^2/pi), v_c the velocity v^n
+/// in the middle of the cell.
 template <int Dim>
 struct StabilizeVms {
   static constexpr std::string_view doc = "(E50) VMS in the mass balance";

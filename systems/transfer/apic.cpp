@@ -17,8 +17,7 @@ void G2PVelocityApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
 
 template <int Dim>
 void G2PAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                          Read<particle::Configuration<Dim>> y_p,
-                                          Read<node::NewAcceleration<Dim>> a_i,
+                                          Read<particle::Configuration<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
                                           Write<particle::Acceleration<Dim>> a_p,
                                           Write<particle::AccelerationGradient<Dim>> c_p) const {
   gather_with_affine<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Sample<Dim>& a) {

@@ -1,9 +1,8 @@
 #pragma once
 /// \file
-/// APIC: particles carry a velocity and the affine part of the grid velocity around them; what is angular momentum on the
-/// grid stays on the particles.
-/// C. Jiang, C. Schroeder, A. Selle, J. Teran, A. Stomakhin, The affine particle-in-cell method, ACM TOG 34 (2015) 51,
-/// doi:10.1145/2766996.
+/// APIC: particles carry a velocity and the affine part of the grid velocity around them; what is angular momentum on
+/// the grid stays on the particles. C. Jiang, C. Schroeder, A. Selle, J. Teran, A. Stomakhin, The affine
+/// particle-in-cell method, ACM TOG 34 (2015) 51, doi:10.1145/2766996.
 ///
 /// They carry B_p and use C_p = B_p D_p^-1 in the transfer to the grid. C_p is carried here, in the place of TPIC's
 /// gradient, so that both schemes share (E5): D_p is h^2/4 away from walls, and in the half cell at a wall, where D_p

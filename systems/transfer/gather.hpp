@@ -36,7 +36,8 @@ void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<co
 template <int Dim, class Use>
 void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
             std::span<const Vec<Dim>> q_i, const Use& use) {
-  gather<Dim>(grid, cells, y_p, [&](std::size_t i) -> const Vec<Dim>& { return q_i[i]; }, use);
+  gather<Dim>(
+      grid, cells, y_p, [&](std::size_t i) -> const Vec<Dim>& { return q_i[i]; }, use);
 }
 
 /// The value as in (E17) and sum_I q_I (x) w_Ip, where w_Ip is what slope(support, weights) makes of the weights.

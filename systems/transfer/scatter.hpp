@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The particle-to-grid kernels that transfer schemes are made of: mass-weighted means at nodes of what particles carry,
-/// taken as constant around a particle or with its gradient.
+/// The particle-to-grid kernels that transfer schemes are made of: mass-weighted means at nodes of what particles
+/// carry, taken as constant around a particle or with its gradient.
 
 #include "components/particle.hpp"
 #include "systems/grid/support.hpp"
@@ -20,8 +20,8 @@ struct ScatterSource {
   std::span<const double> m_i;
 };
 
-/// Calls add(p, support, weights, sum) for every particle, where `sum` holds 3^d nodal sums of its cell, and divides the
-/// nodal sums by the nodal mass. Nodes without mass get zero.
+/// Calls add(p, support, weights, sum) for every particle, where `sum` holds 3^d nodal sums of its cell, and divides
+/// the nodal sums by the nodal mass. Nodes without mass get zero.
 template <int Dim, class Add>
 void scatter_mean(const ScatterSource<Dim>& source, std::span<Vec<Dim>> out, const Add& add) {
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
@@ -50,18 +50,19 @@ void scatter_constant(const ScatterSource<Dim>& source, std::span<const Vec<Dim>
 
 /// (E5)  q_I = sum_p S_Ip m_p (q_p + grad q_p (x_I - y_p)) / m_I.
 template <int Dim>
-void scatter_taylor(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> q_p,
-                    std::span<const Mat<Dim>> grad_q_p, std::span<Vec<Dim>> q_i) {
+void scatter_taylor(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> q_p, std::span<const Mat<Dim>> grad_q_p,
+                    std::span<Vec<Dim>> q_i) {
   const double h = source.grid.spacing;
-  scatter_mean<Dim>(source, q_i, [&](std::size_t p, const Support<Dim>& support, const Weights<Dim>& weights, auto& sum) {
-    const Vec<Dim> at_corner = source.m_p[p] * (q_p[p] + grad_q_p[p] * (support.corner - source.y_p[p]));
-    const Mat<Dim> per_node = (source.m_p[p] * h) * grad_q_p[p];
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-      Vec<Dim> mq = at_corner;
-      for (int d = 0; d < Dim; ++d) mq += offset[static_cast<std::size_t>(d)] * per_node.col(d);
-      sum[k] += weights(offset) * mq;
-    });
-  });
+  scatter_mean<Dim>(
+      source, q_i, [&](std::size_t p, const Support<Dim>& support, const Weights<Dim>& weights, auto& sum) {
+        const Vec<Dim> at_corner = source.m_p[p] * (q_p[p] + grad_q_p[p] * (support.corner - source.y_p[p]));
+        const Mat<Dim> per_node = (source.m_p[p] * h) * grad_q_p[p];
+        for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
+          Vec<Dim> mq = at_corner;
+          for (int d = 0; d < Dim; ++d) mq += offset[static_cast<std::size_t>(d)] * per_node.col(d);
+          sum[k] += weights(offset) * mq;
+        });
+      });
 }
 
 }  // namespace minamo

@@ -11,12 +11,14 @@ namespace {
 /// S^+ S q: to the particles and back.
 template <int Dim>
 void there_and_back(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> q_i, std::span<Vec<Dim>> out) {
-  scatter_mean<Dim>(source, out, [&](std::size_t p, const Support<Dim>& support, const Weights<Dim>& weights, auto& sum) {
-    Vec<Dim> mq = Vec<Dim>::Zero();
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { mq += weights(offset) * q_i[support.node[k]]; });
-    mq *= source.m_p[p];
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { sum[k] += weights(offset) * mq; });
-  });
+  scatter_mean<Dim>(
+      source, out, [&](std::size_t p, const Support<Dim>& support, const Weights<Dim>& weights, auto& sum) {
+        Vec<Dim> mq = Vec<Dim>::Zero();
+        for_each_support<Dim>(
+            [&](std::size_t k, const Index<Dim>& offset) { mq += weights(offset) * q_i[support.node[k]]; });
+        mq *= source.m_p[p];
+        for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { sum[k] += weights(offset) * mq; });
+      });
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 /// \file
 /// XPIC(m): PIC whose filter, which damps what the grid does not see, leaves more and more alone with rising order m.
 /// XPIC(1) is PIC; for large m only the null space of the transfer is damped, and the rest is FLIP.
-/// C. C. Hammerquist, J. A. Nairn, CMAME 318 (2017) 724, doi:10.1016/j.cma.2017.01.035. Their change of the position update
-/// is not taken over: here particles move with the displacement that was solved for.
+/// C. C. Hammerquist, J. A. Nairn, CMAME 318 (2017) 724, doi:10.1016/j.cma.2017.01.035. Their change of the position
+/// update is not taken over: here particles move with the displacement that was solved for.
 
 #include "components/cells.hpp"
 #include "components/grid.hpp"

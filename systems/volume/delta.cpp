@@ -13,8 +13,7 @@ struct Place {
   Support<Dim> support;
   Weights<Dim> weights;
 
-  Place(const Grid<Dim>& grid, const Vec<Dim>& x)
-      : support(grid, dual_cell<Dim>(grid, x)), weights(support, x) {}
+  Place(const Grid<Dim>& grid, const Vec<Dim>& x) : support(grid, dual_cell<Dim>(grid, x)), weights(support, x) {}
 };
 
 /// g_p of (E52).

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Delta-correction: one step of steepest descent on the excess of particle volume around the nodes. It pushes particles
-/// apart where they clump, and does nothing else.
-/// In the manner of particle shifting in stabilized MPM, B. Chandra et al., CMAME 419 (2024) 116644,
-/// doi:10.1016/j.cma.2023.116644; the length of the step by a line search is ours.
+/// Delta-correction: one step of steepest descent on the excess of particle volume around the nodes. It pushes
+/// particles apart where they clump, and does nothing else. In the manner of particle shifting in stabilized MPM, B.
+/// Chandra et al., CMAME 419 (2024) 116644, doi:10.1016/j.cma.2023.116644; the length of the step by a line search is
+/// ours.
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"

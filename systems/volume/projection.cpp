@@ -39,7 +39,8 @@ void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rat
   for_each_row(d_i.size(), [&](std::size_t i) {
     d_i[i].setZero();
     if (row[i] < 0) return;
-    for (int d = 0; d < Dim; ++d) d_i[i][d] = x[(Dim + 1) * static_cast<std::size_t>(row[i]) + static_cast<std::size_t>(d)];
+    for (int d = 0; d < Dim; ++d)
+      d_i[i][d] = x[(Dim + 1) * static_cast<std::size_t>(row[i]) + static_cast<std::size_t>(d)];
   });
 }
 
@@ -51,7 +52,8 @@ void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Shift<Dim>
     const Support<Dim> support(*grid, dual_cell<Dim>(*grid, x));
     const Weights<Dim> weights(support, x);
     Vec<Dim> shift = Vec<Dim>::Zero();
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { shift += weights(offset) * d_i[support.node[k]]; });
+    for_each_support<Dim>(
+        [&](std::size_t k, const Index<Dim>& offset) { shift += weights(offset) * d_i[support.node[k]]; });
     x_p[p] = shifted<Dim>(*grid, x_p[p], shift);
   });
 }

@@ -1,10 +1,10 @@
 #pragma once
 /// \file
 /// Volume projection: div v = 0 on the grid does not keep particles from clumping, so after the step the excess of
-/// particle volume around the nodes is pushed apart by a displacement that the matrix of the step gives at the cost of a
-/// back substitution. Positions change, velocities stay.
-/// After T. Kugelstadt et al., Implicit density projection for volume conserving liquids, IEEE TVCG 27 (2021) 2385,
-/// doi:10.1109/TVCG.2019.2947437; there a second Poisson solve, here the factors of the step.
+/// particle volume around the nodes is pushed apart by a displacement that the matrix of the step gives at the cost of
+/// a back substitution. Positions change, velocities stay. After T. Kugelstadt et al., Implicit density projection for
+/// volume conserving liquids, IEEE TVCG 27 (2021) 2385, doi:10.1109/TVCG.2019.2947437; there a second Poisson solve,
+/// here the factors of the step.
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
@@ -21,8 +21,8 @@ namespace minamo {
 template <int Dim>
 struct GatherNodeVolume {
   static constexpr std::string_view doc = "(E35) V~_I at the end of the step";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Mass> m_p, Write<node::Volume> v_i) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p, Read<particle::Mass> m_p,
+                  Write<node::Volume> v_i) const;
 };
 
 /// (E36)  E_I = V~_I - V_I where positive, or where the node is deep inside the liquid.

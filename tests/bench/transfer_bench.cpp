@@ -1,8 +1,8 @@
 // Cost of the transfers per particle and step, on one thread: `build/test/minamo_bench "[transfer]"`.
 
+#include "support/kernels.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/tpic.hpp"
-#include "support/kernels.hpp"
 
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>

@@ -13,8 +13,8 @@ using namespace minamo::scene_run;
 namespace {
 
 /// Liquid of scattered particles in a corner of a small box, walls of both kinds, a force that varies in space and
-/// time, a flow that is neither affine nor free of divergence; and a far particle of 1/256 of a cell, so that some nodes
-/// are light.
+/// time, a flow that is neither affine nor free of divergence; and a far particle of 1/256 of a cell, so that some
+/// nodes are light.
 template <int Dim>
 Json scattered() {
   if constexpr (Dim == 2) {
@@ -50,7 +50,6 @@ Json scattered() {
 Json variant(const Json& scene) {
   const std::string integrator = GENERATE("newmark", "midpoint");
   const std::string viscosity = GENERATE("0", "30");
-  CAPTURE(integrator, viscosity);
   return with(scene, {"/integrator={\"scheme\": \"" + integrator + "\"}", "/fluid/viscosity=" + viscosity});
 }
 
@@ -89,8 +88,8 @@ constexpr double rounding = 1e-14;
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the scattered scene has light nodes and active nodes at walls", "[property]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("the scattered scene has light nodes and active nodes at walls", "[property]", ((int Dim), Dim),
+                       2, 3) {
   SceneRun run(scattered<Dim>());
   run.step();
   CHECK(light_nodes<Dim>(run.world()) > 0);
@@ -103,6 +102,7 @@ TEMPLATE_TEST_CASE_SIG("the scattered scene has light nodes and active nodes at 
 
 TEMPLATE_TEST_CASE_SIG("the assembled matrix is the discrete equations", "[property]", ((int Dim), Dim), 2, 3) {
   SceneRun run(variant(scattered<Dim>()));
+  CAPTURE(run.scene().integrator, run.scene().viscosity);
   run.step();
   const auto got = dense::as_assembled(run.world()).matrix;
   const auto expected = dense::assemble<Dim>(run).matrix;
@@ -123,8 +123,10 @@ TEST_CASE("nodes whose entries of the Laplacian cancel are still coupled", "[pro
   CHECK(block_difference(got, expected, 2, true, false) < rounding);
 }
 
-TEMPLATE_TEST_CASE_SIG("the assembled right-hand side is the discrete equations", "[property]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the assembled right-hand side is the discrete equations", "[property]", ((int Dim), Dim), 2,
+                       3) {
   SceneRun run(variant(scattered<Dim>()));
+  CAPTURE(run.scene().integrator, run.scene().viscosity);
   run.step();
   const auto got = dense::as_assembled(run.world()).right_hand_side;
   const auto expected = dense::assemble<Dim>(run).right_hand_side;
@@ -147,6 +149,7 @@ Eigen::VectorXd dense_solution(const dense::Equations& equations) {
 TEMPLATE_TEST_CASE_SIG("the solution is that of dense Gauss elimination with full pivoting", "[property]",
                        ((int Dim), Dim), 2, 3) {
   SceneRun run(variant(scattered<Dim>()));
+  CAPTURE(run.scene().integrator, run.scene().viscosity);
   run.step();
   const auto equations = dense::as_assembled(run.world());
   const Eigen::VectorXd expected = dense_solution(equations);
@@ -159,12 +162,12 @@ TEMPLATE_TEST_CASE_SIG("the solution is that of dense Gauss elimination with ful
 
 TEMPLATE_TEST_CASE_SIG("the reported residual is |b - A x| / |b| and small", "[property]", ((int Dim), Dim), 2, 3) {
   SceneRun run(variant(scattered<Dim>()));
+  CAPTURE(run.scene().integrator, run.scene().viscosity);
   run.step();
   const auto equations = dense::as_assembled(run.world());
   const auto& values = run.world().template resource<matrix::Solution>().values;
   const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(values.data(), equations.right_hand_side.rows());
-  const double residual =
-      (equations.right_hand_side - equations.matrix * x).norm() / equations.right_hand_side.norm();
+  const double residual = (equations.right_hand_side - equations.matrix * x).norm() / equations.right_hand_side.norm();
   const double reported = run.world().template resource<SolveReport>().residual;
   CHECK(reported == Approx(residual).margin(1e-14));  // rounding of the products themselves
   // Elimination with partial pivoting and a step of refinement leaves roundings: 2e-14 measured.

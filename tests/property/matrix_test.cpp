@@ -103,10 +103,9 @@ TEMPLATE_TEST_CASE_SIG("D_IJ by moments is the plain sum over particles", "[prop
 TEMPLATE_TEST_CASE_SIG("L_IJ by moments is the plain sum over particles", "[property]", ((int Dim), Dim), 2, 3) {
   World world;
   assemble<Dim>(world, 22);
-  const auto expected =
-      plain_sum<Dim, 1, 1>(world, [](double, const Vec<Dim>& G_i, double, const Vec<Dim>& G_j) {
-        return Eigen::Matrix<double, 1, 1>(G_i.dot(G_j));
-      });
+  const auto expected = plain_sum<Dim, 1, 1>(world, [](double, const Vec<Dim>& G_i, double, const Vec<Dim>& G_j) {
+    return Eigen::Matrix<double, 1, 1>(G_i.dot(G_j));
+  });
   const auto L = world.column<matrix::Laplacian<Dim>>();
   const auto entry = [&](std::size_t r, std::size_t k) { return Eigen::Matrix<double, 1, 1>(L[r][k]); };
   CHECK(difference<Dim>(world, expected, entry) < rounding);
@@ -116,15 +115,14 @@ TEMPLATE_TEST_CASE_SIG("K_IJ by moments is the plain sum over particles", "[prop
   World world;
   assemble<Dim>(world, 23);
   // Force -2 mu D grad S_I of a velocity e_b S_J, component a, with its sign: mu (G_I . G_J delta_ab + G_J[a] G_I[b]).
-  const auto expected =
-      plain_sum<Dim, Dim, Dim>(world, [](double, const Vec<Dim>& G_i, double, const Vec<Dim>& G_j) {
-        Eigen::Matrix<double, Dim, Dim> block;
-        for (int b = 0; b < Dim; ++b) {
-          const Mat<Dim> grad_v = Vec<Dim>::Unit(b) * G_j.transpose();
-          block.col(b) = viscosity * (grad_v + grad_v.transpose()) * G_i;
-        }
-        return block;
-      });
+  const auto expected = plain_sum<Dim, Dim, Dim>(world, [](double, const Vec<Dim>& G_i, double, const Vec<Dim>& G_j) {
+    Eigen::Matrix<double, Dim, Dim> block;
+    for (int b = 0; b < Dim; ++b) {
+      const Mat<Dim> grad_v = Vec<Dim>::Unit(b) * G_j.transpose();
+      block.col(b) = viscosity * (grad_v + grad_v.transpose()) * G_i;
+    }
+    return block;
+  });
   const auto K = world.column<matrix::Viscosity<Dim>>();
   const auto entry = [&](std::size_t r, std::size_t k) {
     return Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>(&K[r][Dim * Dim * k]);
@@ -147,8 +145,8 @@ TEMPLATE_TEST_CASE_SIG("a uniform velocity has no divergence: rows of D sum to z
   CHECK(worst < rounding);
 }
 
-TEMPLATE_TEST_CASE_SIG("the divergence of v = x is the dimension times the nodal volume", "[property]", ((int Dim), Dim),
-                       2, 3) {
+TEMPLATE_TEST_CASE_SIG("the divergence of v = x is the dimension times the nodal volume", "[property]",
+                       ((int Dim), Dim), 2, 3) {
   World world;
   assemble<Dim>(world, 25);
   const Grid<Dim> grid = small_grid<Dim>();

@@ -134,8 +134,8 @@ TEMPLATE_TEST_CASE_SIG("P2G leaves a node without mass at rest", "[property]", (
   CHECK(world.column<node::Velocity<Dim>>()[3].norm() == 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("TPIC G2P reproduces value and gradient of an affine velocity", "[property]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("TPIC G2P reproduces value and gradient of an affine velocity", "[property]", ((int Dim), Dim),
+                       2, 3) {
   World world;
   fill<Dim>(world, particles, 10);
   Random random(11);

@@ -18,7 +18,7 @@ using Arguments = std::vector<std::string>;
 
 /// `minamo run` of the dam break on a coarse grid, with more arguments.
 Arguments dam_break(const std::string& out, const Arguments& more) {
-  Arguments arguments{"run", scene("dam_break.json"), "--out", out, "--threads", "1", "--quiet",
+  Arguments arguments{"run",   scene("dam_break.json"), "--out", out, "--threads", "1", "--quiet",
                       "--set", "/grid/cells=[20, 20]"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
@@ -77,9 +77,9 @@ TEST_CASE("a summary has the keys of the interface", "[scene]") {
   const Folder folder;
   REQUIRE(run_program(dam_break(folder / "out", {"--steps", "3"})).code == 0);
   const Json summary = json_of(folder / "out/summary.json");
-  CHECK(missing(summary, {"scene", "status", "steps", "time", "wall_s", "cpu_s", "threads", "cpu_model", "version",
-                          "particles", "active_nodes_max", "unknowns_max", "peak_memory_bytes", "systems",
-                          "conservation", "errors"})
+  CHECK(missing(summary,
+                {"scene", "status", "steps", "time", "wall_s", "cpu_s", "threads", "cpu_model", "version", "particles",
+                 "active_nodes_max", "unknowns_max", "peak_memory_bytes", "systems", "conservation", "errors"})
             .empty());
   CHECK(missing(summary["conservation"], {"mass", "momentum", "angular_momentum", "energy", "overlap_max"}).empty());
   CHECK(missing(summary["systems"][0], {"name", "calls", "seconds", "share"}).empty());
@@ -103,8 +103,10 @@ TEST_CASE("the scene as run has defaults and overrides, and gives the same bits 
 
 TEST_CASE("bad input ends with 2 and runs nothing", "[scene]") {
   const Folder folder;
-  const auto [set, message] = GENERATE(table<std::string, std::string>(
-      {{R"(/transfer/scheme="flop")", "/transfer/scheme"}, {"/nonsense=1", "/nonsense"}, {"/time/step=-1", "/time/step"}}));
+  const auto [set, message] =
+      GENERATE(table<std::string, std::string>({{R"(/transfer/scheme="flop")", "/transfer/scheme"},
+                                                {"/nonsense=1", "/nonsense"},
+                                                {"/time/step=-1", "/time/step"}}));
   CAPTURE(set);
   const ProgramEnd end = run_program(dam_break(folder / "out", {"--set", set}));
   CHECK(end.code == 2);
@@ -123,7 +125,8 @@ TEST_CASE("an unknown option ends with 2", "[scene]") {
 TEST_CASE("check accepts every scene", "[scene]") {
   Arguments arguments{"check"};
   for (const auto& entry : std::filesystem::directory_iterator(std::string(MINAMO_SOURCE_DIR) + "/scenes")) {
-    if (entry.path().extension() == ".json" && !json_of(entry.path()).contains("scene")) arguments.push_back(entry.path());
+    if (entry.path().extension() == ".json" && !json_of(entry.path()).contains("scene"))
+      arguments.push_back(entry.path());
   }
   const ProgramEnd end = run_program(arguments);
   CHECK(end.code == 0);
@@ -133,7 +136,8 @@ TEST_CASE("check accepts every scene", "[scene]") {
 TEST_CASE("a run that fails ends with 3, says where, and leaves a checkpoint and a summary", "[scene]") {
   const Folder folder;
   // The force leaves the range of numbers at t = 0.0035, in the fourth step.
-  const ProgramEnd end = run_program(dam_break(folder / "out", {"--steps", "9", "--set", R"json(/body_force=[0, "-9.81/(t < 0.0035)"])json"}));
+  const ProgramEnd end = run_program(
+      dam_break(folder / "out", {"--steps", "9", "--set", R"json(/body_force=[0, "-9.81/(t < 0.0035)"])json"}));
   CHECK(end.code == 3);
   CHECK_THAT(end.output, Catch::Contains("step 4"));
   CHECK_THAT(end.output, Catch::Contains("solve"));

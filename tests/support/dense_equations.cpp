@@ -44,10 +44,10 @@ struct Kinematics {
 template <int Dim>
 struct Sums {
   Eigen::VectorXd mass;
-  std::vector<Vec<Dim>> force;              ///< sum m_p S_I b_p
-  Eigen::MatrixXd divergence;               ///< V S_I grad S_J in Dim columns per J
-  Eigen::MatrixXd laplacian;                ///< V grad S_I . grad S_J
-  Eigen::MatrixXd friction;                 ///< Dim x Dim blocks: force on I per velocity of J
+  std::vector<Vec<Dim>> force;  ///< sum m_p S_I b_p
+  Eigen::MatrixXd divergence;   ///< V S_I grad S_J in Dim columns per J
+  Eigen::MatrixXd laplacian;    ///< V grad S_I . grad S_J
+  Eigen::MatrixXd friction;     ///< Dim x Dim blocks: force on I per velocity of J
 };
 
 template <int Dim>

@@ -19,14 +19,14 @@ inline Json paper(Json scene) {
 }
 
 inline Json with_method(const Json& scene, const std::string& transfer, const std::string& integrator) {
-  return with(scene, {R"(/transfer={"scheme": ")" + transfer + "\"}", R"(/integrator={"scheme": ")" + integrator + "\"}"});
+  return with(scene,
+              {R"(/transfer={"scheme": ")" + transfer + "\"}", R"(/integrator={"scheme": ")" + integrator + "\"}"});
 }
 
 /// Every transfer scheme with every integrator.
 inline Json any_method(const Json& scene) {
   const std::string transfer = GENERATE("pic", "flip", "tpic", "apic", "xpic");
   const std::string integrator = GENERATE("newmark", "midpoint");
-  CAPTURE(transfer, integrator);
   return with_method(scene, transfer, integrator);
 }
 

@@ -90,7 +90,9 @@ TEST_CASE("the integral of a weight is that of a quadrature", "[unit]") {
     const int cell = (half + 1) / 2;
     const double middle = 0.5 * half + 0.25;
     const double apart = 0.25 * std::sqrt(0.6);
-    sum += (5 * value(cell, node, middle - apart) + 8 * value(cell, node, middle) + 5 * value(cell, node, middle + apart)) / 36;
+    sum += (5 * value(cell, node, middle - apart) + 8 * value(cell, node, middle) +
+            5 * value(cell, node, middle + apart)) /
+           36;
   }
   CHECK(sum == Approx(axis_integral(node, last)).epsilon(1e-14));  // some ten roundings
 }

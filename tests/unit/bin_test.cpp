@@ -135,10 +135,41 @@ TEMPLATE_TEST_CASE_SIG("blocks of one colour share no node", "[unit]", ((int Dim
   CHECK(sum == taken.size());
 }
 
+TEST_CASE("blocks of one colour share no node across the ends of periodic axes", "[unit]") {
+  const int cells = GENERATE(range(5, 27));
+  CAPTURE(cells);
+  Grid<2> grid;
+  grid.spacing = 0.25;
+  grid.cells = {cells, 17};
+  grid.high = grid.spacing * Vec<2>(cells, 17);
+  grid.periodic = {true, false};
+  World world;
+  set_grid<2>(world, grid);
+  world.resize<Particles>(grid.node_count());
+  for (std::size_t i = 0; i < grid.node_count(); ++i) {
+    world.column<particle::Configuration<2>>()[i] = node_position<2>(grid, i);
+  }
+  run<Bin<2>>(world);
+  const auto& occupied = world.resource<OccupiedCells<2>>();
+  REQUIRE(occupied.cells.size() == grid.node_count());
+  std::size_t shared = 0;
+  for (const auto& colour : occupied.blocks) {
+    std::set<std::size_t> taken;
+    std::size_t sum = 0;
+    for (const auto& block : colour) {
+      const auto nodes = nodes_of<2>(grid, occupied, block);
+      sum += nodes.size();
+      taken.insert(nodes.begin(), nodes.end());
+    }
+    shared += sum - taken.size();
+  }
+  CHECK(shared == 0);
+}
+
 TEST_CASE("a colour has several blocks in a wide grid", "[unit]") {
   World world;
   bin_random<2>(world);
-  CHECK(world.resource<OccupiedCells<2>>().blocks[0].size() == 9);  // 3 x 3 of 5 x 5 blocks
+  CHECK(world.resource<OccupiedCells<2>>().blocks[0].size() == 4);  // 2 x 2 of 4 x 4 blocks
 }
 
 TEST_CASE("sorting sorted particles changes nothing", "[unit]") {

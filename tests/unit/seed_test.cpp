@@ -37,9 +37,7 @@ std::uint8_t fixed_at(World& world, int i, int j) {
 
 }  // namespace
 
-TEST_CASE("the dam break has 800 particles", "[unit]") {
-  CHECK(places(scene_of_file("dam_break.json")).size() == 800);
-}
+TEST_CASE("the dam break has 800 particles", "[unit]") { CHECK(places(scene_of_file("dam_break.json")).size() == 800); }
 
 TEST_CASE("the liquid weighs density times area", "[unit]") {
   SceneRun run(scene_of_file("dam_break.json"));

@@ -40,8 +40,8 @@ struct Run {
   std::atomic<bool> stop = false;
 
   Outcome operator()(const TimePlan& plan) {
-    return run_simulation(world, start, step, frame, plan, {.after_step = {}, .write_checkpoint = [&] { ++checkpoints; }},
-                          stop);
+    return run_simulation(world, start, step, frame, plan,
+                          {.after_step = {}, .write_checkpoint = [&] { ++checkpoints; }}, stop);
   }
   const Clock& clock() { return world.resource<Clock>(); }
   Log& log() { return world.resource<Log>(); }

@@ -37,8 +37,8 @@ TEST_CASE("the rotating square has the exact pressure in its centre after a step
 TEST_CASE("the rotating square starts with its exact angular momentum", "[verification]") {
   SceneRun run(patch("newmark"));
   run.start();
-  // rho omega L^4/6 of the square, less what 32 points across leave out, plus (D_11 + D_22) omega = h^2/2 omega per mass
-  // that the gradients carry.
+  // rho omega L^4/6 of the square, less what 32 points across leave out, plus (D_11 + D_22) omega = h^2/2 omega per
+  // mass that the gradients carry.
   constexpr double of_lattice = 1000. / 6 * (1 - 1. / (32 * 32));
   constexpr double of_gradients = 1000 * 0.125 * 0.125 / 2;
   // Gradients by central differences over 2.5e-4 m: rounding of 1e-12 of the coordinates' 5e-16.
@@ -52,7 +52,7 @@ TEST_CASE("the rotating square keeps its angular momentum", "[verification]") {
   run.start();
   const double before = run.world().resource<measure::Momentum<2>>().angular[0];
   run.step(20);
-  // 4e-4 with newmark, 3e-5 with midpoint: what the pressure of a blurred surface does.
+  // 3.5e-4 with newmark, 3e-5 with midpoint: what the pressure of a blurred surface does.
   CHECK(run.world().resource<measure::Momentum<2>>().angular[0] == Approx(before).epsilon(6e-4));
 }
 
