@@ -49,6 +49,7 @@ constexpr double solver_rounding = 1e-12;
 TEST_CASE("a single particle falls as Galileo says", "[verification]") {
   SceneRun run(
       any_method(falling(2, R"({"box": {"low": [1.6, 2.6], "high": [1.7, 2.7]}})", "[1, 0.5]", "[0.5, -9.75]")));
+  CAPTURE(run.scene().transfer, run.scene().integrator);
   REQUIRE(run.world().rows<Particles>() == 1);
   const Errors<2> error(run, {1, 0.5}, {0.5, -9.75});
   CHECK(error.position < solver_rounding);
@@ -58,6 +59,7 @@ TEST_CASE("a single particle falls as Galileo says", "[verification]") {
 TEST_CASE("a blob falls without changing its shape", "[verification]") {
   SceneRun run(
       any_method(falling(2, R"({"ball": {"center": [1.6, 2.6], "radius": 0.7}})", "[1, 0.5]", "[0.5, -9.75]")));
+  CAPTURE(run.scene().transfer, run.scene().integrator);
   const Errors<2> error(run, {1, 0.5}, {0.5, -9.75});
   CHECK(error.position < solver_rounding);
   CHECK(error.velocity < solver_rounding);
@@ -75,6 +77,7 @@ TEST_CASE("a ball in space falls without changing its shape", "[verification]") 
 TEST_CASE("a blob in free fall has no pressure", "[verification]") {
   SceneRun run(
       any_method(falling(2, R"({"ball": {"center": [1.6, 2.6], "radius": 0.7}})", "[1, 0.5]", "[0.5, -9.75]")));
+  CAPTURE(run.scene().transfer, run.scene().integrator);
   run.step(steps);
   double largest = 0;
   for (const double p : run.world().column<node::Pressure>()) largest = std::max(largest, std::abs(p));
