@@ -1,10 +1,14 @@
 #include "tools/summary.hpp"
 
+#include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "systems/output/history.hpp"
 
 #include "minamo_version.hpp"
+
+#include <span>
+#include <vector>
 
 namespace minamo {
 
@@ -35,8 +39,13 @@ Json system_rows(const Profiler& profiler, double wall_seconds) {
   return rows;
 }
 
-Json conserved(const RunTotals::Values& values) {
-  return {{"momentum", values.momentum}, {"angular_momentum", values.angular_momentum}, {"energy", values.energy}};
+/// In the plane momentum has two components and angular momentum one.
+Json conserved(const RunTotals::Values& values, bool in_plane) {
+  const std::span momentum = std::span(values.momentum).first(in_plane ? 2 : 3);
+  const std::span angular = std::span(values.angular_momentum).first(in_plane ? 1 : 3);
+  return {{"momentum", std::vector(momentum.begin(), momentum.end())},
+          {"angular_momentum", std::vector(angular.begin(), angular.end())},
+          {"energy", values.energy}};
 }
 
 /// Of the last row of the history.
@@ -72,10 +81,11 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
                   {"systems", system_rows(profiler, wall)}});
   double mass = 0;
   for (const double m : world.column<particle::Mass>()) mass += m;
+  const bool in_plane = world.has<Grid<2>>();
   Json conservation{{"mass", mass}};
-  conservation.update(conserved(totals.last));
+  conservation.update(conserved(totals.last, in_plane));
   conservation["overlap_max"] = totals.overlap_max;
-  conservation["initial"] = conserved(totals.first);
+  conservation["initial"] = conserved(totals.first, in_plane);
   summary["conservation"] = conservation;
   summary["errors"] = last_errors(world);
   return summary;

@@ -30,6 +30,9 @@ std::vector<Json> schemas_of(const Json& schema, const std::string& key) {
   } else if (schema.contains("additionalProperties") && schema["additionalProperties"].is_object()) {
     found.push_back(schema["additionalProperties"]);
   }
+  if (schema.contains("items") && key.find_first_not_of("0123456789") == std::string::npos) {
+    found.push_back(schema["items"]);
+  }
   for (const char* choice : {"allOf", "oneOf"}) {
     for (const Json& part : schema.value(choice, Json::array())) {
       const auto more = schemas_of(part, key);
@@ -45,8 +48,7 @@ std::vector<std::string> unknown_keys(const std::vector<Json>& schemas, const Js
   for (const auto& [key, below] : value.items()) {
     std::vector<Json> of_key;
     for (const Json& schema : schemas) {
-      const auto more =
-          value.is_array() && schema.contains("items") ? std::vector<Json>{schema["items"]} : schemas_of(schema, key);
+      const auto more = schemas_of(schema, key);
       of_key.insert(of_key.end(), more.begin(), more.end());
     }
     const std::string at = pointer + "/" + key;
