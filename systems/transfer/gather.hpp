@@ -16,6 +16,34 @@ struct Sample {
   Mat<Dim> gradient;  ///< row i: gradient of component i
 };
 
+/// sum_I S_Ip q_I and sum_I q_I (x) slope_Ip, direction by direction: half the work of a sum over nodes.
+template <int Dim>
+Sample<Dim> interpolate(const Weights<Dim>& weights, const std::array<Vec<Dim>, support_size<Dim>>& q) {
+  const auto& [w, s] = weights;
+  Sample<Dim> sample{Vec<Dim>::Zero(), Mat<Dim>::Zero()};
+  for (std::size_t c = 0; c < (Dim == 3 ? 3 : 1); ++c) {
+    Vec<Dim> value = Vec<Dim>::Zero();
+    Vec<Dim> slope_x = Vec<Dim>::Zero();
+    Vec<Dim> slope_y = Vec<Dim>::Zero();
+    for (std::size_t b = 0; b < 3; ++b) {
+      const Vec<Dim>* row = q.data() + 9 * c + 3 * b;
+      const Vec<Dim> of_row = w[0][0] * row[0] + w[0][1] * row[1] + w[0][2] * row[2];
+      value += w[1][b] * of_row;
+      slope_x += w[1][b] * (s[0][0] * row[0] + s[0][1] * row[1] + s[0][2] * row[2]);
+      slope_y += s[1][b] * of_row;
+    }
+    double w_z = 1;
+    if constexpr (Dim == 3) {
+      w_z = w[2][c];
+      sample.gradient.col(2) += s[2][c] * value;
+    }
+    sample.value += w_z * value;
+    sample.gradient.col(0) += w_z * slope_x;
+    sample.gradient.col(1) += w_z * slope_y;
+  }
+  return sample;
+}
+
 /// (E17)  q_p = sum_I S_Ip q_I; use(p, q_p) for every particle. The nodal field is a function of the node's row.
 template <int Dim, class AtNode, class Use>
 void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
@@ -49,13 +77,7 @@ void gather_value_and_slope(const Grid<Dim>& grid, const OccupiedCells<Dim>& cel
     std::array<Vec<Dim>, support_size<Dim>> q;
     for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Weights<Dim> weights = slope(support, Weights<Dim>(support, y_p[p]), y_p[p]);
-      Sample<Dim> sample{Vec<Dim>::Zero(), Mat<Dim>::Zero()};
-      for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-        sample.value += weights(offset) * q[k];
-        sample.gradient += q[k] * weights.gradient(offset).transpose();
-      });
-      use(p, sample);
+      use(p, interpolate<Dim>(slope(support, Weights<Dim>(support, y_p[p]), y_p[p]), q));
     }
   });
 }

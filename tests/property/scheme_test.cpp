@@ -92,8 +92,8 @@ TEST_CASE("TPIC does not: its gradient is another one than APIC's affine part", 
   CHECK(std::abs(particle_angular_momentum(world) - nodal_angular_momentum(world)) > 1e-3);
 }
 
-TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velocity", "[property]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velocity", "[property]", ((int Dim), Dim),
+                       2, 3) {
   World world;
   fill<Dim>(world, 300, 13);
   Random random(14);

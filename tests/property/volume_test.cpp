@@ -57,8 +57,7 @@ TEST_CASE("a volume correction leaves a lone drop alone", "[property]") {
   const std::string volume = GENERATE("delta", "projection");
   CAPTURE(volume);
   Json scene = heap(volume);
-  scene["particles"] =
-      Json::parse(R"([{"shape": {"box": {"low": [0.3, 0.3], "high": [0.33, 0.33]}}, "per_cell": 2}])");
+  scene["particles"] = Json::parse(R"([{"shape": {"box": {"low": [0.3, 0.3], "high": [0.33, 0.33]}}, "per_cell": 2}])");
   SceneRun run(scene);
   run.start();
   const auto before = scene_run::by_id<particle::Position<2>>(run.world());
