@@ -73,6 +73,9 @@ class Schedule {
   std::unique_ptr<Impl> impl_;
 };
 
+/// The word for a lifetime in listings and graphs.
+std::string_view name_of(Lifetime lifetime);
+
 /// The graph in Graphviz's language: a box per system with what it reads and writes, an edge labelled by the components
 /// that cause it (a table's name: its rows). Lifetimes are told apart by colour, with a legend.
 std::string to_dot(std::span<const System> systems, std::string_view title);

@@ -6,6 +6,20 @@
 
 namespace minamo {
 
+std::string_view name_of(Lifetime lifetime) {
+  switch (lifetime) {
+  case Lifetime::constant:
+    return "constant";
+  case Lifetime::state:
+    return "state";
+  case Lifetime::scratch:
+    return "scratch";
+  case Lifetime::cache:
+    return "cache";
+  }
+  return {};
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -20,20 +34,6 @@ std::string_view name_of(Mode mode) {
     return "update";
   case Mode::resize:
     return "resize";
-  }
-  return {};
-}
-
-std::string_view name_of(Lifetime lifetime) {
-  switch (lifetime) {
-  case Lifetime::constant:
-    return "constant";
-  case Lifetime::state:
-    return "state";
-  case Lifetime::scratch:
-    return "scratch";
-  case Lifetime::cache:
-    return "cache";
   }
   return {};
 }

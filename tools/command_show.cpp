@@ -77,22 +77,9 @@ void list_components(const SystemRegistry& registry) {
       if (access.info) components.emplace(access.component, access.info);
     }
   }
-  const auto lifetime = [](Lifetime value) {
-    switch (value) {
-    case Lifetime::constant:
-      return "constant";
-    case Lifetime::state:
-      return "state";
-    case Lifetime::scratch:
-      return "scratch";
-    case Lifetime::cache:
-      return "cache";
-    }
-    return "";
-  };
   std::cout << "| component | symbol | unit | lifetime |\n|---|---|---|---|\n";
   for (const auto& [name, info] : components) {
-    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, cell(info->symbol), info->unit, lifetime(info->lifetime));
+    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, cell(info->symbol), info->unit, name_of(info->lifetime));
   }
 }
 

@@ -24,6 +24,30 @@ double dot(const typename matrix::Divergence<Dim>::value_type& row, std::size_t 
   return sum;
 }
 
+/// Starts every row with tau L_IJ and no source, and calls add(r, k, j, row_j) for its active neighbours J: k their
+/// place in the stencil of row r, row_j their row of D.
+template <int Dim, class Add>
+void fill_rows(const Grid<Dim>& grid, double tau, std::span<const std::int32_t> row,
+               std::span<const std::uint32_t> node,
+               std::span<const typename matrix::Divergence<Dim>::value_type> divergence,
+               std::span<const typename matrix::Laplacian<Dim>::value_type> laplacian,
+               std::span<typename matrix::Stabilization<Dim>::value_type> stabilization, std::span<double> source,
+               const Add& add) {
+  const Stencil<Dim> stencil(grid);
+  constexpr std::size_t rows_per_task = 256;
+  for_each_row(
+      node.size(),
+      [&](std::size_t r) {
+        stabilization[r].fill(0);
+        source[r] = 0;
+        stencil.for_each_neighbour(node[r], [&](std::size_t k, std::uint32_t j) {
+          stabilization[r][(Dim + 1) * k + Dim] = tau * laplacian[r][k];
+          if (row[j] >= 0) add(r, k, j, divergence[static_cast<std::size_t>(row[j])]);
+        });
+      },
+      rows_per_task);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -33,26 +57,16 @@ void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
                                     Read<matrix::Laplacian<Dim>> laplacian,
                                     Write<matrix::Stabilization<Dim>> stabilization,
                                     Write<matrix::StabilizationSource> source) const {
-  const Stencil<Dim> stencil(*grid);
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   const double tau_rho = tau * fluid->density;
-  constexpr std::size_t rows_per_task = 256;
-  for_each_row(
-      node.size(),
-      [&](std::size_t r) {
-        auto& entries = stabilization[r];
-        entries.fill(0);
-        source[r] = 0;
-        stencil.for_each_neighbour(node[r], [&](std::size_t k, std::uint32_t j) {
-          entries[(Dim + 1) * k + Dim] = tau * laplacian[r][k];
-          if (row[j] < 0) return;
-          const auto& row_j = divergence[static_cast<std::size_t>(row[j])];
-          const std::size_t back = stencil_size<Dim> - 1 - k;
-          for (std::size_t d = 0; d < Dim; ++d) entries[(Dim + 1) * k + d] = tau_rho * row_j[Dim * back + d];
-          source[r] -= tau_rho * dot<Dim>(row_j, back, a_known[j] - b_i[j]);
-        });
-      },
-      rows_per_task);
+  fill_rows<Dim>(*grid, tau, row.span(), node.span(), divergence.span(), laplacian.span(), stabilization.span(),
+                 source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
+                   const std::size_t back = stencil_size<Dim> - 1 - k;
+                   for (std::size_t d = 0; d < Dim; ++d) {
+                     stabilization[r][(Dim + 1) * k + d] = tau_rho * row_j[Dim * back + d];
+                   }
+                   source[r] -= tau_rho * dot<Dim>(row_j, back, a_known[j] - b_i[j]);
+                 });
 }
 
 template <int Dim>
@@ -62,25 +76,14 @@ void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
                                    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
                                    Write<matrix::Stabilization<Dim>> stabilization,
                                    Write<matrix::StabilizationSource> source) const {
-  const Stencil<Dim> stencil(*grid);
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   constexpr double full_enough = 0.6;  // without this guard the dam break blows up at its surface
-  constexpr std::size_t rows_per_task = 256;
-  for_each_row(
-      node.size(),
-      [&](std::size_t r) {
-        auto& entries = stabilization[r];
-        entries.fill(0);
-        source[r] = 0;
-        stencil.for_each_neighbour(node[r], [&](std::size_t k, std::uint32_t j) {
-          entries[(Dim + 1) * k + Dim] = tau * laplacian[r][k];
-          if (row[j] < 0) return;
-          const bool full = m_i[j] > full_enough * fluid->density * full_volume<Dim>(*grid, j);
-          const Vec<Dim> g = full ? g_i[j] : Vec<Dim>(fluid->density * b_i[j]);
-          source[r] += tau * dot<Dim>(divergence[static_cast<std::size_t>(row[j])], stencil_size<Dim> - 1 - k, g);
-        });
-      },
-      rows_per_task);
+  fill_rows<Dim>(*grid, tau, row.span(), node.span(), divergence.span(), laplacian.span(), stabilization.span(),
+                 source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
+                   const bool full = m_i[j] > full_enough * fluid->density * full_volume<Dim>(*grid, j);
+                   const Vec<Dim> g = full ? g_i[j] : Vec<Dim>(fluid->density * b_i[j]);
+                   source[r] += tau * dot<Dim>(row_j, stencil_size<Dim> - 1 - k, g);
+                 });
 }
 
 template <int Dim>
