@@ -1,3 +1,4 @@
+#include "tests/support/folder.hpp"
 #include "tests/support/reading.hpp"
 
 #include <catch2/catch.hpp>
@@ -27,15 +28,6 @@ std::string set_message(Json document, const std::string& assignment) {
   }
   return "no error";
 }
-
-/// A folder for one test, gone after it.
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "minamo_input_test";
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-};
 
 std::string read_message(const std::filesystem::path& path) {
   try {
@@ -90,28 +82,27 @@ TEST_CASE("keys keep the order of the text", "[unit]") {
 
 TEST_CASE("a file is read as JSON", "[unit]") {
   const Folder folder;
-  std::ofstream(folder.path / "a.json") << R"({"a": 1})";
-  CHECK(read_json((folder.path / "a.json").string()) == Json{{"a", 1}});
+  std::ofstream(folder / "a.json") << R"({"a": 1})";
+  CHECK(read_json(folder / "a.json") == Json{{"a", 1}});
 }
 
 TEST_CASE("a missing file is reported with its closest neighbour", "[error]") {
   const Folder folder;
-  std::ofstream(folder.path / "dam_break.json") << "{}";
-  CHECK(read_message(folder.path / "dam_braek.json") == (folder.path / "dam_braek.json").string() +
-                                                            ": no such file\n  closest   \"" +
-                                                            (folder.path / "dam_break.json").string() + "\"");
+  std::ofstream(folder / "dam_break.json") << "{}";
+  CHECK(read_message(folder / "dam_braek.json") ==
+        (folder / "dam_braek.json") + ": no such file\n  closest   \"" + (folder / "dam_break.json") + "\"");
 }
 
 TEST_CASE("a folder is not a file", "[error]") {
   const Folder folder;
-  CHECK(read_message(folder.path) == folder.path.string() + ": is a folder\n  expected  a JSON file");
+  CHECK(read_message(folder / "") == folder / "" + ": is a folder\n  expected  a JSON file");
 }
 
 TEST_CASE("a file is named in its problems", "[error]") {
   const Folder folder;
-  std::ofstream(folder.path / "a.json") << "{";
-  CHECK_THAT(read_message(folder.path / "a.json"),
-             Catch::StartsWith((folder.path / "a.json").string() + ": line 1, column 2: unexpected end of input"));
+  std::ofstream(folder / "a.json") << "{";
+  CHECK_THAT(read_message(folder / "a.json"),
+             Catch::StartsWith((folder / "a.json") + ": line 1, column 2: unexpected end of input"));
 }
 
 TEST_CASE("an assignment sets a value of any type", "[unit]") {
