@@ -2,7 +2,7 @@
 /// \file
 /// Volume around nodes: of the grid, and of the particles.
 
-#include "systems/grid/support.hpp"
+#include "systems/grid/place.hpp"
 
 #include <span>
 
@@ -30,11 +30,9 @@ void gather_node_volume(const Grid<Dim>& grid, double density, std::span<const V
   std::fill(v_i.begin(), v_i.end(), 0.0);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const double v = m_p[p] / density;
-    const Vec<Dim> x = fold<Dim>(grid, x_p[p]);
-    const Support<Dim> support(grid, dual_cell<Dim>(grid, x));
-    const Weights<Dim> weights(support, x);
+    const Place<Dim> place(grid, x_p[p]);
     for_each_support<Dim>(
-        [&](std::size_t k, const Index<Dim>& offset) { v_i[support.node[k]] += weights(offset) * v; });
+        [&](std::size_t k, const Index<Dim>& offset) { v_i[place.support.node[k]] += place.weights(offset) * v; });
   }
 }
 

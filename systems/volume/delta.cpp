@@ -1,20 +1,12 @@
 #include "systems/volume/delta.hpp"
 
 #include "systems/grid/node_volume.hpp"
+#include "systems/grid/place.hpp"
 #include "systems/volume/shift.hpp"
 
 namespace minamo {
 
 namespace {
-
-/// A particle's support and weights, wherever it is.
-template <int Dim>
-struct Place {
-  Support<Dim> support;
-  Weights<Dim> weights;
-
-  Place(const Grid<Dim>& grid, const Vec<Dim>& x) : support(grid, dual_cell<Dim>(grid, x)), weights(support, x) {}
-};
 
 /// g_p of (E52).
 template <int Dim>
@@ -50,7 +42,7 @@ void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read
   });
   // One after the other: particles have left the cells that they are sorted by.
   for (std::size_t p = 0; p < x_p.size(); ++p) {
-    const Place<Dim> place(*grid, fold<Dim>(*grid, x_p[p]));
+    const Place<Dim> place(*grid, x_p[p]);
     const Vec<Dim> g = m_p[p] / fluid->density * slope<Dim>(place, e_i.span());
     for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
       r_i[place.support.node[k]] += place.weights.gradient(offset).dot(g);
@@ -58,7 +50,7 @@ void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read
   }
   const double lambda = step_length(e_i.span(), r_i.span());
   for_each_row(x_p.size(), [&](std::size_t p) {
-    const Place<Dim> place(*grid, fold<Dim>(*grid, x_p[p]));
+    const Place<Dim> place(*grid, x_p[p]);
     x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(-lambda * slope<Dim>(place, e_i.span())));
   });
 }

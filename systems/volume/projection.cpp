@@ -1,6 +1,7 @@
 #include "systems/volume/projection.hpp"
 
 #include "systems/grid/node_volume.hpp"
+#include "systems/grid/place.hpp"
 #include "systems/solve/stencil.hpp"
 #include "systems/volume/shift.hpp"
 
@@ -48,12 +49,10 @@ template <int Dim>
 void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Shift<Dim>> d_i,
                                      Update<particle::Position<Dim>> x_p) const {
   for_each_row(x_p.size(), [&](std::size_t p) {
-    const Vec<Dim> x = fold<Dim>(*grid, x_p[p]);
-    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, x));
-    const Weights<Dim> weights(support, x);
+    const Place<Dim> place(*grid, x_p[p]);
     Vec<Dim> shift = Vec<Dim>::Zero();
     for_each_support<Dim>(
-        [&](std::size_t k, const Index<Dim>& offset) { shift += weights(offset) * d_i[support.node[k]]; });
+        [&](std::size_t k, const Index<Dim>& offset) { shift += place.weights(offset) * d_i[place.support.node[k]]; });
     x_p[p] = shifted<Dim>(*grid, x_p[p], shift);
   });
 }
