@@ -65,6 +65,12 @@ struct PressureGradient : Column<Nodes, Vec<Dim>> {
   static constexpr ComponentInfo info{"node.pressure_gradient", "g_I", "Pa/m", Lifetime::scratch};
 };
 
+/// Acceleration c_I that lumping the mass leaves out; zero at nodes that are not active and towards walls. [m/s^2]
+template <int Dim>
+struct InertiaCorrection : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.inertia_correction", "c_I", "m/s^2", Lifetime::scratch};
+};
+
 /// Displacement u_I over the step. [m]
 template <int Dim>
 struct Displacement : Column<Nodes, Vec<Dim>> {

@@ -60,6 +60,13 @@ struct AccelerationGradient : Column<Particles, Mat<Dim>> {
   static constexpr ComponentInfo info{"particle.acceleration_gradient", "grad a_p", "1/s^2", Lifetime::state};
 };
 
+/// Gradient of the acceleration that force over lumped mass gave the nodes in the last step, row i of component i.
+/// [1/s^2]
+template <int Dim>
+struct ForceGradient : Column<Particles, Mat<Dim>> {
+  static constexpr ComponentInfo info{"particle.force_gradient", "grad f_p", "1/s^2", Lifetime::state};
+};
+
 /// Pressure p_p, sampled for output. [Pa]
 struct Pressure : Column<Particles, double> {
   static constexpr ComponentInfo info{"particle.pressure", "p_p", "Pa", Lifetime::scratch};

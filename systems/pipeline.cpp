@@ -19,6 +19,7 @@ struct Needs {
   std::string stabilization;
   std::string volume;
   bool newmark;
+  bool corrected_inertia;
   bool viscous;
   bool uniform_force;
   bool ode;
@@ -31,6 +32,7 @@ struct Needs {
         stabilization(scene.stabilization),
         volume(scene.volume),
         newmark(scene.integrator == "newmark"),
+        corrected_inertia(scene.corrected_inertia),
         viscous(scene.viscosity > 0),
         ode(!scene.ode.empty()),
         exact_velocity(!scene.exact.velocity.empty()),
@@ -57,6 +59,7 @@ std::vector<std::string> assemble_systems(const Needs& needs) {
   if (needs.stabilization == "oss") systems.emplace_back("p2g_pressure_gradient");
   systems.push_back("stabilize_" + needs.stabilization);
   systems.emplace_back(needs_viscosity_matrix(needs) ? "assemble_monolithic_viscous" : "assemble_monolithic");
+  if (needs.corrected_inertia) systems.emplace_back("add_inertia_correction");
   return systems;
 }
 
@@ -94,6 +97,13 @@ std::vector<std::string> with(std::vector<std::string> systems, bool needed, con
   return systems;
 }
 
+std::vector<std::string> g2p_systems(const Needs& needs) {
+  std::vector<std::string> systems = needs.transfer.g2p_velocity;
+  if (needs.newmark) systems.push_back(needs.transfer.g2p_acceleration);
+  if (needs.corrected_inertia) systems.emplace_back("g2p_force_gradient");
+  return systems;
+}
+
 std::vector<Slot> step_slots(const Needs& needs) {
   const TransferScheme& transfer = needs.transfer;
   return {
@@ -106,7 +116,7 @@ std::vector<Slot> step_slots(const Needs& needs) {
       {"assemble", assemble_systems(needs)},
       {"solve", solve_systems(needs)},
       {"correct", {needs.newmark ? "correct_newmark" : "correct_midpoint"}},
-      {"g2p", with(transfer.g2p_velocity, needs.newmark, transfer.g2p_acceleration)},
+      {"g2p", g2p_systems(needs)},
       {"advect", {"advect"}},
       {"volume", volume_systems(needs)},
       {"measure", measure_systems(needs, "measure_probes")},
@@ -131,18 +141,23 @@ std::vector<std::string> standing_step(const Needs& needs, const std::string& co
 
 std::vector<std::string> start_systems(const Needs& needs) {
   std::vector<std::string> systems;
-  if (needs.ode) systems.emplace_back("hold_ode");
+  const auto append = [&](const std::vector<std::string>& more) {
+    systems.insert(systems.end(), more.begin(), more.end());
+  };
+  const std::string beside = needs.newmark ? "configure_step_before" : "configure_step_ahead";
+  if (needs.ode) append({"hold_ode"});
+  if (needs.corrected_inertia) {
+    append(standing_step(needs, beside));
+    append({"correct_backward_euler_velocity", "g2p_force_gradient"});
+  }
   if (needs.newmark) {
-    const auto acceleration = standing_step(needs, "configure_step_before");
-    systems.insert(systems.end(), acceleration.begin(), acceleration.end());
-    systems.insert(systems.end(), {"correct_backward_euler", needs.transfer.g2p_acceleration});
+    append(standing_step(needs, beside));
+    append({"correct_backward_euler", needs.transfer.g2p_acceleration});
   }
   // The pressure that the first frame shows.
-  const auto pressure = standing_step(needs, "configure_step_ahead");
-  systems.insert(systems.end(), pressure.begin(), pressure.end());
-  const auto measures = measure_systems(needs, "measure_probes_at_start");
-  systems.insert(systems.end(), measures.begin(), measures.end());
-  systems.emplace_back("write_history");
+  append(standing_step(needs, "configure_step_ahead"));
+  append(measure_systems(needs, "measure_probes_at_start"));
+  append({"write_history"});
   return systems;
 }
 

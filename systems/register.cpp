@@ -15,6 +15,7 @@
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/solve/assemble.hpp"
+#include "systems/solve/inertia.hpp"
 #include "systems/solve/monolithic.hpp"
 #include "systems/solve/stabilization.hpp"
 #include "systems/solve/umfpack.hpp"
@@ -53,6 +54,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<CorrectNewmark>("correct_newmark");
   registry.add<CorrectMidpoint>("correct_midpoint");
   registry.add<CorrectBackwardEuler>("correct_backward_euler");
+  registry.add<CorrectBackwardEulerVelocity>("correct_backward_euler_velocity");
 
   registry.add<IntegrateOde>("integrate_ode");
   registry.add<HoldOde>("hold_ode");
@@ -76,6 +78,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<P2GPressureGradient>("p2g_pressure_gradient");
   registry.add<AssembleMonolithic>("assemble_monolithic");
   registry.add<AssembleMonolithicViscous>("assemble_monolithic_viscous");
+  registry.add<AddInertiaCorrection>("add_inertia_correction");
   registry.add<SolveUmfpack>("solve_umfpack");
   registry.add<UnpackSolution>("unpack_solution");
 
@@ -88,6 +91,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<G2PVelocityXpic>("g2p_velocity_xpic");
   registry.add<G2PAccelerationPic>("g2p_acceleration_pic");
   registry.add<G2PAccelerationTpic>("g2p_acceleration_tpic");
+  registry.add<G2PForceGradient>("g2p_force_gradient");
   registry.add<Advect>("advect");
 
   registry.add<GatherNodeVolume>("gather_node_volume");

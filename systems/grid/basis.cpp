@@ -18,8 +18,15 @@ std::array<double, product_powers> product(const std::array<double, N>& x, const
 }
 
 AxisBasis make_basis(int first, const Weights& weight) {
-  AxisBasis basis{first, weight, {}, {}, {}, {}, {}};
-  for (std::size_t a = 0; a < 3; ++a) basis.slope[a] = {weight[a][1], 2 * weight[a][2]};
+  AxisBasis basis{};
+  basis.first = first;
+  basis.weight = weight;
+  for (std::size_t a = 0; a < 3; ++a) {
+    basis.slope[a] = {weight[a][1], 2 * weight[a][2]};
+    basis.of_weight[a] = product(weight[a], std::array{1.0});
+    basis.of_slope[a] = product(basis.slope[a], std::array{1.0});
+    basis.of_distance[a] = product(weight[a], std::array{static_cast<double>(first) + static_cast<double>(a), -1.0});
+  }
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t b = 0; b < 3; ++b) {
       basis.weight_weight[3 * a + b] = product(weight[a], weight[b]);

@@ -30,6 +30,11 @@ struct AxisBasis {
   PairProducts slope_weight;
   PairProducts weight_slope;
   PairProducts slope_slope;
+  /// Of node a, by power: w_a, dw_a, and w_a times the way from the point to the node in units of h.
+  using NodeProducts = std::array<std::array<double, product_powers>, 3>;
+  NodeProducts of_weight;
+  NodeProducts of_slope;
+  NodeProducts of_distance;
 
   double value(std::size_t a, double xi) const { return weight[a][0] + xi * (weight[a][1] + xi * weight[a][2]); }
   double derivative(std::size_t a, double xi) const { return slope[a][0] + xi * slope[a][1]; }

@@ -49,6 +49,12 @@ void CorrectBackwardEuler<Dim>::operator()(Read<Rates> rates, Read<node::Displac
   for_each_row(u_i.size(), [&](std::size_t i) { a_new[i] = rates->acceleration * u_i[i] + a_known[i]; });
 }
 
+template <int Dim>
+void CorrectBackwardEulerVelocity<Dim>::operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i,
+                                                   Write<node::NewVelocity<Dim>> v_new) const {
+  for_each_row(u_i.size(), [&](std::size_t i) { v_new[i] = rates->velocity * u_i[i]; });
+}
+
 template struct PredictNewmark<2>;
 template struct PredictNewmark<3>;
 template struct CorrectNewmark<2>;
@@ -57,5 +63,7 @@ template struct PredictBackwardEuler<2>;
 template struct PredictBackwardEuler<3>;
 template struct CorrectBackwardEuler<2>;
 template struct CorrectBackwardEuler<3>;
+template struct CorrectBackwardEulerVelocity<2>;
+template struct CorrectBackwardEulerVelocity<3>;
 
 }  // namespace minamo

@@ -50,4 +50,11 @@ struct CorrectBackwardEuler {
                   Write<node::NewAcceleration<Dim>> a_new) const;
 };
 
+/// (E13)  v = c_v u.
+template <int Dim>
+struct CorrectBackwardEulerVelocity {
+  static constexpr std::string_view doc = "(E13) v_I of the starting step";
+  void operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i, Write<node::NewVelocity<Dim>> v_new) const;
+};
+
 }  // namespace minamo

@@ -95,6 +95,7 @@ struct Scene {
   std::string transfer;
   double flip_blend = 1;
   int xpic_order = 2;
+  bool corrected_inertia = false;
   std::string integrator;
   double newmark_beta = 0.25;
   double newmark_gamma = 0.5;

@@ -10,7 +10,11 @@ void read_transfer(Input& input, Scene& scene) {
   Input::Variants variants;
   for (const std::string& name : transfer_scheme_names()) {
     variants.emplace_back(name, [&, name](Input& in) {
-      if (name == "flip") {
+      if (transfer_scheme(name).carries_gradient) {
+        scene.corrected_inertia = in.choice("inertia", std::vector<std::string>{"corrected", "lumped"},
+                                            "lumped mass, with or without the first moment that lumping leaves out",
+                                            "corrected") == "corrected";
+      } else if (name == "flip") {
         scene.flip_blend =
             in.number("blend", {.doc = "share of FLIP, the rest is PIC", .fallback = 1, .at_least = 0, .at_most = 1});
       } else if (name == "xpic") {

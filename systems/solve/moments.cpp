@@ -10,11 +10,12 @@ std::array<double, product_powers> powers(double xi) {
   return {1, xi, xi2, xi2 * xi, xi2 * xi2};
 }
 
-/// out[9 g + q][r] = sum_k factor[q][k] in[g][k rest + r]: contracts the slowest direction of every group.
-template <std::size_t Rest>
-void contract(std::size_t groups, const AxisBasis::PairProducts& factor, const double* in, double* out) {
+/// out[N g + q][r] = sum_k factor[q][k] in[g][k rest + r]: contracts the slowest direction of every group.
+template <std::size_t Rest, std::size_t N>
+void contract(std::size_t groups, const std::array<std::array<double, product_powers>, N>& factor, const double* in,
+              double* out) {
   for (std::size_t g = 0; g < groups; ++g, in += product_powers * Rest) {
-    for (std::size_t q = 0; q < 9; ++q, out += Rest) {
+    for (std::size_t q = 0; q < N; ++q, out += Rest) {
       for (std::size_t r = 0; r < Rest; ++r) {
         double sum = 0;
         for (std::size_t k = 0; k < product_powers; ++k) sum += factor[q][k] * in[k * Rest + r];
@@ -22,6 +23,27 @@ void contract(std::size_t groups, const AxisBasis::PairProducts& factor, const d
       }
     }
   }
+}
+
+/// Direction by direction, the last one first.
+template <int Dim, std::size_t N>
+std::array<double, power(N, Dim)>
+contract_all(const std::array<double, stencil_size<Dim>>& moments,
+             const std::array<const std::array<std::array<double, product_powers>, N>*, static_cast<std::size_t>(Dim)>&
+                 factors) {
+  std::array<double, power(N, Dim)> done;
+  if constexpr (Dim == 2) {
+    std::array<double, N * 5> y_done;
+    contract<5>(1, *factors[1], moments.data(), y_done.data());
+    contract<1>(N, *factors[0], y_done.data(), done.data());
+  } else {
+    std::array<double, N * 25> z_done;
+    std::array<double, N * N * 5> y_done;
+    contract<25>(1, *factors[2], moments.data(), z_done.data());
+    contract<5>(N, *factors[1], z_done.data(), y_done.data());
+    contract<1>(N * N, *factors[0], y_done.data(), done.data());
+  }
+  return done;
 }
 
 }  // namespace
@@ -59,19 +81,12 @@ void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim
 
 template <int Dim>
 CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors) {
-  CellMatrix<Dim> matrix;
-  if constexpr (Dim == 2) {
-    std::array<double, 9 * 5> y_done;
-    contract<5>(1, *factors[1], moments.data(), y_done.data());
-    contract<1>(9, *factors[0], y_done.data(), matrix.data());
-  } else {
-    std::array<double, 9 * 25> z_done;
-    std::array<double, 81 * 5> y_done;
-    contract<25>(1, *factors[2], moments.data(), z_done.data());
-    contract<5>(9, *factors[1], z_done.data(), y_done.data());
-    contract<1>(81, *factors[0], y_done.data(), matrix.data());
-  }
-  return matrix;
+  return contract_all<Dim, 9>(moments, factors);
+}
+
+template <int Dim>
+CellVector<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const NodeFactors<Dim>& factors) {
+  return contract_all<Dim, 3>(moments, factors);
 }
 
 template <int Dim>
@@ -99,6 +114,8 @@ template struct GatherMoments<2>;
 template struct GatherMoments<3>;
 template CellMatrix<2> integrate<2>(const std::array<double, 25>&, const PairFactors<2>&);
 template CellMatrix<3> integrate<3>(const std::array<double, 125>&, const PairFactors<3>&);
+template CellVector<2> integrate<2>(const std::array<double, 25>&, const NodeFactors<2>&);
+template CellVector<3> integrate<3>(const std::array<double, 125>&, const NodeFactors<3>&);
 template const PairPlaces<2>& pair_places<2>();
 template const PairPlaces<3>& pair_places<3>();
 

@@ -34,6 +34,18 @@ using PairFactors = std::array<const AxisBasis::PairProducts*, static_cast<std::
 template <int Dim>
 CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors);
 
+/// sum_p V_p f_I for the nodes of a cell, in the order of its support.
+template <int Dim>
+using CellVector = std::array<double, support_size<Dim>>;
+
+/// One factor per direction: AxisBasis::of_weight, of_slope, of_distance.
+template <int Dim>
+using NodeFactors = std::array<const AxisBasis::NodeProducts*, static_cast<std::size_t>(Dim)>;
+
+/// (E20)  The same for single nodes, in units of h.
+template <int Dim>
+CellVector<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const NodeFactors<Dim>& factors);
+
 /// Where the pair of nodes I, J of a support stands in a CellMatrix, and where J stands in the stencil of I.
 template <int Dim>
 struct PairPlaces {
