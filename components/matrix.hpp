@@ -52,6 +52,13 @@ struct StabilizationSource : Column<ActiveNodes, double> {
   static constexpr ComponentInfo info{"matrix.stabilization_source", "s_I", "m^d/s", Lifetime::scratch};
 };
 
+/// What of the stabilization a solver needs to know to build a good preconditioner.
+struct StabilizationScale {
+  double pressure = 0;      ///< tau, where the stabilization has T = tau L [m^3 s/kg]
+  double acceleration = 0;  ///< g, where it has G = g grad S_I S_J; 0 if accelerations do not enter [s]
+  static constexpr ComponentInfo info{"matrix.stabilization_scale", "tau, g", "m^3 s/kg, s", Lifetime::scratch};
+};
+
 /// Where the monolithic matrix has entries: compressed columns, (d + 1) unknowns per row of the tables, pressure last.
 struct Pattern {
   std::vector<int> outer;       ///< start of every column, and the end

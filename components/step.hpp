@@ -39,6 +39,12 @@ struct VolumeRate {
   static constexpr ComponentInfo info{"volume.rate", "r", "1", Lifetime::constant};
 };
 
+/// Where an iterative solver stops: residual over right-hand side. [1]
+struct SolverTolerance {
+  double relative = 1e-8;
+  static constexpr ComponentInfo info{"solver.tolerance", "", "1", Lifetime::constant};
+};
+
 /// Particles that a step would have carried out of the box, so far. [1]
 struct PutBack {
   std::int64_t count = 0;

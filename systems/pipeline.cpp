@@ -18,6 +18,7 @@ struct Needs {
   const TransferScheme& transfer;
   std::string stabilization;
   std::string volume;
+  std::string solver;
   bool newmark;
   bool corrected_inertia;
   bool viscous;
@@ -31,6 +32,7 @@ struct Needs {
       : transfer(transfer_scheme(scene.transfer)),
         stabilization(scene.stabilization),
         volume(scene.volume),
+        solver(scene.solver),
         newmark(scene.integrator == "newmark"),
         corrected_inertia(scene.corrected_inertia),
         viscous(scene.viscosity > 0),
@@ -58,13 +60,17 @@ std::vector<std::string> assemble_systems(const Needs& needs) {
   if (needs.stabilization == "vms") systems.emplace_back("add_vms_bulk_viscosity");
   if (needs.stabilization == "oss") systems.emplace_back("p2g_pressure_gradient");
   systems.push_back("stabilize_" + needs.stabilization);
-  systems.emplace_back(needs_viscosity_matrix(needs) ? "assemble_monolithic_viscous" : "assemble_monolithic");
+  const std::string viscous = needs_viscosity_matrix(needs) ? "_viscous" : "";
+  systems.push_back("right_hand_side" + viscous);
+  if (needs.solver == "umfpack") systems.push_back("assemble_monolithic" + viscous);
   if (needs.corrected_inertia) systems.emplace_back("add_inertia_correction");
   return systems;
 }
 
 std::vector<std::string> solve_systems(const Needs& needs) {
-  std::vector<std::string> systems{"solve_umfpack", "unpack_solution"};
+  const bool block = needs.solver == "block";
+  std::vector<std::string> systems{"solve_" + needs.solver + (block && needs_viscosity_matrix(needs) ? "_viscous" : ""),
+                                   "unpack_solution"};
   if (needs.stabilization == "oss") systems.emplace_back("g2p_pressure_gradient");
   return systems;
 }

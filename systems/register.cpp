@@ -15,6 +15,8 @@
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/solve/assemble.hpp"
+#include "systems/solve/block.hpp"
+#include "systems/solve/right_hand_side.hpp"
 #include "systems/solve/inertia.hpp"
 #include "systems/solve/monolithic.hpp"
 #include "systems/solve/stabilization.hpp"
@@ -80,6 +82,10 @@ void register_systems(SystemRegistry& registry) {
   registry.add<AssembleMonolithicViscous>("assemble_monolithic_viscous");
   registry.add<AddInertiaCorrection>("add_inertia_correction");
   registry.add<SolveUmfpack>("solve_umfpack");
+  registry.add<SolveBlock>("solve_block");
+  registry.add<SolveBlockViscous>("solve_block_viscous");
+  registry.add<FillRightHandSide>("right_hand_side");
+  registry.add<FillRightHandSideViscous>("right_hand_side_viscous");
   registry.add<UnpackSolution>("unpack_solution");
 
   registry.add<G2PVelocityPic>("g2p_velocity_pic");

@@ -58,7 +58,7 @@ void read_method(Input& input, Scene& scene) {
   });
   block("volume", "volume correction", read_volume);
   block("solver", "linear solver", [](Input& in, Scene& s) {
-    s.solver = in.choice("scheme", std::vector<std::string>{"umfpack"}, "linear solver", "umfpack");
+    s.solver = in.choice("scheme", std::vector<std::string>{"block", "umfpack"}, "linear solver", "umfpack");
   });
 }
 

@@ -1,6 +1,7 @@
 #include "systems/solve/monolithic.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/solve/equations.hpp"
 #include "systems/solve/stencil.hpp"
 
 namespace minamo {
@@ -16,14 +17,9 @@ struct Terms {
   std::span<const std::int32_t> row;
   std::span<const std::uint8_t> fixed;
   std::span<const double> m_i;
-  std::span<const Vec<Dim>> b_i;
-  std::span<const Vec<Dim>> v_known;
-  std::span<const Vec<Dim>> a_known;
-  std::span<const Vec<Dim>> u_i;
   std::span<const std::uint32_t> node;
   std::span<const typename matrix::Divergence<Dim>::value_type> divergence;
   std::span<const typename matrix::Stabilization<Dim>::value_type> stabilization;
-  std::span<const double> source;
   std::span<const typename matrix::Viscosity<Dim>::value_type> viscosity;  ///< empty if inviscid
 
   /// Whether node I of row r_i and node J at place `to_j` of its stencil share a particle: only then has an entry a
@@ -38,15 +34,7 @@ struct Terms {
     return false;
   }
   bool is_fixed(std::uint32_t i, std::size_t d) const { return fixed[i] >> d & 1; }
-  /// D_IJ . q with J at place k of the stencil of row r.
-  double dot_divergence(std::size_t r, std::size_t k, const Vec<Dim>& q) const {
-    double sum = 0;
-    for (std::size_t d = 0; d < Dim; ++d) sum += divergence[r][Dim * k + d] * q[static_cast<Eigen::Index>(d)];
-    return sum;
-  }
 };
-
-constexpr std::size_t unknowns_per_row(int dim) { return static_cast<std::size_t>(dim) + 1; }
 
 /// Calls emit(row, value) for the entries of the column of a displacement component, rows rising.
 template <int Dim, class Emit>
@@ -140,86 +128,30 @@ void fill_matrix(const Terms<Dim>& t, const Stencil<Dim>& stencil, matrix::Patte
   ++pattern.revision;
 }
 
-/// Right-hand sides of (E25) and (E26) for one row.
-template <int Dim>
-void fill_right_hand_side(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r, double* out) {
-  const std::uint32_t i = t.node[r];
-  Vec<Dim> momentum = t.m_i[i] * (t.b_i[i] - t.a_known[i]);
-  double mass = t.source[r];
-  stencil.for_each_neighbour(i, [&](std::size_t to_j, std::uint32_t j) {
-    const Vec<Dim> v = t.v_known[j] + t.c_v * t.u_i[j];
-    mass -= t.dot_divergence(r, to_j, v);
-    if (!t.viscosity.empty()) {
-      for (std::size_t e = 0; e < Dim; ++e) {
-        for (std::size_t d = 0; d < Dim; ++d) {
-          momentum[static_cast<Eigen::Index>(e)] -=
-              t.viscosity[r][Dim * (Dim * to_j + e) + d] * v[static_cast<Eigen::Index>(d)];
-        }
-      }
-    }
-  });
-  for (std::size_t d = 0; d < Dim; ++d) out[d] = t.is_fixed(i, d) ? 0 : momentum[static_cast<Eigen::Index>(d)];
-  out[Dim] = mass;
-}
-
-template <int Dim>
-void assemble(const Terms<Dim>& t, const Grid<Dim>& grid, matrix::Pattern& pattern, std::vector<double>& values,
-              std::vector<double>& right_hand_side) {
-  const Stencil<Dim> stencil(grid);
-  fill_matrix<Dim>(t, stencil, pattern, values);
-  right_hand_side.resize(unknowns_per_row(Dim) * t.node.size());
-  constexpr std::size_t rows_per_task = 256;
-  for_each_row(
-      t.node.size(),
-      [&](std::size_t r) {
-        fill_right_hand_side<Dim>(t, stencil, r, right_hand_side.data() + unknowns_per_row(Dim) * r);
-      },
-      rows_per_task);
-}
-
-/// (E27): the rate of volume change that this allows in a column of water of 1 kPa is 5e-6 1/s.
-double pressure_per_mass(double dt, double density, double spacing) {
-  constexpr double eps = 1e-6;
-  return eps * dt / (density * density * spacing * spacing);
-}
-
 }  // namespace
 
 template <int Dim>
 void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                          Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-                                         Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
-                                         Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
                                          Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
-                                         Read<matrix::StabilizationSource> source, Update<matrix::Pattern> pattern,
-                                         Write<matrix::Values> values,
-                                         Write<matrix::RightHandSide> right_hand_side) const {
-  const Terms<Dim> terms{
-      rates->velocity,      rates->acceleration, pressure_per_mass(clock->step, fluid->density, grid->spacing),
-      row.span(),           fixed.span(),        m_i.span(),
-      b_i.span(),           v_known.span(),      a_known.span(),
-      u_i.span(),           node.span(),         divergence.span(),
-      stabilization.span(), source.span(),       {}};
-  assemble<Dim>(terms, *grid, *pattern, values->values, right_hand_side->values);
+                                         Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
+  fill_matrix<Dim>({rates->velocity, rates->acceleration,
+                    pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
+                    m_i.span(), node.span(), divergence.span(), stabilization.span(), {}},
+                   Stencil<Dim>(*grid), *pattern, values->values);
 }
 
 template <int Dim>
 void AssembleMonolithicViscous<Dim>::operator()(
     Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-    Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-    Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
-    Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-    Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source,
-    Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values,
-    Write<matrix::RightHandSide> right_hand_side) const {
-  const Terms<Dim> terms{
-      rates->velocity,      rates->acceleration, pressure_per_mass(clock->step, fluid->density, grid->spacing),
-      row.span(),           fixed.span(),        m_i.span(),
-      b_i.span(),           v_known.span(),      a_known.span(),
-      u_i.span(),           node.span(),         divergence.span(),
-      stabilization.span(), source.span(),       viscosity.span()};
-  assemble<Dim>(terms, *grid, *pattern, values->values, right_hand_side->values);
+    Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
+    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+    Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
+  fill_matrix<Dim>({rates->velocity, rates->acceleration,
+                    pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
+                    m_i.span(), node.span(), divergence.span(), stabilization.span(), viscosity.span()},
+                   Stencil<Dim>(*grid), *pattern, values->values);
 }
 
 template struct AssembleMonolithic<2>;

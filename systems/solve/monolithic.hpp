@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// The equations of a step as one unsymmetric sparse system in displacement and pressure.
-/// Unknown (d + 1) r + i of matrix row r: component i of the displacement, and the pressure for i = d.
+/// Unknowns are numbered as equations.hpp says.
 ///
 /// (E25) Momentum, active I:  (m_I c_a + c_v K_II) u_I + c_v sum_J K_IJ u_J - sum_J D_JI p_J
 ///                            = m_I (b_I - a^_I) - sum_J K_IJ v'_J
@@ -24,26 +24,21 @@ namespace minamo {
 
 template <int Dim>
 struct AssembleMonolithic {
-  static constexpr std::string_view doc = "(E25) (E26) (E27) matrix and right-hand side, inviscid";
+  static constexpr std::string_view doc = "(E25) (E26) (E27) matrix, inviscid";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
-                  Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source,
-                  Update<matrix::Pattern> pattern, Write<matrix::Values> values,
-                  Write<matrix::RightHandSide> right_hand_side) const;
+                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
+                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+                  Update<matrix::Pattern> pattern, Write<matrix::Values> values) const;
 };
 
 template <int Dim>
 struct AssembleMonolithicViscous {
-  static constexpr std::string_view doc = "(E25) (E26) (E27) matrix and right-hand side, viscous";
+  static constexpr std::string_view doc = "(E25) (E26) (E27) matrix, viscous";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
-                  Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationSource> source,
-                  Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values,
-                  Write<matrix::RightHandSide> right_hand_side) const;
+                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
+                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+                  Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern,
+                  Write<matrix::Values> values) const;
 };
 
 }  // namespace minamo

@@ -56,9 +56,10 @@ void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
                                     Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                     Read<matrix::Laplacian<Dim>> laplacian,
                                     Write<matrix::Stabilization<Dim>> stabilization,
-                                    Write<matrix::StabilizationSource> source) const {
+                                    Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const {
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   const double tau_rho = tau * fluid->density;
+  *scale = {.pressure = tau, .acceleration = tau_rho};
   fill_rows<Dim>(*grid, tau, row.span(), node.span(), divergence.span(), laplacian.span(), stabilization.span(),
                  source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
                    const std::size_t back = stencil_size<Dim> - 1 - k;
@@ -75,8 +76,9 @@ void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
                                    Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
                                    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
                                    Write<matrix::Stabilization<Dim>> stabilization,
-                                   Write<matrix::StabilizationSource> source) const {
+                                   Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const {
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
+  *scale = {.pressure = tau, .acceleration = 0};
   constexpr double full_enough = 0.6;  // without this guard the dam break blows up at its surface
   fill_rows<Dim>(*grid, tau, row.span(), node.span(), divergence.span(), laplacian.span(), stabilization.span(),
                  source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {

@@ -35,7 +35,10 @@ void StabilizeVms<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
                                    Read<node::Velocity<Dim>> v_i, Read<node::BodyForce<Dim>> b_i,
                                    Read<node::KnownAcceleration<Dim>> a_known,
                                    Write<matrix::Stabilization<Dim>> stabilization,
-                                   Write<matrix::StabilizationSource> source) const {
+                                   Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const {
+  // That of liquid at rest stands for all cells.
+  const double at_rest = tau_1(clock->step, grid->spacing, *fluid, 0);
+  *scale = {.pressure = at_rest, .acceleration = at_rest * fluid->density};
   const auto rows = stabilization.span();
   clear_rows(rows);
   for_each_row(source.size(), [&](std::size_t r) { source[r] = 0; });
@@ -47,11 +50,11 @@ void StabilizeVms<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
       const auto laplacian = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, d, d));
       add_to_rows<Dim>(support, row.span(), laplacian, tau * h * h, Dim + 1, Dim, rows);
       const auto gradient = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, d, -1));
-      const double scale = tau * fluid->density * h;
-      add_to_rows<Dim>(support, row.span(), gradient, scale, Dim + 1, static_cast<std::size_t>(d), rows);
+      const double in_units = tau * fluid->density * h;
+      add_to_rows<Dim>(support, row.span(), gradient, in_units, Dim + 1, static_cast<std::size_t>(d), rows);
       add_product<Dim>(
           support, row.span(), gradient,
-          [&](std::size_t j) { return row[j] < 0 ? 0 : -scale * (a_known[j][d] - b_i[j][d]); }, source.span());
+          [&](std::size_t j) { return row[j] < 0 ? 0 : -in_units * (a_known[j][d] - b_i[j][d]); }, source.span());
     }
   });
 }

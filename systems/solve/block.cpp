@@ -1,0 +1,225 @@
+#include "systems/solve/block.hpp"
+
+#include "systems/solve/equations.hpp"
+#include "systems/solve/pressure_preconditioner.hpp"
+#include "systems/solve/pressure_schur.hpp"
+#include "systems/solve/velocity_block.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace minamo {
+
+template <int Dim>
+struct BlockFactors<Dim>::Impl {
+  PressureSchur<Dim> schur;
+  VelocityBlock<Dim> velocity_block;
+  PressurePreconditioner<Dim> preconditioner;
+  Gmres gmres;
+  Values momentum;  ///< right-hand sides
+  Values mass;
+  Values displacement;
+  Values pressure;
+  Values more_displacement;
+  Values more_pressure;
+  Values of_velocity;  ///< work space
+};
+
+template <int Dim>
+BlockFactors<Dim>::BlockFactors() : impl(std::make_unique<Impl>()) {}
+template <int Dim>
+BlockFactors<Dim>::~BlockFactors() = default;
+
+namespace {
+
+constexpr std::int64_t most_iterations = 400;
+constexpr int most_passes = 20;
+
+template <int Dim>
+using Impl = typename BlockFactors<Dim>::Impl;
+
+/// Solves S p = g - starting from p, and sets u = A^-1 (f + D^T p), with A as the velocity block solves with.
+/// \param target  for the residual
+template <int Dim>
+Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double target, Values& u, Values& p) {
+  const auto& schur = s.schur;
+  const auto apply = [&](const Values& x, Values& out) {
+    schur.push_all(x, s.of_velocity);
+    s.velocity_block.solve(s.of_velocity);
+    schur.spread_all(s.of_velocity, x, out);
+  };
+  const auto precondition = [&](const Values& r, Values& out) { s.preconditioner.solve(r, out); };
+  const auto report = s.gmres.solve(apply, precondition, g, target, most_iterations, p);
+  schur.push_all(p, u);
+  add_scaled(1, f, u);
+  s.velocity_block.solve(u);
+  return report;
+}
+
+/// g = mass - B A^-1 f
+template <int Dim>
+void reduce(Impl<Dim>& s, const Values& f, const Values& mass, Values& g) {
+  s.of_velocity = f;
+  s.velocity_block.solve(s.of_velocity);
+  s.more_pressure.assign(mass.size(), 0.0);
+  s.schur.spread_all(s.of_velocity, s.more_pressure, g);
+  for_each_row(g.size(), [&](std::size_t r) { g[r] = mass[r] - g[r]; });
+}
+
+/// Solves for displacement and pressure from the right-hand sides in momentum and mass. A diagonal velocity block is
+/// not quite that of a viscous liquid: what it leaves is solved for again.
+template <int Dim>
+Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance) {
+  Values g(s.mass.size());
+  reduce<Dim>(s, s.momentum, s.mass, g);
+  const double norm = std::sqrt(dot(g, g));
+  Gmres::Report report = eliminate<Dim>(s, s.momentum, g, tolerance * norm, s.displacement, s.pressure);
+  for (int pass = 1; !s.velocity_block.exact() && report.converged; ++pass) {
+    // f - A u + D^T p, then what the mass balance and that leave to the pressure
+    s.schur.push_all(s.pressure, s.more_displacement);
+    s.velocity_block.subtract_product(s.displacement, s.more_displacement);
+    add_scaled(1, s.momentum, s.more_displacement);
+    const Values f = s.more_displacement;
+    s.schur.spread_all(s.displacement, s.pressure, g);
+    for_each_row(g.size(), [&](std::size_t r) { g[r] = s.mass[r] - g[r]; });
+    const Values mass = g;
+    reduce<Dim>(s, f, mass, g);
+    const double left = std::sqrt(dot(g, g));
+    s.more_pressure.assign(g.size(), 0.0);
+    const auto more = eliminate<Dim>(s, f, g, tolerance * norm, s.more_displacement, s.more_pressure);
+    add_scaled(1, s.more_displacement, s.displacement);
+    add_scaled(1, s.more_pressure, s.pressure);
+    report.iterations += more.iterations;
+    report.residual = more.residual;
+    const double change = std::sqrt(dot(s.more_displacement, s.more_displacement));
+    const double size = std::sqrt(dot(s.displacement, s.displacement));
+    if (left <= tolerance * norm && change <= tolerance * size) break;
+    report.converged = more.converged && pass < most_passes;
+  }
+  if (norm > 0) report.residual /= norm;
+  return report;
+}
+
+template <int Dim>
+void prepare(Impl<Dim>& s, const BlockTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
+             const matrix::StabilizationScale& scale) {
+  s.schur.assemble(terms, grid);
+  s.velocity_block.prepare(terms, grid, s.schur.mobility);
+  s.preconditioner.prepare(s.schur, terms, grid, viscous_part<Dim>(terms, grid, fluid, scale));
+  const std::size_t n = s.schur.rows();
+  s.mass.resize(n);
+  s.pressure.resize(n);
+  for (Values* v : {&s.momentum, &s.displacement, &s.more_displacement, &s.of_velocity}) v->resize(Dim * n);
+}
+
+template <int Dim>
+void take_right_hand_side(Impl<Dim>& s, const std::vector<double>& b) {
+  for_each_row(s.mass.size(), [&](std::size_t r) {
+    const double* row = b.data() + unknowns_per_row(Dim) * r;
+    for (std::size_t d = 0; d < Dim; ++d) s.momentum[Dim * r + d] = row[d];
+    s.mass[r] = s.schur.scale[r] * row[Dim];
+  });
+}
+
+template <int Dim>
+void give_solution(const Impl<Dim>& s, std::vector<double>& x) {
+  x.resize(unknowns_per_row(Dim) * s.mass.size());
+  for_each_row(s.mass.size(), [&](std::size_t r) {
+    double* row = x.data() + unknowns_per_row(Dim) * r;
+    for (std::size_t d = 0; d < Dim; ++d) row[d] = s.displacement[Dim * r + d];
+    row[Dim] = s.schur.scale[r] * s.pressure[r];
+  });
+}
+
+/// \throws std::runtime_error if the iteration has failed.
+void require_convergence(const Gmres::Report& report, const Clock& clock, std::size_t rows) {
+  if (report.converged && std::isfinite(report.residual)) return;
+  throw std::runtime_error(
+      fmt::format("solve: the residual is {:.3g} after {} iterations (step {}, t = {:.6g} s, {} active nodes)",
+                  report.residual, report.iterations, clock.index + 1, clock.time, rows));
+}
+
+template <int Dim>
+void solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid, double tolerance,
+           const matrix::StabilizationScale& scale, const BlockTerms<Dim>& terms, std::span<const double> p_i,
+           const std::vector<double>& b, Impl<Dim>& s, std::vector<double>& x, SolveReport& report) {
+  prepare<Dim>(s, terms, grid, fluid, scale);
+  take_right_hand_side<Dim>(s, b);
+  // The pressure of the step before is near.
+  for_each_row(s.pressure.size(), [&](std::size_t r) { s.pressure[r] = p_i[terms.node[r]] / s.schur.scale[r]; });
+  const Gmres::Report done = solve_blocks<Dim>(s, tolerance);
+  require_convergence(done, clock, terms.node.size());
+  give_solution<Dim>(s, x);
+  report = {.unknowns = static_cast<std::int64_t>(b.size()), .iterations = done.iterations, .residual = done.residual};
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> solve_again(BlockFactors<Dim>& factors, const std::vector<double>& right_hand_side,
+                                const Clock& clock, double tolerance) {
+  Impl<Dim>& s = *factors.impl;
+  take_right_hand_side<Dim>(s, right_hand_side);
+  std::fill(s.pressure.begin(), s.pressure.end(), 0.0);
+  require_convergence(solve_blocks<Dim>(s, tolerance), clock, s.mass.size());
+  std::vector<double> x;
+  give_solution<Dim>(s, x);
+  return x;
+}
+
+template <int Dim>
+void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
+                                 Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed,
+                                 Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<matrix::Node> node,
+                                 Read<matrix::Divergence<Dim>> divergence,
+                                 Read<matrix::Stabilization<Dim>> stabilization,
+                                 Read<matrix::StabilizationScale> scale, Read<matrix::RightHandSide> right_hand_side,
+                                 Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
+                                 Write<SolveReport> report) const {
+  const BlockTerms<Dim> terms{rates->velocity,
+                              rates->acceleration,
+                              pressure_per_mass(clock->step, fluid->density, grid->spacing),
+                              laplacian_factor(*rates, *fluid, *scale),
+                              row.span(),
+                              fixed.span(),
+                              m_i.span(),
+                              node.span(),
+                              divergence.span(),
+                              stabilization.span(),
+                              {}};
+  solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, terms, p_i.span(), right_hand_side->values,
+             *factors->impl, solution->values, *report);
+}
+
+template <int Dim>
+void SolveBlockViscous<Dim>::operator()(
+    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<SolverTolerance> tolerance,
+    Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::Pressure> p_i,
+    Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+    Read<matrix::StabilizationScale> scale, Read<matrix::Viscosity<Dim>> viscosity,
+    Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
+    Write<SolveReport> report) const {
+  const BlockTerms<Dim> terms{rates->velocity,
+                              rates->acceleration,
+                              pressure_per_mass(clock->step, fluid->density, grid->spacing),
+                              laplacian_factor(*rates, *fluid, *scale),
+                              row.span(),
+                              fixed.span(),
+                              m_i.span(),
+                              node.span(),
+                              divergence.span(),
+                              stabilization.span(),
+                              viscosity.span()};
+  solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, terms, p_i.span(), right_hand_side->values,
+             *factors->impl, solution->values, *report);
+}
+
+template struct BlockFactors<2>;
+template struct BlockFactors<3>;
+template struct SolveBlock<2>;
+template struct SolveBlock<3>;
+template struct SolveBlockViscous<2>;
+template struct SolveBlockViscous<3>;
+template std::vector<double> solve_again(BlockFactors<2>&, const std::vector<double>&, const Clock&, double);
+template std::vector<double> solve_again(BlockFactors<3>&, const std::vector<double>&, const Clock&, double);
+
+}  // namespace minamo

@@ -1,0 +1,62 @@
+#pragma once
+/// \file
+/// Block elimination: the displacement is eliminated by the velocity block, and GMRES solves for the pressure, with a
+/// sparse Cholesky factorization of a compact pressure matrix as preconditioner. Equal to UMFPACK to the tolerance.
+
+#include "components/fluid.hpp"
+#include "components/grid.hpp"
+#include "components/matrix.hpp"
+#include "components/node.hpp"
+#include "components/step.hpp"
+#include "engine/clock.hpp"
+#include "engine/linear_solver.hpp"
+#include "engine/system.hpp"
+
+#include <memory>
+
+namespace minamo {
+
+/// Operators and factors of the last step, and work space.
+template <int Dim>
+struct BlockFactors {
+  BlockFactors();
+  ~BlockFactors();
+  BlockFactors(const BlockFactors&) = delete;
+  BlockFactors& operator=(const BlockFactors&) = delete;
+  struct Impl;
+  std::unique_ptr<Impl> impl;
+  static constexpr ComponentInfo info{"solve.block_factors", "", "", Lifetime::cache};
+};
+
+/// The solution for another right-hand side, with the operators and factors of the last solve.
+/// \throws std::runtime_error if the iteration does not converge.
+template <int Dim>
+std::vector<double> solve_again(BlockFactors<Dim>& factors, const std::vector<double>& right_hand_side,
+                                const Clock& clock, double tolerance);
+
+template <int Dim>
+struct SolveBlock {
+  static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, inviscid";
+  /// \throws std::runtime_error if the iteration does not converge, with step, time and size.
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
+                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+                  Read<node::Pressure> p_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
+                  Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
+                  Write<matrix::Solution> solution, Write<SolveReport> report) const;
+};
+
+template <int Dim>
+struct SolveBlockViscous {
+  static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, viscous";
+  /// \throws std::runtime_error if the iteration does not converge, with step, time and size.
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
+                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+                  Read<node::Pressure> p_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
+                  Read<matrix::Viscosity<Dim>> viscosity, Read<matrix::RightHandSide> right_hand_side,
+                  Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
+                  Write<SolveReport> report) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// How the unknowns of a step are numbered, whatever the solver: unknown (d + 1) r + i of matrix row r is component i of
+/// the displacement, and the pressure for i = d.
+
+#include "components/types.hpp"
+
+namespace minamo {
+
+constexpr std::size_t unknowns_per_row(int dim) { return static_cast<std::size_t>(dim) + 1; }
+
+/// e_I/m_I of (E27): the rate of volume change that this allows in a column of water of 1 kPa is 5e-6 1/s.
+constexpr double pressure_per_mass(double dt, double density, double spacing) {
+  constexpr double eps = 1e-6;
+  return eps * dt / (density * density * spacing * spacing);
+}
+
+}  // namespace minamo

@@ -1,0 +1,143 @@
+#pragma once
+/// \file
+/// GMRES with restarts and a preconditioner on the right, so that the residual is that of the system itself.
+/// Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856, doi:10.1137/0907058.
+
+#include "engine/parallel.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace minamo {
+
+using Values = std::vector<double>;
+
+inline double dot(const Values& x, const Values& y) {
+  return reduce_rows(
+      x.size(), 0.0, [&](std::size_t i) { return x[i] * y[i]; }, std::plus<>());
+}
+
+inline void add_scaled(double scale, const Values& x, Values& y) {
+  for_each_row(x.size(), [&](std::size_t i) { y[i] += scale * x[i]; });
+}
+
+/// Work space, kept so that a solve does not allocate.
+class Gmres {
+ public:
+  struct Report {
+    std::int64_t iterations = 0;
+    double residual = 0;  ///< |b - A x|
+    bool converged = false;
+  };
+
+  /// Improves x until |b - A x| <= target.
+  /// \param apply         apply(x, out) sets out = A x
+  /// \param precondition  precondition(x, out) sets out to about A^-1 x
+  template <class Apply, class Precondition>
+  Report solve(const Apply& apply, const Precondition& precondition, const Values& b, double target,
+               std::int64_t most_iterations, Values& x) {
+    resize(b.size());
+    Report report;
+    while (true) {
+      apply(x, product_);
+      for_each_row(b.size(), [&](std::size_t i) { basis_[0][i] = b[i] - product_[i]; });
+      report.residual = std::sqrt(dot(basis_[0], basis_[0]));
+      report.converged = report.residual <= target;
+      if (report.converged || report.iterations >= most_iterations || !std::isfinite(report.residual)) return report;
+      const std::size_t size = cycle(apply, precondition, target, most_iterations, report);
+      add_correction(precondition, size, x);
+      // The estimate that ends a cycle is the residual to rounding; another product would only confirm it.
+      if (report.converged || report.iterations >= most_iterations) return report;
+    }
+  }
+
+ private:
+  static constexpr std::size_t restart = 50;
+
+  void resize(std::size_t rows) {
+    if (product_.size() == rows) return;
+    product_.resize(rows);
+    direction_.resize(rows);
+    for (Values& v : basis_) v.clear();
+    basis_.resize(restart + 1);
+    basis_[0].resize(rows);
+  }
+
+  Values& basis(std::size_t k) {
+    basis_[k].resize(product_.size());
+    return basis_[k];
+  }
+
+  /// Builds up to `restart` basis vectors from the residual in the first, and the triangular system of their weights.
+  template <class Apply, class Precondition>
+  std::size_t cycle(const Apply& apply, const Precondition& precondition, double target,
+                    std::int64_t most_iterations, Report& report) {
+    scale(1 / report.residual, basis_[0]);
+    rest_[0] = report.residual;
+    std::size_t k = 0;
+    while (k < restart && report.iterations < most_iterations && !report.converged) {
+      precondition(basis_[k], direction_);
+      Values& next = basis(k + 1);
+      apply(direction_, next);
+      auto& column = hessenberg_[k];
+      for (std::size_t j = 0; j <= k; ++j) {
+        column[j] = dot(next, basis_[j]);
+        add_scaled(-column[j], basis_[j], next);
+      }
+      const double length = std::sqrt(dot(next, next));
+      if (length > 0) scale(1 / length, next);
+      rotate(k, length);
+      ++k;
+      ++report.iterations;
+      report.residual = std::abs(rest_[k]);
+      report.converged = report.residual <= target || length == 0;
+    }
+    return k;
+  }
+
+  /// Givens rotations make column k triangular.
+  void rotate(std::size_t k, double length) {
+    auto& column = hessenberg_[k];
+    for (std::size_t j = 0; j < k; ++j) {
+      const double above = column[j];
+      column[j] = cosine_[j] * above + sine_[j] * column[j + 1];
+      column[j + 1] = -sine_[j] * above + cosine_[j] * column[j + 1];
+    }
+    const double radius = std::hypot(column[k], length);
+    cosine_[k] = radius > 0 ? column[k] / radius : 1;
+    sine_[k] = radius > 0 ? length / radius : 0;
+    column[k] = radius;
+    rest_[k + 1] = -sine_[k] * rest_[k];
+    rest_[k] *= cosine_[k];
+  }
+
+  template <class Precondition>
+  void add_correction(const Precondition& precondition, std::size_t size, Values& x) {
+    std::array<double, restart> weight{};
+    for (std::size_t k = size; k-- > 0;) {
+      double sum = rest_[k];
+      for (std::size_t j = k + 1; j < size; ++j) sum -= hessenberg_[j][k] * weight[j];
+      weight[k] = hessenberg_[k][k] != 0 ? sum / hessenberg_[k][k] : 0;
+    }
+    std::fill(product_.begin(), product_.end(), 0.0);
+    for (std::size_t k = 0; k < size; ++k) add_scaled(weight[k], basis_[k], product_);
+    precondition(product_, direction_);
+    add_scaled(1, direction_, x);
+  }
+
+  static void scale(double factor, Values& x) {
+    for_each_row(x.size(), [&](std::size_t i) { x[i] *= factor; });
+  }
+
+  std::vector<Values> basis_;
+  Values product_;
+  Values direction_;
+  std::array<std::array<double, restart + 1>, restart> hessenberg_{};
+  std::array<double, restart> cosine_{};
+  std::array<double, restart> sine_{};
+  std::array<double, restart + 1> rest_{};
+};
+
+}  // namespace minamo

@@ -1,0 +1,143 @@
+#include "systems/solve/pressure_preconditioner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace minamo {
+
+namespace {
+
+/// Multiplications from which on the envelope is slower than a sparse factorization.
+constexpr double widest = 2e7;
+
+}  // namespace
+
+double laplacian_factor(const Rates& rates, const Fluid& fluid, const matrix::StabilizationScale& scale) {
+  const double of_velocity = rates.velocity - rates.acceleration * scale.acceleration;
+  return 1 + std::max(0.0, of_velocity) / (rates.acceleration * fluid.density * scale.pressure);
+}
+
+template <int Dim>
+double viscous_part(const BlockTerms<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
+                    const matrix::StabilizationScale& scale) {
+  const double of_velocity = t.c_v - t.c_a * scale.acceleration;
+  if (t.viscosity.empty() || of_velocity <= 0) return 0;
+  const double k2 = 4 / (grid.spacing * grid.spacing);
+  const double a = fluid.density * t.c_a / of_velocity;
+  const double mu = t.c_v * fluid.viscosity / of_velocity;
+  const double inverse = 1 / (1 / (a / k2 + mu) + scale.pressure * k2);
+  const double of_compact = 1 / ((1 / a + scale.pressure) * k2);
+  return fluid.density * std::max(0.0, inverse - of_compact);
+}
+
+/// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
+template <int Dim>
+void PressurePreconditioner<Dim>::find_order(const BlockTerms<Dim>& t, const Grid<Dim>& grid) {
+  std::array<std::array<int, 2>, Dim> range;
+  range.fill({std::numeric_limits<int>::max(), -1});
+  std::vector<Index<Dim>> at(t.node.size());
+  for (std::size_t r = 0; r < t.node.size(); ++r) {
+    std::size_t rest = t.node[r];
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto nodes = static_cast<std::size_t>(grid.nodes(static_cast<int>(d)));
+      at[r][d] = static_cast<int>(rest % nodes);
+      rest /= nodes;
+      range[d] = {std::min(range[d][0], at[r][d]), std::max(range[d][1], at[r][d])};
+    }
+  }
+  std::array<std::size_t, Dim> axes;
+  std::iota(axes.begin(), axes.end(), std::size_t{0});
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](std::size_t a, std::size_t b) { return range[a][1] - range[a][0] > range[b][1] - range[b][0]; });
+  order_.resize(t.node.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    for (const std::size_t axis : axes) {
+      if (at[a][axis] != at[b][axis]) return at[a][axis] < at[b][axis];
+    }
+    return false;
+  });
+  place_.resize(order_.size());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
+}
+
+template <int Dim>
+void PressurePreconditioner<Dim>::find_envelope(const PressureSchur<Dim>& schur) {
+  first_.resize(order_.size());
+  std::iota(first_.begin(), first_.end(), 0U);
+  for (std::size_t r = 0; r < order_.size(); ++r) {
+    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+      if (schur.compact[r][k] == 0) continue;
+      const std::uint32_t i = place_[r];
+      const std::uint32_t j = place_[schur.neighbour[r][k]];
+      first_[std::max(i, j)] = std::min(first_[std::max(i, j)], std::min(i, j));
+    }
+  }
+}
+
+template <int Dim>
+bool PressurePreconditioner<Dim>::factorize_envelope(const PressureSchur<Dim>& schur) {
+  envelope_.start(first_);
+  for (std::size_t r = 0; r < order_.size(); ++r) {
+    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+      const double value = schur.compact[r][k];
+      if (value != 0) envelope_.at(place_[r], place_[schur.neighbour[r][k]]) += value;
+    }
+  }
+  return envelope_.factorize();
+}
+
+template <int Dim>
+bool PressurePreconditioner<Dim>::factorize_sparse(const PressureSchur<Dim>& schur, bool with_surface) {
+  constexpr std::size_t own = stencil_size<Dim> / 2;
+  sparse_.start(order_.size());
+  for (std::size_t r = 0; r < order_.size(); ++r) {
+    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+      const std::size_t r_j = schur.neighbour[r][k];
+      if (r_j > r || (r_j == r && k != own)) continue;
+      const double value = with_surface ? (schur.compact[r][k] + schur.compact[r_j][stencil_size<Dim> - 1 - k]) / 2
+                                        : schur.pressure[r][k] + (k == own ? 1e-3 * schur.compact[r][own] : 0);
+      if (value != 0 || k == own) sparse_.add(r, r_j, value);
+    }
+  }
+  return sparse_.factorize();
+}
+
+template <int Dim>
+void PressurePreconditioner<Dim>::prepare(const PressureSchur<Dim>& schur, const BlockTerms<Dim>& terms,
+                                          const Grid<Dim>& grid, double viscous_part) {
+  find_order(terms, grid);
+  find_envelope(schur);
+  ordered_.resize(order_.size());
+  narrow_ = EnvelopeLu::cost(first_) < widest && factorize_envelope(schur);
+  // The symmetric part can be indefinite in spray; T + e never is.
+  if (!narrow_ && !factorize_sparse(schur, true) && !factorize_sparse(schur, false)) {
+    throw std::runtime_error("solve: the pressure matrix is not positive definite");
+  }
+  of_mass_.clear();
+  if (viscous_part == 0) return;
+  for (std::size_t r = 0; r < order_.size(); ++r) {
+    of_mass_.push_back(viscous_part / (terms.m_i[terms.node[r]] * schur.scale[r] * schur.scale[r]));
+  }
+}
+
+template <int Dim>
+void PressurePreconditioner<Dim>::solve(const Values& r, Values& out) {
+  if (narrow_) {
+    for (std::size_t i = 0; i < order_.size(); ++i) ordered_[i] = r[order_[i]];
+    envelope_.solve(ordered_);
+    for (std::size_t i = 0; i < order_.size(); ++i) out[order_[i]] = ordered_[i];
+  } else {
+    out = r;
+    sparse_.solve(out);
+  }
+  for (std::size_t i = 0; i < of_mass_.size(); ++i) out[i] += of_mass_[i] * r[i];
+}
+
+template double viscous_part<2>(const BlockTerms<2>&, const Grid<2>&, const Fluid&, const matrix::StabilizationScale&);
+template double viscous_part<3>(const BlockTerms<3>&, const Grid<3>&, const Fluid&, const matrix::StabilizationScale&);
+template class PressurePreconditioner<2>;
+template class PressurePreconditioner<3>;
+
+}  // namespace minamo

@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// The preconditioner of the pressure Schur complement: the inverse of the compact matrix (E56), by LU within its
+/// envelope where that is narrow, by sparse Cholesky of its symmetric part where it is not; and for viscous liquids
+/// (E57)  plus b (m/rho)^-1, J. Cahouet, J.-P. Chabard, IJNMF 8 (1988) 869, doi:10.1002/fld.1650080802.
+
+#include "components/fluid.hpp"
+#include "components/step.hpp"
+#include "systems/solve/cholesky.hpp"
+#include "systems/solve/envelope_lu.hpp"
+#include "systems/solve/pressure_schur.hpp"
+
+namespace minamo {
+
+/// The factor of T in (E56).
+double laplacian_factor(const Rates& rates, const Fluid& fluid, const matrix::StabilizationScale& scale);
+
+/// b of (E57). With wave number k, inside the liquid, 1/S = 1/(1/(a/k^2 + mu') + tau k^2), a = rho c_a/c',
+/// mu' = c_v mu/c', c' = c_v - c_a g; b/rho is what it has beyond P^-1 at k = 2/h.
+template <int Dim>
+double viscous_part(const BlockTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
+                    const matrix::StabilizationScale& scale);
+
+template <int Dim>
+class PressurePreconditioner {
+ public:
+  /// \throws std::runtime_error if the matrix cannot be factorized.
+  void prepare(const PressureSchur<Dim>& schur, const BlockTerms<Dim>& terms, const Grid<Dim>& grid,
+               double viscous_part);
+  /// out = about S^-1 r.
+  void solve(const Values& r, Values& out);
+
+ private:
+  void find_order(const BlockTerms<Dim>& terms, const Grid<Dim>& grid);
+  void find_envelope(const PressureSchur<Dim>& schur);
+  bool factorize_envelope(const PressureSchur<Dim>& schur);
+  bool factorize_sparse(const PressureSchur<Dim>& schur, bool with_surface);
+
+  std::vector<std::uint32_t> order_;  ///< the rows, as the envelope has them
+  std::vector<std::uint32_t> place_;  ///< where the envelope has a row
+  std::vector<std::uint32_t> first_;
+  Values ordered_;
+  Values of_mass_;  ///< b/(V_I s_I^2); empty if not viscous
+  bool narrow_ = true;
+  EnvelopeLu envelope_;
+  SparseCholesky sparse_;
+};
+
+}  // namespace minamo

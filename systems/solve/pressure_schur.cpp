@@ -1,0 +1,153 @@
+#include "systems/solve/pressure_schur.hpp"
+
+#include "systems/solve/stencil.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+constexpr std::size_t rows_per_task = 128;
+
+/// Fills neighbours, push, spread, T + e without scales, and the mobility of a row.
+template <int Dim>
+void fill_row(const BlockTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r, PressureSchur<Dim>& s) {
+  constexpr std::size_t own = stencil_size<Dim> / 2;
+  const std::uint32_t i = t.node[r];
+  s.neighbour[r].fill(static_cast<std::uint32_t>(r));
+  s.push[r] = {};
+  s.spread[r] = {};
+  s.pressure[r].fill(0);
+  stencil.for_each_neighbour(i, [&](std::size_t k, std::uint32_t j) {
+    if (t.row[j] < 0) return;
+    const auto r_j = static_cast<std::size_t>(t.row[j]);
+    s.neighbour[r][k] = static_cast<std::uint32_t>(r_j);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      s.push[r][d][k] = t.divergence[r_j][Dim * (stencil_size<Dim> - 1 - k) + d];
+      s.spread[r][d][k] = t.c_v * t.divergence[r][Dim * k + d] + t.c_a * t.stabilization[r][(Dim + 1) * k + d];
+    }
+    s.pressure[r][k] = t.stabilization[r][(Dim + 1) * k + Dim];
+  });
+  s.pressure[r][own] += t.pressure_per_mass * t.m_i[i];
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const double friction = t.viscosity.empty() ? 0 : t.c_v * t.viscosity[r][Dim * (Dim * own + d) + d];
+    s.mobility[Dim * r + d] = t.fixed[i] >> d & 1 ? 0 : 1 / (t.c_a * t.m_i[i] + friction);
+  }
+}
+
+/// sum[place of J from I] += weight times row[place of J from K] for the J that both see, K at `to_k` from I.
+template <int Dim, int Axis = Dim - 1>
+void add_shifted(const Index<Dim>& to_k, double weight, const double* row, double* sum) {
+  constexpr std::ptrdiff_t stride = power(5, Axis);
+  const int shift = to_k[static_cast<std::size_t>(Axis)];
+  for (int j = std::max(0, shift); j < std::min(5, 5 + shift); ++j) {
+    if constexpr (Axis == 0) {
+      sum[j] += weight * row[j - shift];
+    } else {
+      add_shifted<Dim, Axis - 1>(to_k, weight, row + (j - shift) * stride, sum + j * stride);
+    }
+  }
+}
+
+/// Row of (E56) without scales.
+template <int Dim>
+void fill_compact(const BlockTerms<Dim>& t, std::size_t r, PressureSchur<Dim>& s) {
+  constexpr std::size_t own = stencil_size<Dim> / 2;
+  StencilRow<Dim>& sum = s.compact[r];
+  const double e_i = t.pressure_per_mass * t.m_i[t.node[r]];
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = t.of_laplacian * s.pressure[r][k];
+  sum[own] += (1 - t.of_laplacian) * e_i;
+  for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+    const std::size_t r_k = s.neighbour[r][k];
+    const std::uint32_t node = t.node[r_k];
+    Index<Dim> to_k;
+    std::size_t rest = k;
+    for (std::size_t d = 0; d < Dim; ++d, rest /= 5) to_k[d] = static_cast<int>(rest % 5) - 2;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (t.fixed[node] >> d & 1) continue;
+      const double both = t.divergence[r][Dim * k + d] + s.push[r][d][k];
+      if (both == 0) continue;
+      add_shifted<Dim>(to_k, t.c_v * both / (t.c_a * t.m_i[node]), s.push[r_k][d].data(), sum.data());
+    }
+  }
+}
+
+template <int Dim>
+void apply_scales(std::size_t r, PressureSchur<Dim>& s) {
+  for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+    const double of_column = s.scale[s.neighbour[r][k]];
+    for (std::size_t d = 0; d < Dim; ++d) {
+      s.push[r][d][k] *= of_column;
+      s.spread[r][d][k] *= s.scale[r];
+    }
+    s.pressure[r][k] *= s.scale[r] * of_column;
+    s.compact[r][k] *= s.scale[r] * of_column;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void PressureSchur<Dim>::assemble(const BlockTerms<Dim>& t, const Grid<Dim>& grid) {
+  constexpr std::size_t own = stencil_size<Dim> / 2;
+  const Stencil<Dim> stencil(grid);
+  const std::size_t n = t.node.size();
+  neighbour.resize(n);
+  push.resize(n);
+  spread.resize(n);
+  pressure.resize(n);
+  compact.resize(n);
+  scale.resize(n);
+  mobility.resize(Dim * n);
+  for_each_row(
+      n, [&](std::size_t r) { fill_row<Dim>(t, stencil, r, *this); }, rows_per_task);
+  for_each_row(
+      n,
+      [&](std::size_t r) {
+        fill_compact<Dim>(t, r, *this);
+        scale[r] = 1 / std::sqrt(std::max(pressure[r][own], compact[r][own]));
+      },
+      rows_per_task);
+  for_each_row(
+      n, [&](std::size_t r) { apply_scales<Dim>(r, *this); }, rows_per_task);
+}
+
+template <int Dim>
+void PressureSchur<Dim>::push_all(const Values& p, Values& out) const {
+  for_each_row(
+      rows(),
+      [&](std::size_t r) {
+        StencilRow<Dim> of_neighbour;
+        for (std::size_t k = 0; k < stencil_size<Dim>; ++k) of_neighbour[k] = p[neighbour[r][k]];
+        for (std::size_t d = 0; d < Dim; ++d) {
+          double sum = 0;
+          for (std::size_t k = 0; k < stencil_size<Dim>; ++k) sum += push[r][d][k] * of_neighbour[k];
+          out[Dim * r + d] = sum;
+        }
+      },
+      rows_per_task);
+}
+
+template <int Dim>
+void PressureSchur<Dim>::spread_all(const Values& w, const Values& p, Values& out) const {
+  for_each_row(
+      rows(),
+      [&](std::size_t r) {
+        double sum = 0;
+        for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+          const std::size_t r_j = neighbour[r][k];
+          double entry = pressure[r][k] * p[r_j];
+          for (std::size_t d = 0; d < Dim; ++d) entry += spread[r][d][k] * w[Dim * r_j + d];
+          sum += entry;
+        }
+        out[r] = sum;
+      },
+      rows_per_task);
+}
+
+template struct PressureSchur<2>;
+template struct PressureSchur<3>;
+
+}  // namespace minamo

@@ -1,0 +1,95 @@
+#include "systems/solve/right_hand_side.hpp"
+
+#include "engine/parallel.hpp"
+#include "systems/solve/equations.hpp"
+#include "systems/solve/stencil.hpp"
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+struct KnownTerms {
+  double c_v;
+  std::span<const std::uint8_t> fixed;
+  std::span<const double> m_i;
+  std::span<const Vec<Dim>> b_i;
+  std::span<const Vec<Dim>> v_known;
+  std::span<const Vec<Dim>> a_known;
+  std::span<const Vec<Dim>> u_i;
+  std::span<const std::uint32_t> node;
+  std::span<const typename matrix::Divergence<Dim>::value_type> divergence;
+  std::span<const double> source;
+  std::span<const typename matrix::Viscosity<Dim>::value_type> viscosity;  ///< empty if inviscid
+};
+
+/// Right-hand sides of (E25) and (E26) for one row.
+template <int Dim>
+void fill_row(const KnownTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r, double* out) {
+  const std::uint32_t i = t.node[r];
+  Vec<Dim> momentum = t.m_i[i] * (t.b_i[i] - t.a_known[i]);
+  double mass = t.source[r];
+  stencil.for_each_neighbour(i, [&](std::size_t to_j, std::uint32_t j) {
+    const Vec<Dim> v = t.v_known[j] + t.c_v * t.u_i[j];
+    if (v.isZero(0)) return;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      mass -= t.divergence[r][Dim * to_j + d] * v[static_cast<Eigen::Index>(d)];
+      if (t.viscosity.empty()) continue;
+      for (std::size_t e = 0; e < Dim; ++e) {
+        momentum[static_cast<Eigen::Index>(e)] -=
+            t.viscosity[r][Dim * (Dim * to_j + e) + d] * v[static_cast<Eigen::Index>(d)];
+      }
+    }
+  });
+  for (std::size_t d = 0; d < Dim; ++d) {
+    out[d] = t.fixed[i] >> d & 1 ? 0 : momentum[static_cast<Eigen::Index>(d)];
+  }
+  out[Dim] = mass;
+}
+
+template <int Dim>
+void fill(const KnownTerms<Dim>& terms, const Grid<Dim>& grid, std::vector<double>& right_hand_side) {
+  const Stencil<Dim> stencil(grid);
+  right_hand_side.resize(unknowns_per_row(Dim) * terms.node.size());
+  constexpr std::size_t rows_per_task = 256;
+  for_each_row(
+      terms.node.size(),
+      [&](std::size_t r) {
+        fill_row<Dim>(terms, stencil, r, right_hand_side.data() + unknowns_per_row(Dim) * r);
+      },
+      rows_per_task);
+}
+
+}  // namespace
+
+template <int Dim>
+void FillRightHandSide<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<node::Fixed> fixed,
+                                        Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+                                        Read<node::KnownVelocity<Dim>> v_known,
+                                        Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
+                                        Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                                        Read<matrix::StabilizationSource> source,
+                                        Write<matrix::RightHandSide> right_hand_side) const {
+  fill<Dim>({rates->velocity, fixed.span(), m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(),
+             node.span(), divergence.span(), source.span(), {}},
+            *grid, right_hand_side->values);
+}
+
+template <int Dim>
+void FillRightHandSideViscous<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+    Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
+    Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node,
+    Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
+    Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::RightHandSide> right_hand_side) const {
+  fill<Dim>({rates->velocity, fixed.span(), m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(),
+             node.span(), divergence.span(), source.span(), viscosity.span()},
+            *grid, right_hand_side->values);
+}
+
+template struct FillRightHandSide<2>;
+template struct FillRightHandSide<3>;
+template struct FillRightHandSideViscous<2>;
+template struct FillRightHandSideViscous<3>;
+
+}  // namespace minamo

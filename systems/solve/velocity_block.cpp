@@ -1,0 +1,117 @@
+#include "systems/solve/velocity_block.hpp"
+
+#include "systems/solve/cholesky.hpp"
+#include "systems/solve/stencil.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// Above this ratio of friction to inertia the diagonal alone converges too slowly.
+constexpr double most_friction = 0.02;
+
+template <int Dim>
+double largest_friction(const BlockTerms<Dim>& t) {
+  constexpr std::size_t own = stencil_size<Dim> / 2;
+  double largest = 0;
+  for (std::size_t r = 0; r < t.viscosity.size(); ++r) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double friction = t.c_v * t.viscosity[r][Dim * (Dim * own + d) + d];
+      largest = std::max(largest, friction / (t.c_a * t.m_i[t.node[r]]));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+template <int Dim>
+struct VelocityBlock<Dim>::Factors : SparseCholesky {};
+
+template <int Dim>
+VelocityBlock<Dim>::VelocityBlock() : factors_(std::make_unique<Factors>()) {}
+template <int Dim>
+VelocityBlock<Dim>::~VelocityBlock() = default;
+
+template <int Dim>
+void VelocityBlock<Dim>::prepare(const BlockTerms<Dim>& t, const Grid<Dim>& grid, const Values& mobility) {
+  terms_ = t;
+  mobility_ = &mobility;
+  factorized_ = largest_friction(t) > most_friction;
+  exact_ = t.viscosity.empty() || factorized_;
+  if (t.viscosity.empty()) return;
+  const Stencil<Dim> stencil(grid);
+  neighbour_.resize(t.node.size());
+  for_each_row(t.node.size(), [&](std::size_t r) {
+    neighbour_[r].fill(static_cast<std::uint32_t>(r));
+    stencil.for_each_neighbour(t.node[r], [&](std::size_t k, std::uint32_t j) {
+      if (t.row[j] >= 0) neighbour_[r][k] = static_cast<std::uint32_t>(t.row[j]);
+    });
+  });
+  if (!factorized_) return;
+  factors_->start(Dim * t.node.size());
+  for (std::size_t r = 0; r < t.node.size(); ++r) {
+    const std::uint32_t i = t.node[r];
+    for (std::size_t e = 0; e < Dim; ++e) {
+      const bool held = t.fixed[i] >> e & 1;
+      for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+        const std::size_t r_j = neighbour_[r][k];
+        const bool own = k == stencil_size<Dim> / 2;
+        if (r_j > r || (r_j == r && !own)) continue;
+        for (std::size_t d = 0; d < Dim; ++d) {
+          if (own && d > e) continue;
+          const bool diagonal = own && d == e;
+          if (held || (t.fixed[t.node[r_j]] >> d & 1)) {
+            if (diagonal) factors_->add(Dim * r + e, Dim * r_j + d, 1);
+            continue;
+          }
+          const double inertia = diagonal ? t.c_a * t.m_i[i] : 0;
+          const double friction = t.c_v * t.viscosity[r][Dim * (Dim * k + e) + d];
+          if (diagonal || friction != 0) factors_->add(Dim * r + e, Dim * r_j + d, inertia + friction);
+        }
+      }
+    }
+  }
+  if (!factors_->factorize()) throw std::runtime_error("solve: the velocity block is not positive definite");
+}
+
+template <int Dim>
+void VelocityBlock<Dim>::solve(Values& v) const {
+  if (!factorized_) {
+    for_each_row(v.size(), [&](std::size_t i) { v[i] *= (*mobility_)[i]; });
+    return;
+  }
+  const auto hold = [&] {
+    for_each_row(v.size(), [&](std::size_t i) {
+      if ((*mobility_)[i] == 0) v[i] = 0;
+    });
+  };
+  hold();
+  factors_->solve(v);
+}
+
+template <int Dim>
+void VelocityBlock<Dim>::subtract_product(const Values& u, Values& out) const {
+  for_each_row(
+      neighbour_.size(),
+      [&](std::size_t r) {
+        const std::uint32_t i = terms_.node[r];
+        for (std::size_t e = 0; e < Dim; ++e) {
+          double sum = terms_.c_a * terms_.m_i[i] * u[Dim * r + e];
+          for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+            const std::size_t r_j = neighbour_[r][k];
+            if (r_j == r && k != stencil_size<Dim> / 2) continue;
+            for (std::size_t d = 0; d < Dim; ++d) {
+              sum += terms_.c_v * terms_.viscosity[r][Dim * (Dim * k + e) + d] * u[Dim * r_j + d];
+            }
+          }
+          out[Dim * r + e] = terms_.fixed[i] >> e & 1 ? 0 : out[Dim * r + e] - sum;
+        }
+      },
+      256);
+}
+
+template class VelocityBlock<2>;
+template class VelocityBlock<3>;
+
+}  // namespace minamo

@@ -1,0 +1,37 @@
+#pragma once
+/// \file
+/// The velocity block A = c_a m + c_v K of the equations of a step, and its inverse: the diagonal where viscosity is
+/// small against inertia, a sparse Cholesky factorization where it is not.
+
+#include "systems/solve/pressure_schur.hpp"
+
+#include <memory>
+
+namespace minamo {
+
+template <int Dim>
+class VelocityBlock {
+ public:
+  VelocityBlock();
+  ~VelocityBlock();
+  /// \param mobility  1/A_II; kept by reference
+  /// \throws std::runtime_error if the factorization fails.
+  void prepare(const BlockTerms<Dim>& terms, const Grid<Dim>& grid, const Values& mobility);
+  /// Whether solve() is the inverse; otherwise it divides by the diagonal.
+  bool exact() const { return exact_; }
+  /// v = A^-1 v; zero towards walls.
+  void solve(Values& v) const;
+  /// out -= A u; zero towards walls.
+  void subtract_product(const Values& u, Values& out) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+  const Values* mobility_ = nullptr;
+  BlockTerms<Dim> terms_{};
+  std::vector<std::array<std::uint32_t, stencil_size<Dim>>> neighbour_;
+  bool exact_ = true;
+  bool factorized_ = false;
+};
+
+}  // namespace minamo
