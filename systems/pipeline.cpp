@@ -91,7 +91,7 @@ std::vector<std::string> measure_systems(const Needs& needs, const std::string& 
 
 std::vector<std::string> volume_systems(const Needs& needs) {
   if (needs.volume == "projection") {
-    return {"gather_node_volume", "find_volume_excess", "solve_volume_umfpack", "shift_particles"};
+    return {"gather_node_volume", "find_volume_excess", "solve_volume_" + needs.solver, "shift_particles"};
   }
   if (needs.volume == "delta") return {"gather_node_volume", "shift_by_delta"};
   return {};

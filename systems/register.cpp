@@ -16,9 +16,9 @@
 #include "systems/output/history.hpp"
 #include "systems/solve/assemble.hpp"
 #include "systems/solve/block.hpp"
-#include "systems/solve/right_hand_side.hpp"
 #include "systems/solve/inertia.hpp"
 #include "systems/solve/monolithic.hpp"
+#include "systems/solve/right_hand_side.hpp"
 #include "systems/solve/stabilization.hpp"
 #include "systems/solve/umfpack.hpp"
 #include "systems/solve/vms.hpp"
@@ -103,6 +103,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<GatherNodeVolume>("gather_node_volume");
   registry.add<FindVolumeExcess>("find_volume_excess");
   registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
+  registry.add<SolveVolumeBlock>("solve_volume_block");
   registry.add<ShiftParticles>("shift_particles");
   registry.add<ShiftByDelta>("shift_by_delta");
 

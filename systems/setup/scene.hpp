@@ -103,6 +103,7 @@ struct Scene {
   std::string volume;
   double volume_rate = 0.1;
   std::string solver;
+  double solver_tolerance = 1e-8;
   TimeScene time;
   OutputScene output;
   ExactScene exact;

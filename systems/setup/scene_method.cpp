@@ -36,6 +36,15 @@ void read_integrator(Input& input, Scene& scene) {
       input.variant("scheme", "integrator", "midpoint", {{"midpoint", [](Input&) {}}, {"newmark", read_newmark}});
 }
 
+void read_solver(Input& input, Scene& scene) {
+  const auto read_tolerance = [&](Input& in) {
+    scene.solver_tolerance = in.number(
+        "tolerance", {.doc = "residual over right-hand side", .fallback = 1e-8, .at_least = 1e-13, .at_most = 1e-3});
+  };
+  scene.solver =
+      input.variant("scheme", "linear solver", "block", {{"block", read_tolerance}, {"umfpack", [](Input&) {}}});
+}
+
 void read_volume(Input& input, Scene& scene) {
   const auto read_rate = [&](Input& in) {
     scene.volume_rate = in.number(
@@ -57,9 +66,7 @@ void read_method(Input& input, Scene& scene) {
     s.stabilization = in.choice("scheme", std::vector<std::string>{"oss", "pspg", "vms"}, "stabilization", "pspg");
   });
   block("volume", "volume correction", read_volume);
-  block("solver", "linear solver", [](Input& in, Scene& s) {
-    s.solver = in.choice("scheme", std::vector<std::string>{"block", "umfpack"}, "linear solver", "umfpack");
-  });
+  block("solver", "linear solver", read_solver);
 }
 
 }  // namespace minamo

@@ -192,6 +192,7 @@ void seed_world(const Scene& scene, const std::string& file, World& world) {
   world.resource<BodyForce>() = {scene.body_force};
   world.resource<NewmarkParameters>() = {scene.newmark_beta, scene.newmark_gamma};
   world.resource<VolumeRate>() = {scene.volume_rate};
+  world.resource<SolverTolerance>() = {scene.solver_tolerance};
   world.resource<XpicOrder>() = {scene.xpic_order};
   world.resource<FlipBlend>() = {scene.flip_blend};
   set_walls<Dim>(scene, grid, world);

@@ -55,8 +55,7 @@ struct SolveBlockViscous {
                   Read<node::Pressure> p_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                   Read<matrix::Viscosity<Dim>> viscosity, Read<matrix::RightHandSide> right_hand_side,
-                  Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
-                  Write<SolveReport> report) const;
+                  Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution, Write<SolveReport> report) const;
 };
 
 }  // namespace minamo

@@ -2,6 +2,8 @@
 
 #include <Eigen/CholmodSupport>
 
+extern "C" void omp_set_max_active_levels(int);
+
 namespace minamo {
 
 struct SparseCholesky::Impl {
@@ -9,11 +11,13 @@ struct SparseCholesky::Impl {
   std::vector<int> outer, inner, known_outer, known_inner;
   Values values;
   std::size_t rows = 0;
-  // Row r of the lower triangle is column r of the upper one. Simplicial: no BLAS and no threads of its own.
-  Eigen::CholmodSimplicialLLT<Matrix, Eigen::Upper> backend;
+  // Row r of the lower triangle is column r of the upper one.
+  Eigen::CholmodDecomposition<Matrix, Eigen::Upper> backend;
 };
 
-SparseCholesky::SparseCholesky() : impl_(std::make_unique<Impl>()) {}
+SparseCholesky::SparseCholesky() : impl_(std::make_unique<Impl>()) {
+  impl_->backend.cholmod().print = 0;  // factorize() tells
+}
 SparseCholesky::~SparseCholesky() = default;
 
 void SparseCholesky::start(std::size_t rows) {
@@ -37,12 +41,16 @@ void SparseCholesky::add(std::size_t row, std::size_t column, double value) {
 }
 
 bool SparseCholesky::factorize() {
+  // CHOLMOD asks OpenMP for four threads whatever the environment says; threads are TBB's business.
+  omp_set_max_active_levels(0);
   auto& [outer, inner, known_outer, known_inner, values, rows, backend] = *impl_;
   while (outer.size() <= rows) outer.push_back(static_cast<int>(inner.size()));
   const auto size = static_cast<Eigen::Index>(rows);
   const Eigen::Map<const Impl::Matrix> matrix(size, size, static_cast<Eigen::Index>(values.size()), outer.data(),
                                               inner.data(), values.data());
   if (outer != known_outer || inner != known_inner) {
+    // Dense blocks pay from a few thousand rows on.
+    backend.setMode(rows < 2000 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodSupernodalLLt);
     backend.analyzePattern(matrix);
     known_outer = outer;
     known_inner = inner;

@@ -1,18 +1,16 @@
 #include "systems/solve/envelope_lu.hpp"
 
+#include <Eigen/Core>
+
 namespace minamo {
 
 namespace {
 
-/// Four sums side by side, so that additions need not wait for each other.
+using Vector = Eigen::Map<const Eigen::VectorXd>;
+
 double dot(const double* x, const double* y, std::size_t count) {
-  std::array<double, 4> sum{};
-  std::size_t k = 0;
-  for (; k + 4 <= count; k += 4) {
-    for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += x[k + lane] * y[k + lane];
-  }
-  for (; k < count; ++k) sum[0] += x[k] * y[k];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  const auto size = static_cast<Eigen::Index>(count);
+  return Vector(x, size).dot(Vector(y, size));
 }
 
 }  // namespace

@@ -16,8 +16,7 @@ class EnvelopeLu {
   std::size_t rows() const { return first_.size(); }
   /// Entry of the lower or upper part; \pre within the envelope.
   double& at(std::size_t row, std::size_t column) {
-    return column < row ? lower_[start_[row] + column - first_[row]]
-                        : upper_[start_[column] + row - first_[column]];
+    return column < row ? lower_[start_[row] + column - first_[row]] : upper_[start_[column] + row - first_[column]];
   }
   /// False if a pivot is zero or not finite.
   bool factorize();
@@ -29,7 +28,8 @@ class EnvelopeLu {
 
  private:
   std::vector<std::uint32_t> first_;
-  std::vector<std::size_t> start_;  ///< of row i of the lower and column i of the upper part; both end with the diagonal
+  std::vector<std::size_t>
+      start_;  ///< of row i of the lower and column i of the upper part; both end with the diagonal
   Values lower_;
   Values upper_;
 };

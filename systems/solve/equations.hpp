@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// How the unknowns of a step are numbered, whatever the solver: unknown (d + 1) r + i of matrix row r is component i of
-/// the displacement, and the pressure for i = d.
+/// How the unknowns of a step are numbered, whatever the solver: unknown (d + 1) r + i of matrix row r is component i
+/// of the displacement, and the pressure for i = d.
 
 #include "components/types.hpp"
 

@@ -72,8 +72,8 @@ class Gmres {
 
   /// Builds up to `restart` basis vectors from the residual in the first, and the triangular system of their weights.
   template <class Apply, class Precondition>
-  std::size_t cycle(const Apply& apply, const Precondition& precondition, double target,
-                    std::int64_t most_iterations, Report& report) {
+  std::size_t cycle(const Apply& apply, const Precondition& precondition, double target, std::int64_t most_iterations,
+                    Report& report) {
     scale(1 / report.residual, basis_[0]);
     rest_[0] = report.residual;
     std::size_t k = 0;

@@ -136,21 +136,30 @@ void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid
                                          Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
                                          Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
-  fill_matrix<Dim>({rates->velocity, rates->acceleration,
-                    pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
-                    m_i.span(), node.span(), divergence.span(), stabilization.span(), {}},
+  fill_matrix<Dim>({rates->velocity,
+                    rates->acceleration,
+                    pressure_per_mass(clock->step, fluid->density, grid->spacing),
+                    row.span(),
+                    fixed.span(),
+                    m_i.span(),
+                    node.span(),
+                    divergence.span(),
+                    stabilization.span(),
+                    {}},
                    Stencil<Dim>(*grid), *pattern, values->values);
 }
 
 template <int Dim>
-void AssembleMonolithicViscous<Dim>::operator()(
-    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-    Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
-    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-    Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
-  fill_matrix<Dim>({rates->velocity, rates->acceleration,
-                    pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
-                    m_i.span(), node.span(), divergence.span(), stabilization.span(), viscosity.span()},
+void AssembleMonolithicViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid,
+                                                Read<Rates> rates, Read<node::Row> row, Read<node::Fixed> fixed,
+                                                Read<node::Mass> m_i, Read<matrix::Node> node,
+                                                Read<matrix::Divergence<Dim>> divergence,
+                                                Read<matrix::Stabilization<Dim>> stabilization,
+                                                Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern,
+                                                Write<matrix::Values> values) const {
+  fill_matrix<Dim>({rates->velocity, rates->acceleration, pressure_per_mass(clock->step, fluid->density, grid->spacing),
+                    row.span(), fixed.span(), m_i.span(), node.span(), divergence.span(), stabilization.span(),
+                    viscosity.span()},
                    Stencil<Dim>(*grid), *pattern, values->values);
 }
 

@@ -11,6 +11,17 @@ namespace {
 
 constexpr std::size_t rows_per_task = 128;
 
+template <int Dim>
+using StencilArray = Eigen::Array<double, static_cast<int>(stencil_size<Dim>), 1>;
+
+constexpr Eigen::Index at(std::size_t k) { return static_cast<Eigen::Index>(k); }
+
+/// A sum that is vectorized: Eigen adds in the order of its packets, the same on every call.
+template <int Dim>
+double weighted_sum(const StencilRow<Dim>& weight, const StencilArray<Dim>& value) {
+  return (Eigen::Map<const StencilArray<Dim>>(weight.data()) * value).sum();
+}
+
 /// Fills neighbours, push, spread, T + e without scales, and the mobility of a row.
 template <int Dim>
 void fill_row(const BlockTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r, PressureSchur<Dim>& s) {
@@ -119,13 +130,9 @@ void PressureSchur<Dim>::push_all(const Values& p, Values& out) const {
   for_each_row(
       rows(),
       [&](std::size_t r) {
-        StencilRow<Dim> of_neighbour;
-        for (std::size_t k = 0; k < stencil_size<Dim>; ++k) of_neighbour[k] = p[neighbour[r][k]];
-        for (std::size_t d = 0; d < Dim; ++d) {
-          double sum = 0;
-          for (std::size_t k = 0; k < stencil_size<Dim>; ++k) sum += push[r][d][k] * of_neighbour[k];
-          out[Dim * r + d] = sum;
-        }
+        StencilArray<Dim> of_neighbour;
+        for (std::size_t k = 0; k < stencil_size<Dim>; ++k) of_neighbour[at(k)] = p[neighbour[r][k]];
+        for (std::size_t d = 0; d < Dim; ++d) out[Dim * r + d] = weighted_sum<Dim>(push[r][d], of_neighbour);
       },
       rows_per_task);
 }
@@ -135,13 +142,15 @@ void PressureSchur<Dim>::spread_all(const Values& w, const Values& p, Values& ou
   for_each_row(
       rows(),
       [&](std::size_t r) {
-        double sum = 0;
+        StencilArray<Dim> p_of_neighbour;
+        std::array<StencilArray<Dim>, Dim> w_of_neighbour;
         for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
           const std::size_t r_j = neighbour[r][k];
-          double entry = pressure[r][k] * p[r_j];
-          for (std::size_t d = 0; d < Dim; ++d) entry += spread[r][d][k] * w[Dim * r_j + d];
-          sum += entry;
+          p_of_neighbour[at(k)] = p[r_j];
+          for (std::size_t d = 0; d < Dim; ++d) w_of_neighbour[d][at(k)] = w[Dim * r_j + d];
         }
+        double sum = weighted_sum<Dim>(pressure[r], p_of_neighbour);
+        for (std::size_t d = 0; d < Dim; ++d) sum += weighted_sum<Dim>(spread[r][d], w_of_neighbour[d]);
         out[r] = sum;
       },
       rows_per_task);

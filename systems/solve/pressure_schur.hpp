@@ -5,10 +5,10 @@
 /// (E55)  S = B A^-1 D^T + T + e, B = c_v D + c_a G: what (E25), (E26) leave when the displacement is eliminated, A the
 /// velocity block.
 /// (E56)  P = (1 + (c_v - c_a g)/(c_a rho tau)) T + e + c_v N (c_a m)^-1 D^T within the stencil of 5^d nodes,
-/// N_IJ = D_IJ + D_JI: a compact matrix near S. Inside the liquid N is zero and D m^-1 D^T is nearly L/rho = T/(rho tau);
-/// G = g D_JI, g = tau rho with PSPG, where the first factor is 1, g = 0 with OSS. At free surfaces N has the condition
-/// p = 0, without which pressures would hang on e alone.
-/// Rows and columns are scaled by s_I = S_II^-1/2, so that light nodes weigh as much in a residual as heavy ones.
+/// N_IJ = D_IJ + D_JI: a compact matrix near S. Inside the liquid N is zero and D m^-1 D^T is nearly L/rho = T/(rho
+/// tau); G = g D_JI, g = tau rho with PSPG, where the first factor is 1, g = 0 with OSS. At free surfaces N has the
+/// condition p = 0, without which pressures would hang on e alone. Rows and columns are scaled by s_I = S_II^-1/2, so
+/// that light nodes weigh as much in a residual as heavy ones.
 
 #include "components/grid.hpp"
 #include "components/matrix.hpp"

@@ -54,9 +54,7 @@ void fill(const KnownTerms<Dim>& terms, const Grid<Dim>& grid, std::vector<doubl
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
       terms.node.size(),
-      [&](std::size_t r) {
-        fill_row<Dim>(terms, stencil, r, right_hand_side.data() + unknowns_per_row(Dim) * r);
-      },
+      [&](std::size_t r) { fill_row<Dim>(terms, stencil, r, right_hand_side.data() + unknowns_per_row(Dim) * r); },
       rows_per_task);
 }
 
@@ -70,18 +68,27 @@ void FillRightHandSide<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates,
                                         Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::StabilizationSource> source,
                                         Write<matrix::RightHandSide> right_hand_side) const {
-  fill<Dim>({rates->velocity, fixed.span(), m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(),
-             node.span(), divergence.span(), source.span(), {}},
+  fill<Dim>({rates->velocity,
+             fixed.span(),
+             m_i.span(),
+             b_i.span(),
+             v_known.span(),
+             a_known.span(),
+             u_i.span(),
+             node.span(),
+             divergence.span(),
+             source.span(),
+             {}},
             *grid, right_hand_side->values);
 }
 
 template <int Dim>
 void FillRightHandSideViscous<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-    Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
-    Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node,
-    Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
-    Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::RightHandSide> right_hand_side) const {
+    Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+    Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+    Read<matrix::StabilizationSource> source, Read<matrix::Viscosity<Dim>> viscosity,
+    Write<matrix::RightHandSide> right_hand_side) const {
   fill<Dim>({rates->velocity, fixed.span(), m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(),
              node.span(), divergence.span(), source.span(), viscosity.span()},
             *grid, right_hand_side->values);

@@ -56,7 +56,8 @@ void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
                                     Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                     Read<matrix::Laplacian<Dim>> laplacian,
                                     Write<matrix::Stabilization<Dim>> stabilization,
-                                    Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const {
+                                    Write<matrix::StabilizationSource> source,
+                                    Write<matrix::StabilizationScale> scale) const {
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   const double tau_rho = tau * fluid->density;
   *scale = {.pressure = tau, .acceleration = tau_rho};
@@ -76,7 +77,8 @@ void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
                                    Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
                                    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
                                    Write<matrix::Stabilization<Dim>> stabilization,
-                                   Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const {
+                                   Write<matrix::StabilizationSource> source,
+                                   Write<matrix::StabilizationScale> scale) const {
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   *scale = {.pressure = tau, .acceleration = 0};
   constexpr double full_enough = 0.6;  // without this guard the dam break blows up at its surface

@@ -25,7 +25,8 @@ struct StabilizePspg {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
                   Read<node::BodyForce<Dim>> b_i, Read<node::KnownAcceleration<Dim>> a_known, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
-                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const;
+                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source,
+                  Write<matrix::StabilizationScale> scale) const;
 };
 
 /// (E48)  OSS, orthogonal subscales: sum_p tau V_p grad S_I . (grad p_p - g_p), tau of (E24), g the lumped projection
@@ -37,7 +38,8 @@ struct StabilizeOss {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row, Read<node::Mass> m_i,
                   Read<node::BodyForce<Dim>> b_i, Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
-                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const;
+                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source,
+                  Write<matrix::StabilizationScale> scale) const;
 };
 
 /// (E49)  grad p_p = sum_I p_I grad S_I(y_p), kept for the next step.

@@ -8,7 +8,7 @@ namespace minamo {
 namespace {
 
 /// Above this ratio of friction to inertia the diagonal alone converges too slowly.
-constexpr double most_friction = 0.02;
+constexpr double most_friction = 0.5;
 
 template <int Dim>
 double largest_friction(const BlockTerms<Dim>& t) {
@@ -37,8 +37,10 @@ template <int Dim>
 void VelocityBlock<Dim>::prepare(const BlockTerms<Dim>& t, const Grid<Dim>& grid, const Values& mobility) {
   terms_ = t;
   mobility_ = &mobility;
-  factorized_ = largest_friction(t) > most_friction;
-  exact_ = t.viscosity.empty() || factorized_;
+  // A row of K adds up to zero, and its entries besides the diagonal to at most three times that.
+  const double friction = 3 * largest_friction(t);
+  factorized_ = friction > most_friction;
+  error_ = factorized_ ? 0 : friction;
   if (t.viscosity.empty()) return;
   const Stencil<Dim> stencil(grid);
   neighbour_.resize(t.node.size());
@@ -66,8 +68,8 @@ void VelocityBlock<Dim>::prepare(const BlockTerms<Dim>& t, const Grid<Dim>& grid
             continue;
           }
           const double inertia = diagonal ? t.c_a * t.m_i[i] : 0;
-          const double friction = t.c_v * t.viscosity[r][Dim * (Dim * k + e) + d];
-          if (diagonal || friction != 0) factors_->add(Dim * r + e, Dim * r_j + d, inertia + friction);
+          const double entry = t.c_v * t.viscosity[r][Dim * (Dim * k + e) + d];
+          if (diagonal || entry != 0) factors_->add(Dim * r + e, Dim * r_j + d, inertia + entry);
         }
       }
     }

@@ -17,8 +17,9 @@ class VelocityBlock {
   /// \param mobility  1/A_II; kept by reference
   /// \throws std::runtime_error if the factorization fails.
   void prepare(const BlockTerms<Dim>& terms, const Grid<Dim>& grid, const Values& mobility);
-  /// Whether solve() is the inverse; otherwise it divides by the diagonal.
-  bool exact() const { return exact_; }
+  /// How much of a vector about is left of v - A solve(v): 0 if solve() is the inverse, else it divides by the
+  /// diagonal.
+  double error() const { return error_; }
   /// v = A^-1 v; zero towards walls.
   void solve(Values& v) const;
   /// out -= A u; zero towards walls.
@@ -30,7 +31,7 @@ class VelocityBlock {
   const Values* mobility_ = nullptr;
   BlockTerms<Dim> terms_{};
   std::vector<std::array<std::uint32_t, stencil_size<Dim>>> neighbour_;
-  bool exact_ = true;
+  double error_ = 0;
   bool factorized_ = false;
 };
 

@@ -35,7 +35,8 @@ void StabilizeVms<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
                                    Read<node::Velocity<Dim>> v_i, Read<node::BodyForce<Dim>> b_i,
                                    Read<node::KnownAcceleration<Dim>> a_known,
                                    Write<matrix::Stabilization<Dim>> stabilization,
-                                   Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const {
+                                   Write<matrix::StabilizationSource> source,
+                                   Write<matrix::StabilizationScale> scale) const {
   // That of liquid at rest stands for all cells.
   const double at_rest = tau_1(clock->step, grid->spacing, *fluid, 0);
   *scale = {.pressure = at_rest, .acceleration = at_rest * fluid->density};

@@ -20,7 +20,8 @@ struct StabilizeVms {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
                   Read<Moments<Dim>> moments, Read<node::Row> row, Read<node::Velocity<Dim>> v_i,
                   Read<node::BodyForce<Dim>> b_i, Read<node::KnownAcceleration<Dim>> a_known,
-                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const;
+                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source,
+                  Write<matrix::StabilizationScale> scale) const;
 };
 
 /// (E51)  sum_p tau_2 V_p div v_p grad S_I in the momentum balance, tau_2 = h_s^2/(c_1 tau_1): added to K_IJ.

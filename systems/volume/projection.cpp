@@ -2,6 +2,7 @@
 
 #include "systems/grid/node_volume.hpp"
 #include "systems/grid/place.hpp"
+#include "systems/solve/equations.hpp"
 #include "systems/solve/stencil.hpp"
 #include "systems/volume/shift.hpp"
 
@@ -29,20 +30,48 @@ void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Volume> 
   });
 }
 
+namespace {
+
+/// (0; c_v r E_I)
+std::vector<double> volume_source(int dim, double scale, std::span<const std::uint32_t> node,
+                                  std::span<const double> e_i) {
+  const std::size_t width = unknowns_per_row(dim);
+  std::vector<double> b(width * node.size(), 0.0);
+  for (std::size_t r = 0; r < node.size(); ++r) b[width * r + width - 1] = scale * e_i[node[r]];
+  return b;
+}
+
+template <int Dim>
+void take_shift(const std::vector<double>& x, std::span<const std::int32_t> row, std::span<Vec<Dim>> d_i) {
+  for_each_row(d_i.size(), [&](std::size_t i) {
+    d_i[i].setZero();
+    if (row[i] < 0) return;
+    const double* unknowns = x.data() + unknowns_per_row(Dim) * static_cast<std::size_t>(row[i]);
+    for (int d = 0; d < Dim; ++d) d_i[i][d] = unknowns[d];
+  });
+}
+
+/// A shift is a correction: two digits less of it do no harm.
+double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2, 100 * tolerance.relative); }
+
+}  // namespace
+
 template <int Dim>
 void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row,
                                          Read<matrix::Node> node, Read<node::VolumeExcess> e_i,
                                          Read<matrix::Values>,  // the backend refines its solution with them
                                          Update<UmfpackFactors> factors, Write<node::Shift<Dim>> d_i) const {
-  std::vector<double> b((Dim + 1) * node.size(), 0.0);
-  for (std::size_t r = 0; r < node.size(); ++r) b[(Dim + 1) * r + Dim] = rates->velocity * rate->rate * e_i[node[r]];
-  const std::vector<double> x = solve_again(*factors, b);
-  for_each_row(d_i.size(), [&](std::size_t i) {
-    d_i[i].setZero();
-    if (row[i] < 0) return;
-    for (int d = 0; d < Dim; ++d)
-      d_i[i][d] = x[(Dim + 1) * static_cast<std::size_t>(row[i]) + static_cast<std::size_t>(d)];
-  });
+  const auto b = volume_source(Dim, rates->velocity * rate->rate, node.span(), e_i.span());
+  take_shift<Dim>(solve_again(*factors, b), row.span(), d_i.span());
+}
+
+template <int Dim>
+void SolveVolumeBlock<Dim>::operator()(Read<Clock> clock, Read<Rates> rates, Read<VolumeRate> rate,
+                                       Read<SolverTolerance> tolerance, Read<node::Row> row, Read<matrix::Node> node,
+                                       Read<node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
+                                       Write<node::Shift<Dim>> d_i) const {
+  const auto b = volume_source(Dim, rates->velocity * rate->rate, node.span(), e_i.span());
+  take_shift<Dim>(solve_again<Dim>(*factors, b, *clock, shift_tolerance(*tolerance)), row.span(), d_i.span());
 }
 
 template <int Dim>
@@ -63,6 +92,8 @@ template struct FindVolumeExcess<2>;
 template struct FindVolumeExcess<3>;
 template struct SolveVolumeUmfpack<2>;
 template struct SolveVolumeUmfpack<3>;
+template struct SolveVolumeBlock<2>;
+template struct SolveVolumeBlock<3>;
 template struct ShiftParticles<2>;
 template struct ShiftParticles<3>;
 

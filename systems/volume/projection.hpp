@@ -13,6 +13,7 @@
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/system.hpp"
+#include "systems/solve/block.hpp"
 #include "systems/solve/umfpack.hpp"
 
 namespace minamo {
@@ -39,6 +40,15 @@ struct SolveVolumeUmfpack {
   void operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row, Read<matrix::Node> node,
                   Read<node::VolumeExcess> e_i, Read<matrix::Values> values, Update<UmfpackFactors> factors,
                   Write<node::Shift<Dim>> d_i) const;
+};
+
+template <int Dim>
+struct SolveVolumeBlock {
+  static constexpr std::string_view doc = "(E37) d_I, by the operators of the step";
+  /// \throws std::runtime_error if the iteration does not converge.
+  void operator()(Read<Clock> clock, Read<Rates> rates, Read<VolumeRate> rate, Read<SolverTolerance> tolerance,
+                  Read<node::Row> row, Read<matrix::Node> node, Read<node::VolumeExcess> e_i,
+                  Update<BlockFactors<Dim>> factors, Write<node::Shift<Dim>> d_i) const;
 };
 
 /// (E38)  x_p += sum_I S_I(x_p) d_I, at most 0.1 h.

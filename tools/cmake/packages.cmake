@@ -49,5 +49,6 @@ elseif(NOT TARGET minamo::blas)
 endif()
 
 minamo_import(suitesparse umfpack.h LIBRARIES umfpack cholmod suitesparseconfig SUFFIXES suitesparse)
-target_link_libraries(minamo::suitesparse INTERFACE minamo::blas)
+# CHOLMOD runs on the compiler's OpenMP, which is told to keep to one thread.
+target_link_libraries(minamo::suitesparse INTERFACE minamo::blas gomp)
 minamo_import(hdf5 hdf5.h LIBRARIES hdf5 SUFFIXES hdf5/serial)

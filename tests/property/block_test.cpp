@@ -1,0 +1,218 @@
+#include "support/dense_equations.hpp"
+#include "support/scenes.hpp"
+
+#include "components/grid.hpp"
+#include "components/matrix.hpp"
+#include "engine/clock.hpp"
+#include "engine/linear_solver.hpp"
+#include "systems/solve/cholesky.hpp"
+#include "systems/solve/envelope_lu.hpp"
+#include "systems/solve/gmres.hpp"
+
+#include <Eigen/Dense>
+
+#include <random>
+
+using namespace minamo;
+using namespace std::string_literals;
+using namespace minamo::scene_run;
+
+namespace {
+
+/// A lump in the corner of a box, a far particle, walls of both kinds; thick or thin as `viscosity` says.
+template <int Dim>
+Json lump_and_drop(double viscosity) {
+  Json scene = Json::parse(R"json({
+    "dimension": 2, "grid": {"low": [0, 0], "high": [1, 0.8], "cells": [10, 8]},
+    "walls": {"x": ["slip", "no_slip"], "y": "slip"},
+    "fluid": {"density": 800}, "body_force": ["1 + y", -9.81],
+    "particles": [
+      {"shape": {"box": {"low": [0, 0], "high": [0.5, 0.4]}}, "per_cell": 2, "arrangement": "jittered", "seed": 3,
+       "velocity": ["sin(3*x)*y", "x*x - y"]},
+      {"shape": {"box": {"low": [0.81, 0.61], "high": [0.82, 0.62]}}, "per_cell": 10, "velocity": [1, 2]}],
+    "transfer": {"scheme": "tpic"}, "integrator": {"scheme": "midpoint"}, "volume": {"scheme": "projection"},
+    "time": {"end": 1, "step": 0.01}})json");
+  scene["fluid"]["viscosity"] = viscosity;
+  if constexpr (Dim == 3) {
+    scene["dimension"] = 3;
+    scene["grid"] = Json::parse(R"({"low": [0, 0, 0], "high": [1, 0.8, 0.4], "cells": [10, 8, 4]})");
+    scene["body_force"] = {"1 + y", -9.81, "x"};
+    for (auto& region : scene["particles"]) {
+      auto& box = region["shape"]["box"];
+      box["low"].push_back(box["low"][1]);
+      box["high"].push_back(box["high"][1]);
+      region["velocity"].push_back(0.5);
+    }
+    scene["particles"][1]["shape"]["box"]["low"][2] = 0.21;
+    scene["particles"][1]["shape"]["box"]["high"][2] = 0.22;
+  }
+  return scene;
+}
+
+/// Largest distance of particles of two runs, in units of h.
+template <int Dim>
+double distance(SceneRun& a, SceneRun& b) {
+  const auto x_a = by_id<particle::Position<Dim>>(a.world());
+  const auto x_b = by_id<particle::Position<Dim>>(b.world());
+  double largest = 0;
+  for (std::size_t p = 0; p < x_a.size(); ++p) largest = std::max(largest, (x_a[p] - x_b[p]).norm());
+  return largest / a.world().resource<Grid<Dim>>().spacing;
+}
+
+/// A matrix with a symmetric pattern of the given half width, its symmetric part positive definite.
+Eigen::MatrixXd random_band(int rows, int half_width, double skewness) {
+  std::mt19937 engine(7);
+  const auto number = [&] { return static_cast<double>(engine()) / 4294967296.0 - 0.5; };
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, rows);
+  for (int i = 0; i < rows; ++i) {
+    a(i, i) = half_width;
+    for (int j = std::max(0, i - half_width); j < i; ++j) {
+      const double s = number();
+      const double skew = skewness * number();
+      a(i, j) = s + skew;
+      a(j, i) = s - skew;
+    }
+  }
+  return a;
+}
+
+Values as_values(const Eigen::VectorXd& x) { return {x.begin(), x.end()}; }
+
+double difference(const Values& x, const Eigen::VectorXd& y) {
+  return (Eigen::Map<const Eigen::VectorXd>(x.data(), y.size()) - y).norm() / y.norm();
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property]", ((int Dim), Dim), 2, 3) {
+  // mu dt/(rho h^2) from 0 to 125, through the diagonal velocity block and the factorized one.
+  const double viscosity = GENERATE(0.0, 1e-3, 3.0, 1e2, 1e5);
+  // The residual of the stiffest liquid does not fall below 3e-10 of its right-hand side, which is rounding.
+  const double tolerance = viscosity > 1e4 ? 1e-9 : 1e-11;
+  const std::string stabilization = GENERATE("pspg", "oss", "vms");
+  const std::string integrator = GENERATE("midpoint", "newmark");
+  CAPTURE(viscosity, stabilization, integrator);
+  const Json scene = with(lump_and_drop<Dim>(viscosity), {R"(/stabilization={"scheme": ")" + stabilization + "\"}",
+                                                          R"(/integrator={"scheme": ")" + integrator + "\"}"});
+  SceneRun block(
+      with(scene, {R"(/solver={"scheme": "block", "tolerance": )" + (viscosity > 1e4 ? "1e-9}"s : "1e-11}"s)}));
+  SceneRun umfpack(with(scene, {R"(/solver={"scheme": "umfpack"})"}));
+  block.step(3);
+  umfpack.step(3);
+  CHECK(distance<Dim>(block, umfpack) < 1e-7);
+  CHECK(block.world().template resource<SolveReport>().residual <= tolerance);
+  CHECK(block.world().template resource<SolveReport>().iterations > 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("the block solver solves the discrete equations", "[property]", ((int Dim), Dim), 2, 3) {
+  const double viscosity = GENERATE(0.0, 3.0, 1e2);
+  CAPTURE(viscosity);
+  SceneRun run(with(lump_and_drop<Dim>(viscosity), {R"(/solver={"scheme": "block", "tolerance": 1e-11})",
+                                                    R"(/transfer={"scheme": "tpic", "inertia": "lumped"})"}));
+  run.step();
+  const auto equations = dense::assemble<Dim>(run);
+  const auto& values = run.world().template resource<matrix::Solution>().values;
+  const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  REQUIRE(equations.matrix.rows() == x.size());
+  // Row by row, each against the sum of the sizes of its terms.
+  const Eigen::VectorXd rest = (equations.right_hand_side - equations.matrix * x).cwiseAbs();
+  const Eigen::VectorXd size = equations.matrix.cwiseAbs() * x.cwiseAbs() + equations.right_hand_side.cwiseAbs();
+  double worst = 0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (size[i] > 0) worst = std::max(worst, rest[i] / size[i]);
+  }
+  CHECK(worst < 1e-7);
+}
+
+TEST_CASE("a closed full box has no pressure of its own and the block solver still converges", "[property]") {
+  SceneRun run(with(scene_of_file("taylor_green.json"), {"/grid/cells=[12, 12]", R"(/solver={"scheme": "block"})"}));
+  run.step(5);
+  CHECK(run.world().resource<SolveReport>().residual <= 1e-8);
+  CHECK(run.world().resource<SolveReport>().iterations < 30);
+}
+
+TEST_CASE("the block solver takes few iterations, whatever the resolution", "[property]") {
+  const int cells = GENERATE(20, 40, 80);
+  CAPTURE(cells);
+  SceneRun run(with(scene_of_file("dam_break.json"),
+                    {"/grid/cells=[" + std::to_string(cells) + ", " + std::to_string(cells) + "]",
+                     "/time/step=" + std::to_string(0.08 / cells), R"(/integrator={"scheme": "midpoint"})",
+                     R"(/solver={"scheme": "block"})"}));
+  run.step(30);
+  CHECK(run.world().resource<SolveReport>().iterations <= 8);  // 3 to 5 were measured
+}
+
+TEST_CASE("LU within an envelope solves what dense LU solves", "[property]") {
+  const Eigen::MatrixXd a = random_band(60, 9, 0.7);
+  std::vector<std::uint32_t> first(60);
+  for (std::uint32_t i = 0; i < 60; ++i) first[i] = i < 9 ? 0 : i - 9;
+  EnvelopeLu lu;
+  lu.start(first);
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    for (std::uint32_t j = first[i]; j <= i; ++j) {
+      lu.at(i, j) = a(i, j);
+      lu.at(j, i) = a(j, i);
+    }
+  }
+  REQUIRE(lu.factorize());
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(60, -1, 3);
+  Values x = as_values(b);
+  lu.solve(x);
+  CHECK(difference(x, a.partialPivLu().solve(b)) < 1e-13);
+}
+
+TEST_CASE("LU within an envelope tells a singular matrix", "[property]") {
+  EnvelopeLu lu;
+  lu.start({0, 0});
+  lu.at(0, 0) = lu.at(0, 1) = lu.at(1, 0) = lu.at(1, 1) = 1;
+  CHECK_FALSE(lu.factorize());
+}
+
+TEST_CASE("sparse Cholesky solves what dense Cholesky solves, again with another pattern", "[property]") {
+  SparseCholesky cholesky;
+  for (const int rows : {40, 2500}) {  // simplicial and supernodal
+    const Eigen::MatrixXd a = random_band(rows, 7, 0);
+    cholesky.start(static_cast<std::size_t>(rows));
+    for (int i = 0; i < rows; ++i) {
+      for (int j = i; j >= std::max(0, i - 7); --j) {
+        cholesky.add(static_cast<std::size_t>(i), static_cast<std::size_t>(j), a(i, j));
+      }
+    }
+    REQUIRE(cholesky.factorize());
+    const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(rows, -1, 3);
+    Values got = as_values(a * x);
+    cholesky.solve(got);
+    CHECK(difference(got, x) < 1e-12);
+  }
+}
+
+TEST_CASE("sparse Cholesky tells an indefinite matrix", "[property]") {
+  SparseCholesky cholesky;
+  cholesky.start(2);
+  cholesky.add(0, 0, 1);
+  cholesky.add(1, 0, 2);
+  cholesky.add(1, 1, 1);
+  CHECK_FALSE(cholesky.factorize());
+}
+
+TEST_CASE("GMRES solves with and without restarts, and says where it stopped", "[property]") {
+  const Eigen::MatrixXd a = random_band(200, 30, 2);
+  const Eigen::VectorXd x_e = Eigen::VectorXd::LinSpaced(200, -1, 3);
+  const Values b = as_values(a * x_e);
+  const auto apply = [&](const Values& x, Values& out) {
+    Eigen::Map<Eigen::VectorXd>(out.data(), 200) = a * Eigen::Map<const Eigen::VectorXd>(x.data(), 200);
+  };
+  const auto precondition = [](const Values& r, Values& out) { out = r; };
+  Gmres gmres;
+  Values x(200, 0.0);
+  const double norm = std::sqrt(dot(b, b));
+  const auto report = gmres.solve(apply, precondition, b, 1e-11 * norm, 2000, x);
+  CHECK(report.converged);
+  CHECK(report.iterations > 0);
+  CHECK(report.residual <= 1e-11 * norm);
+  CHECK(difference(x, x_e) < 1e-9);
+  // From the solution there is nothing left to do; with too few iterations it does not claim success.
+  CHECK(gmres.solve(apply, precondition, b, 1e-10 * norm, 2000, x).iterations == 0);
+  Values y(200, 0.0);
+  CHECK_FALSE(gmres.solve(apply, precondition, b, 1e-11 * norm, 3, y).converged);
+}
