@@ -41,6 +41,16 @@ struct Grid {
     }
     return row;
   }
+  /// The node of a row.
+  Index<Dim> index(std::size_t row) const {
+    Index<Dim> node;
+    for (int d = 0; d < Dim; ++d) {
+      const auto count = static_cast<std::size_t>(nodes(d));
+      node[static_cast<std::size_t>(d)] = static_cast<int>(row % count);
+      row /= count;
+    }
+    return node;
+  }
   Vec<Dim> position(const Index<Dim>& node) const {
     Vec<Dim> x;
     for (int d = 0; d < Dim; ++d) x[d] = low[d] + spacing * node[static_cast<std::size_t>(d)];

@@ -42,6 +42,10 @@ Vec<Dim> support_spread(const Grid<Dim>& grid, const Vec<Dim>& x) {
   for (int d = 0; d < Dim; ++d) {
     const auto axis = static_cast<std::size_t>(d);
     const AxisBasis& basis = axis_basis<Dim>(grid, axis, own[axis]);
+    if (&basis == &inner_basis()) {
+      spread[d] = 0.25 * grid.spacing * grid.spacing;
+      continue;
+    }
     double sum = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       const double distance = basis.first + static_cast<double>(a) - xi[d];

@@ -31,7 +31,9 @@ void MeasureOverlap<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Re
                                      Write<measure::Overlap> overlap) const {
   gather_node_volume<Dim>(*grid, fluid->density, x_p.span(), m_p.span(), v_i.span());
   double excess = 0;
-  for (std::size_t i = 0; i < v_i.size(); ++i) excess += std::max(0.0, v_i[i] - full_volume<Dim>(*grid, i));
+  for (std::size_t i = 0; i < v_i.size(); ++i) {
+    if (v_i[i] > 0) excess += std::max(0.0, v_i[i] - full_volume<Dim>(*grid, i));
+  }
   double total = 0;
   for (const double m : m_p) total += m / fluid->density;
   overlap->value = excess / total;

@@ -45,16 +45,26 @@ void AssembleViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell.node);
     const double scale = fluid->viscosity * support.per_spacing * support.per_spacing;
+    const auto add = [&](const CellMatrix<Dim>& matrix, int a, int b) {
+      add_to_rows<Dim>(support, row.span(), matrix, scale, Dim * Dim, static_cast<std::size_t>(Dim * a + b), rows);
+    };
+    // With slopes of I in direction i and of J in direction j: entry (j, i), and for i = j the whole diagonal.
+    std::array<CellMatrix<Dim>, Dim> squares;
+    CellMatrix<Dim> laplacian{};
     for (int i = 0; i < Dim; ++i) {
-      for (int j = 0; j < Dim; ++j) {
-        // Slope of I in direction i, of J in direction j: once in entry (j, i), and for i = j in the whole diagonal.
+      auto& square = squares[static_cast<std::size_t>(i)];
+      square = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, i, i));
+      for (std::size_t k = 0; k < square.size(); ++k) laplacian[k] += square[k];
+      for (int j = i + 1; j < Dim; ++j) {
         const auto matrix = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, i, j));
-        const auto add = [&](int a, int b) {
-          add_to_rows<Dim>(support, row.span(), matrix, scale, Dim * Dim, static_cast<std::size_t>(Dim * a + b), rows);
-        };
-        add(j, i);
-        for (int k = 0; k < Dim && i == j; ++k) add(k, k);
+        add(matrix, j, i);
+        add(transposed<Dim>(matrix), i, j);
       }
+    }
+    for (int i = 0; i < Dim; ++i) {
+      auto& square = squares[static_cast<std::size_t>(i)];
+      for (std::size_t k = 0; k < square.size(); ++k) square[k] += laplacian[k];
+      add(square, i, i);
     }
   });
 }

@@ -1,20 +1,24 @@
 #include "systems/solve/block.hpp"
 
 #include "systems/solve/equations.hpp"
+#include "systems/solve/monolithic.hpp"
 #include "systems/solve/pressure_preconditioner.hpp"
 #include "systems/solve/pressure_schur.hpp"
+#include "systems/solve/umfpack.hpp"
 #include "systems/solve/velocity_block.hpp"
-
-#include <spdlog/fmt/fmt.h>
 
 namespace minamo {
 
 template <int Dim>
 struct BlockFactors<Dim>::Impl {
+  EquationTerms<Dim> terms{};
   PressureSchur<Dim> schur;
   VelocityBlock<Dim> velocity_block;
   PressurePreconditioner<Dim> preconditioner;
   Gmres gmres;
+  UmfpackFactors direct;
+  matrix::Pattern direct_pattern;
+  std::vector<double> direct_values;
   Values momentum;  ///< right-hand sides
   Values mass;
   Values displacement;
@@ -31,7 +35,8 @@ BlockFactors<Dim>::~BlockFactors() = default;
 
 namespace {
 
-constexpr std::int64_t most_iterations = 400;
+/// About what UMFPACK costs.
+constexpr std::int64_t most_iterations = 100;
 constexpr int most_passes = 60;
 
 template <int Dim>
@@ -104,9 +109,9 @@ Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance) {
 }
 
 template <int Dim>
-void prepare(Impl<Dim>& s, const BlockTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
-             const matrix::StabilizationScale& scale) {
-  s.schur.assemble(terms, grid);
+void prepare(Impl<Dim>& s, const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
+             const matrix::StabilizationScale& scale, const Rates& rates) {
+  s.schur.assemble(terms, grid, fluid, laplacian_factor(rates, fluid, scale));
   s.velocity_block.prepare(terms, grid, s.schur.mobility);
   s.preconditioner.prepare(s.schur, terms, grid, viscous_part<Dim>(terms, grid, fluid, scale));
   const std::size_t n = s.schur.rows();
@@ -133,39 +138,49 @@ void give_solution(const Impl<Dim>& s, std::vector<double>& x) {
   });
 }
 
-/// \throws std::runtime_error if the iteration has failed.
-void require_convergence(const Gmres::Report& report, const Clock& clock, std::size_t rows) {
-  if (report.converged && std::isfinite(report.residual)) return;
-  throw std::runtime_error(
-      fmt::format("solve: the residual is {:.3g} after {} iterations (step {}, t = {:.6g} s, {} active nodes)",
-                  report.residual, report.iterations, clock.index + 1, clock.time, rows));
+/// The monolithic system, where the iteration has failed: rare, and what UMFPACK is for.
+template <int Dim>
+SolveReport solve_directly(const Clock& clock, const Grid<Dim>& grid, const EquationTerms<Dim>& terms,
+                           const std::vector<double>& b, Impl<Dim>& s, std::vector<double>& x) {
+  fill_monolithic<Dim>(terms, grid, s.direct_pattern, s.direct_values);
+  return solve_monolithic(s.direct, clock, s.direct_pattern, s.direct_values, b, x);
 }
 
+bool is_solved(const Gmres::Report& report) { return report.converged && std::isfinite(report.residual); }
+
 template <int Dim>
-void solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid, double tolerance,
-           const matrix::StabilizationScale& scale, const BlockTerms<Dim>& terms, std::span<const double> p_i,
-           const std::vector<double>& b, Impl<Dim>& s, std::vector<double>& x, SolveReport& report) {
-  prepare<Dim>(s, terms, grid, fluid, scale);
+SolveReport solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid, double tolerance,
+                  const matrix::StabilizationScale& scale, const Rates& rates, const EquationTerms<Dim>& terms,
+                  std::span<const double> p_i, const std::vector<double>& b, Impl<Dim>& s, std::vector<double>& x) {
+  s.terms = terms;
+  prepare<Dim>(s, terms, grid, fluid, scale, rates);
   take_right_hand_side<Dim>(s, b);
   // The pressure of the step before is near.
   for_each_row(s.pressure.size(), [&](std::size_t r) { s.pressure[r] = p_i[terms.node[r]] / s.schur.scale[r]; });
   const Gmres::Report done = solve_blocks<Dim>(s, tolerance);
-  require_convergence(done, clock, terms.node.size());
+  if (!is_solved(done)) {
+    SolveReport report = solve_directly<Dim>(clock, grid, terms, b, s, x);
+    report.iterations = done.iterations;
+    return report;
+  }
   give_solution<Dim>(s, x);
-  report = {.unknowns = static_cast<std::int64_t>(b.size()), .iterations = done.iterations, .residual = done.residual};
+  return {.unknowns = static_cast<std::int64_t>(b.size()), .iterations = done.iterations, .residual = done.residual};
 }
 
 }  // namespace
 
 template <int Dim>
 std::vector<double> solve_again(BlockFactors<Dim>& factors, const std::vector<double>& right_hand_side,
-                                const Clock& clock, double tolerance) {
+                                const Clock& clock, const Grid<Dim>& grid, double tolerance) {
   Impl<Dim>& s = *factors.impl;
   take_right_hand_side<Dim>(s, right_hand_side);
   std::fill(s.pressure.begin(), s.pressure.end(), 0.0);
-  require_convergence(solve_blocks<Dim>(s, tolerance), clock, s.mass.size());
   std::vector<double> x;
-  give_solution<Dim>(s, x);
+  if (is_solved(solve_blocks<Dim>(s, tolerance))) {
+    give_solution<Dim>(s, x);
+  } else {
+    solve_directly<Dim>(clock, grid, s.terms, right_hand_side, s, x);
+  }
   return x;
 }
 
@@ -177,19 +192,18 @@ void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<F
                                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                                  Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
                                  Write<matrix::Solution> solution, Write<SolveReport> report) const {
-  const BlockTerms<Dim> terms{rates->velocity,
-                              rates->acceleration,
-                              pressure_per_mass(clock->step, fluid->density, grid->spacing),
-                              laplacian_factor(*rates, *fluid, *scale),
-                              row.span(),
-                              fixed.span(),
-                              m_i.span(),
-                              node.span(),
-                              divergence.span(),
-                              stabilization.span(),
-                              {}};
-  solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, terms, p_i.span(), right_hand_side->values,
-             *factors->impl, solution->values, *report);
+  const EquationTerms<Dim> terms{rates->velocity,
+                                 rates->acceleration,
+                                 pressure_per_mass(clock->step, fluid->density, grid->spacing),
+                                 row.span(),
+                                 fixed.span(),
+                                 m_i.span(),
+                                 node.span(),
+                                 divergence.span(),
+                                 stabilization.span(),
+                                 {}};
+  *report = solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(),
+                       right_hand_side->values, *factors->impl, solution->values);
 }
 
 template <int Dim>
@@ -201,19 +215,13 @@ void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid,
                                         Read<matrix::StabilizationScale> scale, Read<matrix::Viscosity<Dim>> viscosity,
                                         Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
                                         Write<matrix::Solution> solution, Write<SolveReport> report) const {
-  const BlockTerms<Dim> terms{rates->velocity,
-                              rates->acceleration,
-                              pressure_per_mass(clock->step, fluid->density, grid->spacing),
-                              laplacian_factor(*rates, *fluid, *scale),
-                              row.span(),
-                              fixed.span(),
-                              m_i.span(),
-                              node.span(),
-                              divergence.span(),
-                              stabilization.span(),
-                              viscosity.span()};
-  solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, terms, p_i.span(), right_hand_side->values,
-             *factors->impl, solution->values, *report);
+  const EquationTerms<Dim> terms{
+      rates->velocity, rates->acceleration, pressure_per_mass(clock->step, fluid->density, grid->spacing),
+      row.span(),      fixed.span(),        m_i.span(),
+      node.span(),     divergence.span(),   stabilization.span(),
+      viscosity.span()};
+  *report = solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(),
+                       right_hand_side->values, *factors->impl, solution->values);
 }
 
 template struct BlockFactors<2>;
@@ -222,7 +230,9 @@ template struct SolveBlock<2>;
 template struct SolveBlock<3>;
 template struct SolveBlockViscous<2>;
 template struct SolveBlockViscous<3>;
-template std::vector<double> solve_again(BlockFactors<2>&, const std::vector<double>&, const Clock&, double);
-template std::vector<double> solve_again(BlockFactors<3>&, const std::vector<double>&, const Clock&, double);
+template std::vector<double> solve_again(BlockFactors<2>&, const std::vector<double>&, const Clock&, const Grid<2>&,
+                                         double);
+template std::vector<double> solve_again(BlockFactors<3>&, const std::vector<double>&, const Clock&, const Grid<3>&,
+                                         double);
 
 }  // namespace minamo

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// Block elimination: the displacement is eliminated by the velocity block, and GMRES solves for the pressure, with a
-/// sparse Cholesky factorization of a compact pressure matrix as preconditioner. Equal to UMFPACK to the tolerance.
+/// factorization of a compact pressure matrix as preconditioner. Equal to UMFPACK to the tolerance; a step in which
+/// GMRES does not converge is given to UMFPACK.
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
@@ -28,16 +29,16 @@ struct BlockFactors {
   static constexpr ComponentInfo info{"solve.block_factors", "", "", Lifetime::cache};
 };
 
-/// The solution for another right-hand side, with the operators and factors of the last solve.
-/// \throws std::runtime_error if the iteration does not converge.
+/// The solution for another right-hand side, with the operators and factors of the last solve, in the same step.
+/// \throws std::runtime_error as SolveBlock.
 template <int Dim>
 std::vector<double> solve_again(BlockFactors<Dim>& factors, const std::vector<double>& right_hand_side,
-                                const Clock& clock, double tolerance);
+                                const Clock& clock, const Grid<Dim>& grid, double tolerance);
 
 template <int Dim>
 struct SolveBlock {
   static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, inviscid";
-  /// \throws std::runtime_error if the iteration does not converge, with step, time and size.
+  /// \throws std::runtime_error if neither GMRES nor UMFPACK solves the system, with step, time and size.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                   Read<node::Pressure> p_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
@@ -49,7 +50,7 @@ struct SolveBlock {
 template <int Dim>
 struct SolveBlockViscous {
   static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, viscous";
-  /// \throws std::runtime_error if the iteration does not converge, with step, time and size.
+  /// \throws std::runtime_error if neither GMRES nor UMFPACK solves the system, with step, time and size.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                   Read<node::Pressure> p_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,

@@ -20,6 +20,17 @@ PairFactors<Dim> slope_factors(const Support<Dim>& support, int slope_of_i, int 
   return factors;
 }
 
+/// The cell matrix with the roles of I and J exchanged.
+template <int Dim>
+CellMatrix<Dim> transposed(const CellMatrix<Dim>& matrix) {
+  const PairPlaces<Dim>& places = pair_places<Dim>();
+  CellMatrix<Dim> out;
+  for (std::size_t i = 0; i < support_size<Dim>; ++i) {
+    for (std::size_t j = 0; j < support_size<Dim>; ++j) out[places.in_cell[i][j]] = matrix[places.in_cell[j][i]];
+  }
+  return out;
+}
+
 /// Adds scale * matrix(I, J) to entry [width * stencil place + component] of the row of every active I.
 template <int Dim, class Rows>
 void add_to_rows(const Support<Dim>& support, std::span<const std::int32_t> row, const CellMatrix<Dim>& matrix,

@@ -3,7 +3,10 @@
 /// How the unknowns of a step are numbered, whatever the solver: unknown (d + 1) r + i of matrix row r is component i
 /// of the displacement, and the pressure for i = d.
 
+#include "components/matrix.hpp"
 #include "components/types.hpp"
+
+#include <span>
 
 namespace minamo {
 
@@ -14,5 +17,20 @@ constexpr double pressure_per_mass(double dt, double density, double spacing) {
   constexpr double eps = 1e-6;
   return eps * dt / (density * density * spacing * spacing);
 }
+
+/// What the matrices of (E25), (E26) are made of.
+template <int Dim>
+struct EquationTerms {
+  double c_v;
+  double c_a;
+  double pressure_per_mass;
+  std::span<const std::int32_t> row;
+  std::span<const std::uint8_t> fixed;
+  std::span<const double> m_i;
+  std::span<const std::uint32_t> node;
+  std::span<const typename matrix::Divergence<Dim>::value_type> divergence;
+  std::span<const typename matrix::Stabilization<Dim>::value_type> stabilization;
+  std::span<const typename matrix::Viscosity<Dim>::value_type> viscosity;  ///< empty if inviscid
+};
 
 }  // namespace minamo

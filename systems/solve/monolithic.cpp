@@ -8,51 +8,41 @@ namespace minamo {
 
 namespace {
 
-/// What (E25)-(E27) are made of.
+/// Whether node I of row r_i and node J at place `to_j` of its stencil share a particle: only then has an entry a
+/// value. The pressure term alone does not tell: one particle in the middle of every cell makes it cancel for
+/// neighbours along an axis.
 template <int Dim>
-struct Terms {
-  double c_v;
-  double c_a;
-  double pressure_per_mass;  ///< e_I/m_I of (E27)
-  std::span<const std::int32_t> row;
-  std::span<const std::uint8_t> fixed;
-  std::span<const double> m_i;
-  std::span<const std::uint32_t> node;
-  std::span<const typename matrix::Divergence<Dim>::value_type> divergence;
-  std::span<const typename matrix::Stabilization<Dim>::value_type> stabilization;
-  std::span<const typename matrix::Viscosity<Dim>::value_type> viscosity;  ///< empty if inviscid
-
-  /// Whether node I of row r_i and node J at place `to_j` of its stencil share a particle: only then has an entry a
-  /// value. The pressure term alone does not tell: one particle in the middle of every cell makes it cancel for
-  /// neighbours along an axis.
-  bool coupled(std::size_t r_i, std::size_t to_j, std::size_t r_j) const {
-    if (stabilization[r_i][(Dim + 1) * to_j + Dim] != 0) return true;
-    const std::size_t to_i = stencil_size<Dim> - 1 - to_j;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      if (divergence[r_i][Dim * to_j + d] != 0 || divergence[r_j][Dim * to_i + d] != 0) return true;
-    }
-    return false;
+bool coupled(const EquationTerms<Dim>& t, std::size_t r_i, std::size_t to_j, std::size_t r_j) {
+  if (t.stabilization[r_i][(Dim + 1) * to_j + Dim] != 0) return true;
+  const std::size_t to_i = stencil_size<Dim> - 1 - to_j;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    if (t.divergence[r_i][Dim * to_j + d] != 0 || t.divergence[r_j][Dim * to_i + d] != 0) return true;
   }
-  bool is_fixed(std::uint32_t i, std::size_t d) const { return fixed[i] >> d & 1; }
-};
+  return false;
+}
+
+template <int Dim>
+bool is_fixed(const EquationTerms<Dim>& t, std::uint32_t i, std::size_t d) {
+  return t.fixed[i] >> d & 1;
+}
 
 /// Calls emit(row, value) for the entries of the column of a displacement component, rows rising.
 template <int Dim, class Emit>
-void displacement_column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, std::size_t d,
+void displacement_column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, std::size_t d,
                          const Emit& emit) {
   const std::uint32_t j = t.node[r_j];
   const std::size_t column = unknowns_per_row(Dim) * r_j + d;
-  if (t.is_fixed(j, d)) return emit(column, 1.0);
+  if (is_fixed<Dim>(t, j, d)) return emit(column, 1.0);
   stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
     const std::int32_t row = t.row[i];
     if (row < 0) return;
     const auto r_i = static_cast<std::size_t>(row);
     const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
-    if (!t.coupled(r_i, to_j, r_j)) return;
+    if (!coupled<Dim>(t, r_i, to_j, r_j)) return;
     const std::size_t first = unknowns_per_row(Dim) * r_i;
     for (std::size_t e = 0; e < Dim; ++e) {
       const bool diagonal = i == j && e == d;
-      if (t.is_fixed(i, e) || (t.viscosity.empty() && !diagonal)) continue;
+      if (is_fixed<Dim>(t, i, e) || (t.viscosity.empty() && !diagonal)) continue;
       const double inertia = diagonal ? t.m_i[i] * t.c_a : 0;
       const double friction = t.viscosity.empty() ? 0 : t.c_v * t.viscosity[r_i][Dim * (Dim * to_j + e) + d];
       emit(first + e, inertia + friction);
@@ -63,24 +53,24 @@ void displacement_column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::
 
 /// The same for the column of a pressure.
 template <int Dim, class Emit>
-void pressure_column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, const Emit& emit) {
+void pressure_column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, const Emit& emit) {
   const std::uint32_t j = t.node[r_j];
   stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
     const std::int32_t row = t.row[i];
     if (row < 0) return;
     const auto r_i = static_cast<std::size_t>(row);
     const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
-    if (!t.coupled(r_i, to_j, r_j)) return;
+    if (!coupled<Dim>(t, r_i, to_j, r_j)) return;
     const std::size_t first = unknowns_per_row(Dim) * r_i;
     for (std::size_t e = 0; e < Dim; ++e) {
-      if (!t.is_fixed(i, e)) emit(first + e, -t.divergence[r_j][Dim * to_i + e]);
+      if (!is_fixed<Dim>(t, i, e)) emit(first + e, -t.divergence[r_j][Dim * to_i + e]);
     }
     emit(first + Dim, t.stabilization[r_i][(Dim + 1) * to_j + Dim] + (i == j ? t.pressure_per_mass * t.m_i[i] : 0));
   });
 }
 
 template <int Dim, class Emit>
-void column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::size_t column, const Emit& emit) {
+void column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t column, const Emit& emit) {
   const std::size_t r = column / unknowns_per_row(Dim);
   const std::size_t d = column % unknowns_per_row(Dim);
   if (d < Dim) {
@@ -90,10 +80,12 @@ void column(const Terms<Dim>& t, const Stencil<Dim>& stencil, std::size_t column
   }
 }
 
-/// Fills pattern and values; tells a new pattern by its revision.
+}  // namespace
+
 template <int Dim>
-void fill_matrix(const Terms<Dim>& t, const Stencil<Dim>& stencil, matrix::Pattern& pattern,
-                 std::vector<double>& values) {
+void fill_monolithic(const EquationTerms<Dim>& t, const Grid<Dim>& grid, matrix::Pattern& pattern,
+                     std::vector<double>& values) {
+  const Stencil<Dim> stencil(grid);
   const std::size_t columns = unknowns_per_row(Dim) * t.node.size();
   pattern.next_outer.assign(columns + 1, 0);
   constexpr std::size_t columns_per_task = 256;
@@ -128,25 +120,23 @@ void fill_matrix(const Terms<Dim>& t, const Stencil<Dim>& stencil, matrix::Patte
   ++pattern.revision;
 }
 
-}  // namespace
-
 template <int Dim>
 void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                          Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                                          Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
                                          Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
-  fill_matrix<Dim>({rates->velocity,
-                    rates->acceleration,
-                    pressure_per_mass(clock->step, fluid->density, grid->spacing),
-                    row.span(),
-                    fixed.span(),
-                    m_i.span(),
-                    node.span(),
-                    divergence.span(),
-                    stabilization.span(),
-                    {}},
-                   Stencil<Dim>(*grid), *pattern, values->values);
+  fill_monolithic<Dim>({rates->velocity,
+                        rates->acceleration,
+                        pressure_per_mass(clock->step, fluid->density, grid->spacing),
+                        row.span(),
+                        fixed.span(),
+                        m_i.span(),
+                        node.span(),
+                        divergence.span(),
+                        stabilization.span(),
+                        {}},
+                       *grid, *pattern, values->values);
 }
 
 template <int Dim>
@@ -157,12 +147,14 @@ void AssembleMonolithicViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim
                                                 Read<matrix::Stabilization<Dim>> stabilization,
                                                 Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern,
                                                 Write<matrix::Values> values) const {
-  fill_matrix<Dim>({rates->velocity, rates->acceleration, pressure_per_mass(clock->step, fluid->density, grid->spacing),
-                    row.span(), fixed.span(), m_i.span(), node.span(), divergence.span(), stabilization.span(),
-                    viscosity.span()},
-                   Stencil<Dim>(*grid), *pattern, values->values);
+  fill_monolithic<Dim>({rates->velocity, rates->acceleration,
+                        pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
+                        m_i.span(), node.span(), divergence.span(), stabilization.span(), viscosity.span()},
+                       *grid, *pattern, values->values);
 }
 
+template void fill_monolithic<2>(const EquationTerms<2>&, const Grid<2>&, matrix::Pattern&, std::vector<double>&);
+template void fill_monolithic<3>(const EquationTerms<3>&, const Grid<3>&, matrix::Pattern&, std::vector<double>&);
 template struct AssembleMonolithic<2>;
 template struct AssembleMonolithic<3>;
 template struct AssembleMonolithicViscous<2>;

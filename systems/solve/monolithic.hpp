@@ -19,8 +19,14 @@
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
+#include "systems/solve/equations.hpp"
 
 namespace minamo {
+
+/// Fills pattern and values; tells a new pattern by its revision.
+template <int Dim>
+void fill_monolithic(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, matrix::Pattern& pattern,
+                     std::vector<double>& values);
 
 template <int Dim>
 struct AssembleMonolithic {

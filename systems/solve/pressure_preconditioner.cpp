@@ -11,6 +11,13 @@ namespace {
 /// Multiplications from which on the envelope is slower than a sparse factorization.
 constexpr double widest = 2e7;
 
+/// The value of an entry in a list, 0 if it is not there.
+template <class Entries>
+double value_of(const Entries& entries, std::size_t row) {
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.row == row; });
+  return found == entries.end() ? 0 : found->value;
+}
+
 }  // namespace
 
 double laplacian_factor(const Rates& rates, const Fluid& fluid, const matrix::StabilizationScale& scale) {
@@ -19,7 +26,7 @@ double laplacian_factor(const Rates& rates, const Fluid& fluid, const matrix::St
 }
 
 template <int Dim>
-double viscous_part(const BlockTerms<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
+double viscous_part(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
                     const matrix::StabilizationScale& scale) {
   const double of_velocity = t.c_v - t.c_a * scale.acceleration;
   if (t.viscosity.empty() || of_velocity <= 0) return 0;
@@ -33,16 +40,13 @@ double viscous_part(const BlockTerms<Dim>& t, const Grid<Dim>& grid, const Fluid
 
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
-void PressurePreconditioner<Dim>::find_order(const BlockTerms<Dim>& t, const Grid<Dim>& grid) {
+void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t, const Grid<Dim>& grid) {
   std::array<std::array<int, 2>, Dim> range;
   range.fill({std::numeric_limits<int>::max(), -1});
   std::vector<Index<Dim>> at(t.node.size());
   for (std::size_t r = 0; r < t.node.size(); ++r) {
-    std::size_t rest = t.node[r];
+    at[r] = grid.index(t.node[r]);
     for (std::size_t d = 0; d < Dim; ++d) {
-      const auto nodes = static_cast<std::size_t>(grid.nodes(static_cast<int>(d)));
-      at[r][d] = static_cast<int>(rest % nodes);
-      rest /= nodes;
       range[d] = {std::min(range[d][0], at[r][d]), std::max(range[d][1], at[r][d])};
     }
   }
@@ -73,6 +77,11 @@ void PressurePreconditioner<Dim>::find_envelope(const PressureSchur<Dim>& schur)
       const std::uint32_t j = place_[schur.neighbour[r][k]];
       first_[std::max(i, j)] = std::min(first_[std::max(i, j)], std::min(i, j));
     }
+    for (const auto& entry : schur.beyond[r]) {
+      const std::uint32_t i = place_[r];
+      const std::uint32_t j = place_[entry.row];
+      first_[std::max(i, j)] = std::min(first_[std::max(i, j)], std::min(i, j));
+    }
   }
 }
 
@@ -84,6 +93,7 @@ bool PressurePreconditioner<Dim>::factorize_envelope(const PressureSchur<Dim>& s
       const double value = schur.compact[r][k];
       if (value != 0) envelope_.at(place_[r], place_[schur.neighbour[r][k]]) += value;
     }
+    for (const auto& entry : schur.beyond[r]) envelope_.at(place_[r], place_[entry.row]) += entry.value;
   }
   return envelope_.factorize();
 }
@@ -100,12 +110,16 @@ bool PressurePreconditioner<Dim>::factorize_sparse(const PressureSchur<Dim>& sch
                                         : schur.pressure[r][k] + (k == own ? 1e-3 * schur.compact[r][own] : 0);
       if (value != 0 || k == own) sparse_.add(r, r_j, value);
     }
+    if (!with_surface) continue;
+    for (const auto& entry : schur.beyond[r]) {
+      if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(schur.beyond[entry.row], r)) / 2);
+    }
   }
   return sparse_.factorize();
 }
 
 template <int Dim>
-void PressurePreconditioner<Dim>::prepare(const PressureSchur<Dim>& schur, const BlockTerms<Dim>& terms,
+void PressurePreconditioner<Dim>::prepare(const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms,
                                           const Grid<Dim>& grid, double viscous_part) {
   find_order(terms, grid);
   find_envelope(schur);
@@ -135,8 +149,10 @@ void PressurePreconditioner<Dim>::solve(const Values& r, Values& out) {
   for (std::size_t i = 0; i < of_mass_.size(); ++i) out[i] += of_mass_[i] * r[i];
 }
 
-template double viscous_part<2>(const BlockTerms<2>&, const Grid<2>&, const Fluid&, const matrix::StabilizationScale&);
-template double viscous_part<3>(const BlockTerms<3>&, const Grid<3>&, const Fluid&, const matrix::StabilizationScale&);
+template double viscous_part<2>(const EquationTerms<2>&, const Grid<2>&, const Fluid&,
+                                const matrix::StabilizationScale&);
+template double viscous_part<3>(const EquationTerms<3>&, const Grid<3>&, const Fluid&,
+                                const matrix::StabilizationScale&);
 template class PressurePreconditioner<2>;
 template class PressurePreconditioner<3>;
 

@@ -18,20 +18,20 @@ double laplacian_factor(const Rates& rates, const Fluid& fluid, const matrix::St
 /// b of (E57). With wave number k, inside the liquid, 1/S = 1/(1/(a/k^2 + mu') + tau k^2), a = rho c_a/c',
 /// mu' = c_v mu/c', c' = c_v - c_a g; b/rho is what it has beyond P^-1 at k = 2/h.
 template <int Dim>
-double viscous_part(const BlockTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
+double viscous_part(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
                     const matrix::StabilizationScale& scale);
 
 template <int Dim>
 class PressurePreconditioner {
  public:
   /// \throws std::runtime_error if the matrix cannot be factorized.
-  void prepare(const PressureSchur<Dim>& schur, const BlockTerms<Dim>& terms, const Grid<Dim>& grid,
+  void prepare(const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms, const Grid<Dim>& grid,
                double viscous_part);
   /// out = about S^-1 r.
   void solve(const Values& r, Values& out);
 
  private:
-  void find_order(const BlockTerms<Dim>& terms, const Grid<Dim>& grid);
+  void find_order(const EquationTerms<Dim>& terms, const Grid<Dim>& grid);
   void find_envelope(const PressureSchur<Dim>& schur);
   bool factorize_envelope(const PressureSchur<Dim>& schur);
   bool factorize_sparse(const PressureSchur<Dim>& schur, bool with_surface);

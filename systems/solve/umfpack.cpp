@@ -28,32 +28,37 @@ struct UmfpackFactors::Impl {
 UmfpackFactors::UmfpackFactors() : impl(std::make_unique<Impl>()) {}
 UmfpackFactors::~UmfpackFactors() = default;
 
+SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const matrix::Pattern& pattern,
+                             const std::vector<double>& values, const std::vector<double>& right_hand_side,
+                             std::vector<double>& solution) {
+  const auto size = static_cast<Eigen::Index>(right_hand_side.size());
+  const Eigen::Map<const Matrix> matrix(size, size, static_cast<Eigen::Index>(values.size()), pattern.outer.data(),
+                                        pattern.inner.data(), values.data());
+  const Eigen::Map<const Eigen::VectorXd> b(right_hand_side.data(), size);
+  auto& [backend, revision] = *factors.impl;
+  if (revision != pattern.revision) {
+    backend.analyzePattern(matrix);
+    revision = pattern.revision;
+  }
+  backend.factorize(matrix);
+  if (backend.info() != Eigen::Success) {
+    throw std::runtime_error("solve: UMFPACK finds the matrix singular " + place(clock, right_hand_side.size()));
+  }
+  solution.resize(right_hand_side.size());
+  Eigen::Map<Eigen::VectorXd> x(solution.data(), size);
+  x = backend.solve(b);
+  if (!x.allFinite()) {
+    throw std::runtime_error("solve: the solution is not finite " + place(clock, right_hand_side.size()));
+  }
+  const double norm = b.norm();
+  return {.unknowns = size, .iterations = 0, .residual = norm > 0 ? (b - matrix * x).norm() / norm : 0};
+}
+
 template <int Dim>
 void SolveUmfpack<Dim>::operator()(Read<Clock> clock, Read<matrix::Pattern> pattern, Read<matrix::Values> values,
                                    Read<matrix::RightHandSide> right_hand_side, Update<UmfpackFactors> factors,
                                    Write<matrix::Solution> solution, Write<SolveReport> report) const {
-  const auto size = static_cast<Eigen::Index>(right_hand_side->values.size());
-  const Eigen::Map<const Matrix> matrix(size, size, static_cast<Eigen::Index>(values->values.size()),
-                                        pattern->outer.data(), pattern->inner.data(), values->values.data());
-  const Eigen::Map<const Eigen::VectorXd> b(right_hand_side->values.data(), size);
-  auto& [backend, revision] = *factors->impl;
-  if (revision != pattern->revision) {
-    backend.analyzePattern(matrix);
-    revision = pattern->revision;
-  }
-  backend.factorize(matrix);
-  if (backend.info() != Eigen::Success) {
-    throw std::runtime_error("solve: UMFPACK finds the matrix singular " +
-                             place(*clock, right_hand_side->values.size()));
-  }
-  solution->values.resize(right_hand_side->values.size());
-  Eigen::Map<Eigen::VectorXd> x(solution->values.data(), size);
-  x = backend.solve(b);
-  if (!x.allFinite()) {
-    throw std::runtime_error("solve: the solution is not finite " + place(*clock, right_hand_side->values.size()));
-  }
-  const double norm = b.norm();
-  *report = {.unknowns = size, .iterations = 0, .residual = norm > 0 ? (b - matrix * x).norm() / norm : 0};
+  *report = solve_monolithic(*factors, *clock, *pattern, values->values, right_hand_side->values, solution->values);
 }
 
 std::vector<double> solve_again(UmfpackFactors& factors, const std::vector<double>& right_hand_side) {

@@ -24,6 +24,12 @@ struct UmfpackFactors {
   static constexpr ComponentInfo info{"solve.umfpack_factors", "", "", Lifetime::cache};
 };
 
+/// Factorizes the monolithic matrix and solves.
+/// \throws std::runtime_error if the matrix is singular or the solution is not finite, with step, time and size.
+SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const matrix::Pattern& pattern,
+                             const std::vector<double>& values, const std::vector<double>& right_hand_side,
+                             std::vector<double>& solution);
+
 /// The solution for another right-hand side, by the factors of the last factorization.
 /// \throws std::runtime_error if it is not finite.
 std::vector<double> solve_again(UmfpackFactors& factors, const std::vector<double>& right_hand_side);

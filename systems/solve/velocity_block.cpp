@@ -11,7 +11,7 @@ namespace {
 constexpr double most_friction = 0.5;
 
 template <int Dim>
-double largest_friction(const BlockTerms<Dim>& t) {
+double largest_friction(const EquationTerms<Dim>& t) {
   constexpr std::size_t own = stencil_size<Dim> / 2;
   double largest = 0;
   for (std::size_t r = 0; r < t.viscosity.size(); ++r) {
@@ -34,7 +34,7 @@ template <int Dim>
 VelocityBlock<Dim>::~VelocityBlock() = default;
 
 template <int Dim>
-void VelocityBlock<Dim>::prepare(const BlockTerms<Dim>& t, const Grid<Dim>& grid, const Values& mobility) {
+void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Values& mobility) {
   terms_ = t;
   mobility_ = &mobility;
   // A row of K adds up to zero, and its entries besides the diagonal to at most three times that.

@@ -16,7 +16,7 @@ class VelocityBlock {
   ~VelocityBlock();
   /// \param mobility  1/A_II; kept by reference
   /// \throws std::runtime_error if the factorization fails.
-  void prepare(const BlockTerms<Dim>& terms, const Grid<Dim>& grid, const Values& mobility);
+  void prepare(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Values& mobility);
   /// How much of a vector about is left of v - A solve(v): 0 if solve() is the inverse, else it divides by the
   /// diagonal.
   double error() const { return error_; }
@@ -29,7 +29,7 @@ class VelocityBlock {
   struct Factors;
   std::unique_ptr<Factors> factors_;
   const Values* mobility_ = nullptr;
-  BlockTerms<Dim> terms_{};
+  EquationTerms<Dim> terms_{};
   std::vector<std::array<std::uint32_t, stencil_size<Dim>>> neighbour_;
   double error_ = 0;
   bool factorized_ = false;

@@ -19,14 +19,17 @@ void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Volume> 
                                        Write<node::VolumeExcess> e_i) const {
   // Deep inside: all nodes within two rings are at least half full, so that the support holds no part of the surface.
   const Stencil<Dim> stencil(*grid);
+  const auto half_full = [&](std::size_t j) { return v_i[j] > 0.5 * full_volume<Dim>(*grid, j); };
   for_each_row(e_i.size(), [&](std::size_t i) {
-    e_i[i] = v_i[i] - full_volume<Dim>(*grid, i);
-    if (e_i[i] >= 0) return;
-    bool deep = true;
-    stencil.for_each_neighbour(static_cast<std::uint32_t>(i), [&](std::size_t, std::uint32_t j) {
-      deep = deep && v_i[j] > 0.5 * full_volume<Dim>(*grid, j);
-    });
-    if (!deep) e_i[i] = 0;
+    e_i[i] = 0;
+    if (v_i[i] == 0) return;
+    const double excess = v_i[i] - full_volume<Dim>(*grid, i);
+    bool counts = excess >= 0 || half_full(i);
+    if (excess < 0 && counts) {
+      stencil.for_each_neighbour(static_cast<std::uint32_t>(i),
+                                 [&](std::size_t, std::uint32_t j) { counts = counts && half_full(j); });
+    }
+    if (counts) e_i[i] = excess;
   });
 }
 
@@ -66,12 +69,12 @@ void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rat
 }
 
 template <int Dim>
-void SolveVolumeBlock<Dim>::operator()(Read<Clock> clock, Read<Rates> rates, Read<VolumeRate> rate,
-                                       Read<SolverTolerance> tolerance, Read<node::Row> row, Read<matrix::Node> node,
-                                       Read<node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
-                                       Write<node::Shift<Dim>> d_i) const {
+void SolveVolumeBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Rates> rates,
+                                       Read<VolumeRate> rate, Read<SolverTolerance> tolerance, Read<node::Row> row,
+                                       Read<matrix::Node> node, Read<node::VolumeExcess> e_i,
+                                       Update<BlockFactors<Dim>> factors, Write<node::Shift<Dim>> d_i) const {
   const auto b = volume_source(Dim, rates->velocity * rate->rate, node.span(), e_i.span());
-  take_shift<Dim>(solve_again<Dim>(*factors, b, *clock, shift_tolerance(*tolerance)), row.span(), d_i.span());
+  take_shift<Dim>(solve_again<Dim>(*factors, b, *clock, *grid, shift_tolerance(*tolerance)), row.span(), d_i.span());
 }
 
 template <int Dim>

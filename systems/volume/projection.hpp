@@ -46,9 +46,9 @@ template <int Dim>
 struct SolveVolumeBlock {
   static constexpr std::string_view doc = "(E37) d_I, by the operators of the step";
   /// \throws std::runtime_error if the iteration does not converge.
-  void operator()(Read<Clock> clock, Read<Rates> rates, Read<VolumeRate> rate, Read<SolverTolerance> tolerance,
-                  Read<node::Row> row, Read<matrix::Node> node, Read<node::VolumeExcess> e_i,
-                  Update<BlockFactors<Dim>> factors, Write<node::Shift<Dim>> d_i) const;
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate,
+                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<matrix::Node> node,
+                  Read<node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors, Write<node::Shift<Dim>> d_i) const;
 };
 
 /// (E38)  x_p += sum_I S_I(x_p) d_I, at most 0.1 h.
