@@ -14,7 +14,6 @@ import textwrap
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#F0E442", "#000000"]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 DASHES = ["-", "--", ":", "-."]
-RESOLUTION = "cells"
 
 
 def read(path):
@@ -36,10 +35,27 @@ def different(rows, name):
     return list(dict.fromkeys(row[name] for row in rows))
 
 
+def resolution(parameters, rows):
+    """What varies along a line: the cells, else the first parameter that is a number; none without either."""
+    numbers = [name for name in parameters if all(is_number(value) for value in different(rows, name))]
+    return "cells" if "cells" in parameters else next(iter(numbers), None)
+
+
+def is_number(value):
+    try:
+        float(value)
+    except ValueError:
+        return False
+    return True
+
+
+def head(name):
+    return name.removesuffix("/scheme").rsplit("/", 1)[-1]
+
+
 def text(name, value):
     """A word speaks for itself; a number says what it is of."""
-    head = name.removesuffix("/scheme").rsplit("/", 1)[-1]
-    return f"{head} {value}" if value[:1] in "0123456789-[" else value
+    return f"{head(name)} {value}" if value[:1] in "0123456789-[" else value
 
 
 def style(rows, parameters, line):
@@ -55,7 +71,7 @@ def style(rows, parameters, line):
 
 
 def draw_lines(axes, parameters, rows):
-    methods = [name for name in parameters if name != RESOLUTION]
+    methods = [name for name in parameters if name != resolution(parameters, rows)]
     lines = {}
     for row in rows:
         lines.setdefault(tuple(row[name] for name in methods), []).append(row)
@@ -65,15 +81,16 @@ def draw_lines(axes, parameters, rows):
                   **style(rows, methods, line))
 
 
-def draw_frontier(axes, rows):
+def draw_frontier(axes, parameters, rows):
     frontier = sorted((row for row in rows if row.get("frontier") == "1"), key=lambda row: row["x"])
     axes.plot([p["x"] for p in frontier], [p["y"] for p in frontier], color="0.25", linewidth=5, alpha=0.25,
               drawstyle="steps-post", zorder=1)
     axes.plot([p["x"] for p in frontier], [p["y"] for p in frontier], linestyle="none", marker="o", markersize=12,
               markerfacecolor="none", markeredgecolor="0.2", markeredgewidth=1.6,
               label="frontier: none is both\nfaster and more accurate")
-    for p in frontier if RESOLUTION in rows[0] else []:
-        axes.annotate(p[RESOLUTION], (p["x"], p["y"]), xytext=(-8, -8), textcoords="offset points", ha="right",
+    along = resolution(parameters, rows)
+    for p in frontier if along else []:
+        axes.annotate(p[along], (p["x"], p["y"]), xytext=(-8, -8), textcoords="offset points", ha="right",
                       va="top", fontsize=8, color="0.2")
 
 
@@ -95,7 +112,7 @@ def draw(parameters, rows, title, error, out):
 
     figure, axes = pyplot.subplots(figsize=(9.5, 5.5), layout="constrained")
     draw_lines(axes, parameters, rows)
-    draw_frontier(axes, rows)
+    draw_frontier(axes, parameters, rows)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(0.08)
@@ -103,12 +120,13 @@ def draw(parameters, rows, title, error, out):
     label_axis(axes.yaxis, [row["y"] for row in rows])
     machine = f"{rows[0].get('cpu_model', '')}, threads: {rows[0].get('threads', '?')}"
     axes.set_xlabel(f"wall time of the time loop [s]\n({machine})")
-    axes.set_ylabel(textwrap.fill(f"{error} [1]", 50))
+    axes.set_ylabel(textwrap.fill(f"{error} [1]", 40))
     axes.set_title(title)
     axes.grid(which="major", color="0.85")
     axes.grid(which="minor", color="0.93", linewidth=0.5)
     axes.set_axisbelow(True)
-    note = f"\nnumbers at rings: {RESOLUTION} along x" if RESOLUTION in parameters else ""
+    along = resolution(parameters, rows)
+    note = f"\nnumbers at rings: {head(along)}" + (" along x" if along == "cells" else "") if along else ""
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, fontsize=9, title="method" + note,
                 title_fontsize=9, alignment="left")
     figure.savefig(out, dpi=150)

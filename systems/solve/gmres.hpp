@@ -5,6 +5,7 @@
 
 #include "engine/parallel.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>

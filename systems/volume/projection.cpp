@@ -71,8 +71,10 @@ void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rat
 template <int Dim>
 void SolveVolumeBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Rates> rates,
                                        Read<VolumeRate> rate, Read<SolverTolerance> tolerance, Read<node::Row> row,
-                                       Read<matrix::Node> node, Read<node::VolumeExcess> e_i,
-                                       Update<BlockFactors<Dim>> factors, Write<node::Shift<Dim>> d_i) const {
+                                       Read<node::Fixed>, Read<node::Mass>, Read<matrix::Node> node,
+                                       Read<matrix::Divergence<Dim>>, Read<matrix::Stabilization<Dim>>,
+                                       Read<node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
+                                       Write<node::Shift<Dim>> d_i) const {
   const auto b = volume_source(Dim, rates->velocity * rate->rate, node.span(), e_i.span());
   take_shift<Dim>(solve_again<Dim>(*factors, b, *clock, *grid, shift_tolerance(*tolerance)), row.span(), d_i.span());
 }

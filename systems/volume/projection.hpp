@@ -34,6 +34,7 @@ struct FindVolumeExcess {
 };
 
 /// (E37)  The system of the step with right-hand side (0; c_v r E_I) instead: a displacement d_I with D d = r E.
+/// The factors of the step refer to what they were made of, which is why it is read here.
 template <int Dim>
 struct SolveVolumeUmfpack {
   static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
@@ -45,9 +46,11 @@ struct SolveVolumeUmfpack {
 template <int Dim>
 struct SolveVolumeBlock {
   static constexpr std::string_view doc = "(E37) d_I, by the operators of the step";
-  /// \throws std::runtime_error if the iteration does not converge.
+  /// The viscous matrix, where a scene has one, is looked at too; no system writes it after the solve.
+  /// \throws std::runtime_error as SolveBlock.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate,
-                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<matrix::Node> node,
+                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed>, Read<node::Mass>,
+                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>>, Read<matrix::Stabilization<Dim>>,
                   Read<node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors, Write<node::Shift<Dim>> d_i) const;
 };
 
