@@ -112,7 +112,7 @@ template <int Dim>
 void prepare(Impl<Dim>& s, const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
              const matrix::StabilizationScale& scale, const Rates& rates) {
   s.schur.assemble(terms, grid, fluid, laplacian_factor(rates, fluid, scale));
-  s.velocity_block.prepare(terms, grid, s.schur.mobility);
+  s.velocity_block.prepare(terms, s.schur);
   s.preconditioner.prepare(s.schur, terms, grid, viscous_part<Dim>(terms, grid, fluid, scale));
   const std::size_t n = s.schur.rows();
   for (Values* v : {&s.mass, &s.pressure, &s.more_pressure, &s.g, &s.rest, &s.zero}) v->resize(n);

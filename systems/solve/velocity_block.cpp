@@ -1,7 +1,6 @@
 #include "systems/solve/velocity_block.hpp"
 
 #include "systems/solve/cholesky.hpp"
-#include "systems/solve/stencil.hpp"
 
 namespace minamo {
 
@@ -34,22 +33,13 @@ template <int Dim>
 VelocityBlock<Dim>::~VelocityBlock() = default;
 
 template <int Dim>
-void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Values& mobility) {
+void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchur<Dim>& schur) {
   terms_ = t;
-  mobility_ = &mobility;
+  schur_ = &schur;
   // A row of K adds up to zero, and its entries besides the diagonal to at most three times that.
   const double friction = 3 * largest_friction(t);
   factorized_ = friction > most_friction;
   error_ = factorized_ ? 0 : friction;
-  if (t.viscosity.empty()) return;
-  const Stencil<Dim> stencil(grid);
-  neighbour_.resize(t.node.size());
-  for_each_row(t.node.size(), [&](std::size_t r) {
-    neighbour_[r].fill(static_cast<std::uint32_t>(r));
-    stencil.for_each_neighbour(t.node[r], [&](std::size_t k, std::uint32_t j) {
-      if (t.row[j] >= 0) neighbour_[r][k] = static_cast<std::uint32_t>(t.row[j]);
-    });
-  });
   if (!factorized_) return;
   factors_->start(Dim * t.node.size());
   for (std::size_t r = 0; r < t.node.size(); ++r) {
@@ -57,7 +47,7 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const Grid<Dim>& g
     for (std::size_t e = 0; e < Dim; ++e) {
       const bool held = t.fixed[i] >> e & 1;
       for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-        const std::size_t r_j = neighbour_[r][k];
+        const std::size_t r_j = schur_->neighbour[r][k];
         const bool own = k == stencil_size<Dim> / 2;
         if (r_j > r || (r_j == r && !own)) continue;
         for (std::size_t d = 0; d < Dim; ++d) {
@@ -80,12 +70,12 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const Grid<Dim>& g
 template <int Dim>
 void VelocityBlock<Dim>::solve(Values& v) const {
   if (!factorized_) {
-    for_each_row(v.size(), [&](std::size_t i) { v[i] *= (*mobility_)[i]; });
+    for_each_row(v.size(), [&](std::size_t i) { v[i] *= schur_->mobility[i]; });
     return;
   }
   const auto hold = [&] {
     for_each_row(v.size(), [&](std::size_t i) {
-      if ((*mobility_)[i] == 0) v[i] = 0;
+      if (schur_->mobility[i] == 0) v[i] = 0;
     });
   };
   hold();
@@ -95,13 +85,13 @@ void VelocityBlock<Dim>::solve(Values& v) const {
 template <int Dim>
 void VelocityBlock<Dim>::subtract_product(const Values& u, Values& out) const {
   for_each_row(
-      neighbour_.size(),
+      schur_->rows(),
       [&](std::size_t r) {
         const std::uint32_t i = terms_.node[r];
         for (std::size_t e = 0; e < Dim; ++e) {
           double sum = terms_.c_a * terms_.m_i[i] * u[Dim * r + e];
           for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-            const std::size_t r_j = neighbour_[r][k];
+            const std::size_t r_j = schur_->neighbour[r][k];
             if (r_j == r && k != stencil_size<Dim> / 2) continue;
             for (std::size_t d = 0; d < Dim; ++d) {
               sum += terms_.c_v * terms_.viscosity[r][Dim * (Dim * k + e) + d] * u[Dim * r_j + d];

@@ -14,9 +14,9 @@ class VelocityBlock {
  public:
   VelocityBlock();
   ~VelocityBlock();
-  /// \param mobility  1/A_II; kept by reference
+  /// \param schur  assembled from the same terms; its neighbours and mobility are kept by reference
   /// \throws std::runtime_error if the factorization fails.
-  void prepare(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Values& mobility);
+  void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur);
   /// How much of a vector about is left of v - A solve(v): 0 if solve() is the inverse, else it divides by the
   /// diagonal.
   double error() const { return error_; }
@@ -28,9 +28,8 @@ class VelocityBlock {
  private:
   struct Factors;
   std::unique_ptr<Factors> factors_;
-  const Values* mobility_ = nullptr;
+  const PressureSchur<Dim>* schur_ = nullptr;
   EquationTerms<Dim> terms_{};
-  std::vector<std::array<std::uint32_t, stencil_size<Dim>>> neighbour_;
   double error_ = 0;
   bool factorized_ = false;
 };

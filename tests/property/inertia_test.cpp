@@ -59,17 +59,6 @@ std::vector<Mat<Dim>> cell_means(World& world, const std::vector<Mat<Dim>>& q_p)
   return means;
 }
 
-template <int Dim>
-Vec<Dim> node_position(const Grid<Dim>& grid, std::size_t node) {
-  Index<Dim> at;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    const auto nodes = static_cast<std::size_t>(grid.nodes(static_cast<int>(d)));
-    at[d] = static_cast<int>(node % nodes);
-    node /= nodes;
-  }
-  return grid.position(at);
-}
-
 /// m_I c_I of (E53) by a plain loop over particles and nodes.
 template <int Dim>
 std::vector<Vec<Dim>> first_moment(World& world, const std::vector<Mat<Dim>>& gradient) {
@@ -80,7 +69,7 @@ std::vector<Vec<Dim>> first_moment(World& world, const std::vector<Mat<Dim>>& gr
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     const kernels::PlainWeights<Dim> w(grid, y_p[p]);
     for (std::size_t i = 0; i < sum.size(); ++i) {
-      sum[i] += w.value[i] * m_p[p] * (gradient[p] * (node_position<Dim>(grid, i) - y_p[p]));
+      sum[i] += w.value[i] * m_p[p] * (gradient[p] * (grid.position(grid.index(i)) - y_p[p]));
     }
   }
   return sum;
