@@ -25,7 +25,7 @@ struct BlockFactors<Dim>::Impl {
   Values pressure;
   // Work space.
   Values more_displacement, f, of_velocity;
-  Values more_pressure, g, rest, zero;
+  Values more_pressure, g, zero, unscaled;
 };
 
 template <int Dim>
@@ -42,61 +42,61 @@ constexpr int most_passes = 60;
 template <int Dim>
 using Impl = typename BlockFactors<Dim>::Impl;
 
-/// Solves S p = g - starting from p, and sets u = A^-1 (f + D^T p), with A as the velocity block solves with.
+/// Solves s S p = g, s the scale of a residual, and sets u = A^-1 (f + D^T p), with A as the velocity block solves with.
 /// \param target  for the residual
 template <int Dim>
-Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double target, Values& u, Values& p) {
-  const auto& schur = s.schur;
+Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double target, Gmres::Start start, Values& u,
+                        Values& p) {
+  auto& schur = s.schur;
   const auto apply = [&](const Values& x, Values& out) {
-    schur.push_all(x, s.of_velocity);
-    s.velocity_block.solve(s.of_velocity);
-    schur.spread_all(s.of_velocity, x, out);
+    if (s.velocity_block.is_mobility()) {
+      schur.apply_with_mobility(x, out);
+    } else {
+      schur.push(x, s.of_velocity);
+      s.velocity_block.solve(s.of_velocity);
+      schur.spread(s.of_velocity, x, out);
+    }
+    for_each_row(out.size(), [&](std::size_t r) { out[r] *= schur.scale()[r]; });
   };
-  const auto precondition = [&](const Values& r, Values& out) { s.preconditioner.solve(r, out); };
-  const auto report = s.gmres.solve(apply, precondition, g, target, most_iterations, p);
-  schur.push_all(p, u);
+  const auto precondition = [&](const Values& r, Values& out) {
+    for_each_row(r.size(), [&](std::size_t i) { s.unscaled[i] = r[i] / schur.scale()[i]; });
+    s.preconditioner.solve(s.unscaled, out);
+  };
+  const auto report = s.gmres.solve(apply, precondition, g, target, most_iterations, start, p);
+  schur.push(p, u);
   add_scaled(1, f, u);
   s.velocity_block.solve(u);
   return report;
 }
 
-/// g = mass - B A^-1 f
+/// g = s (mass - B (u + A^-1 f) - T p)
 template <int Dim>
-void reduce(Impl<Dim>& s, const Values& f, const Values& mass, Values& g) {
+void reduce(Impl<Dim>& s, const Values& f, const Values& u, const Values& p, Values& g) {
   s.of_velocity = f;
   s.velocity_block.solve(s.of_velocity);
-  std::fill(s.zero.begin(), s.zero.end(), 0.0);
-  s.schur.spread_all(s.of_velocity, s.zero, g);
-  for_each_row(g.size(), [&](std::size_t r) { g[r] = mass[r] - g[r]; });
-}
-
-/// What is left of the right-hand sides: f = momentum - A u + D^T p, g = mass - B u - T p - B A^-1 f.
-template <int Dim>
-void find_rest(Impl<Dim>& s, Values& f, Values& g) {
-  s.schur.push_all(s.pressure, f);
-  s.velocity_block.subtract_product(s.displacement, f);
-  add_scaled(1, s.momentum, f);
-  s.schur.spread_all(s.displacement, s.pressure, s.rest);
-  for_each_row(g.size(), [&](std::size_t r) { s.rest[r] = s.mass[r] - s.rest[r]; });
-  reduce<Dim>(s, f, s.rest, g);
+  add_scaled(1, u, s.of_velocity);
+  s.schur.spread(s.of_velocity, p, g);
+  for_each_row(g.size(), [&](std::size_t r) { g[r] = s.schur.scale()[r] * (s.mass[r] - g[r]); });
 }
 
 /// Solves for displacement and pressure from the right-hand sides in momentum and mass. A diagonal velocity block is
 /// not quite that of a viscous liquid: passes over what it leaves follow, each as exact as the block allows.
 template <int Dim>
-Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance) {
-  reduce<Dim>(s, s.momentum, s.mass, s.g);
+Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
+  std::fill(s.displacement.begin(), s.displacement.end(), 0.0);
+  reduce<Dim>(s, s.momentum, s.displacement, s.zero, s.g);
   const double norm = std::sqrt(dot(s.g, s.g));
   const double left_by_block = s.velocity_block.error();
   const double target = tolerance * norm;
   Gmres::Report report =
-      eliminate<Dim>(s, s.momentum, s.g, std::max(target, left_by_block * norm), s.displacement, s.pressure);
+      eliminate<Dim>(s, s.momentum, s.g, std::max(target, left_by_block * norm), start, s.displacement, s.pressure);
+  s.more_displacement = s.displacement;
   for (int pass = 0; left_by_block > 0 && report.converged; ++pass) {
-    find_rest<Dim>(s, s.f, s.g);
+    s.velocity_block.find_rest(s.more_displacement, s.f);
+    reduce<Dim>(s, s.f, s.displacement, s.pressure, s.g);
     const double left = std::sqrt(dot(s.g, s.g));
-    std::fill(s.more_pressure.begin(), s.more_pressure.end(), 0.0);
-    const auto more =
-        eliminate<Dim>(s, s.f, s.g, std::max(target, left_by_block * left), s.more_displacement, s.more_pressure);
+    const auto more = eliminate<Dim>(s, s.f, s.g, std::max(target, left_by_block * left), Gmres::Start::zero,
+                                     s.more_displacement, s.more_pressure);
     add_scaled(1, s.more_displacement, s.displacement);
     add_scaled(1, s.more_pressure, s.pressure);
     report.iterations += more.iterations;
@@ -115,7 +115,8 @@ void prepare(Impl<Dim>& s, const EquationTerms<Dim>& terms, const Grid<Dim>& gri
   s.velocity_block.prepare(terms, s.schur);
   s.preconditioner.prepare(s.schur, terms, grid, viscous_part<Dim>(terms, grid, fluid, scale));
   const std::size_t n = s.schur.rows();
-  for (Values* v : {&s.mass, &s.pressure, &s.more_pressure, &s.g, &s.rest, &s.zero}) v->resize(n);
+  for (Values* v : {&s.mass, &s.pressure, &s.more_pressure, &s.g, &s.zero, &s.unscaled}) v->resize(n);
+  std::fill(s.zero.begin(), s.zero.end(), 0.0);
   for (Values* v : {&s.momentum, &s.displacement, &s.more_displacement, &s.f, &s.of_velocity}) v->resize(Dim * n);
 }
 
@@ -124,7 +125,7 @@ void take_right_hand_side(Impl<Dim>& s, const std::vector<double>& b) {
   for_each_row(s.mass.size(), [&](std::size_t r) {
     const double* row = b.data() + unknowns_per_row(Dim) * r;
     for (std::size_t d = 0; d < Dim; ++d) s.momentum[Dim * r + d] = row[d];
-    s.mass[r] = s.schur.scale[r] * row[Dim];
+    s.mass[r] = row[Dim];
   });
 }
 
@@ -134,7 +135,7 @@ void give_solution(const Impl<Dim>& s, std::vector<double>& x) {
   for_each_row(s.mass.size(), [&](std::size_t r) {
     double* row = x.data() + unknowns_per_row(Dim) * r;
     for (std::size_t d = 0; d < Dim; ++d) row[d] = s.displacement[Dim * r + d];
-    row[Dim] = s.schur.scale[r] * s.pressure[r];
+    row[Dim] = s.pressure[r];
   });
 }
 
@@ -156,8 +157,8 @@ SolveReport solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid,
   prepare<Dim>(s, terms, grid, fluid, scale, rates);
   take_right_hand_side<Dim>(s, b);
   // The pressure of the step before is near.
-  for_each_row(s.pressure.size(), [&](std::size_t r) { s.pressure[r] = p_i[terms.node[r]] / s.schur.scale[r]; });
-  const Gmres::Report done = solve_blocks<Dim>(s, tolerance);
+  for_each_row(s.pressure.size(), [&](std::size_t r) { s.pressure[r] = p_i[terms.node[r]]; });
+  const Gmres::Report done = solve_blocks<Dim>(s, tolerance, Gmres::Start::x);
   if (!is_solved(done)) {
     SolveReport report = solve_directly<Dim>(clock, grid, terms, b, s, x);
     report.iterations = done.iterations;
@@ -174,9 +175,8 @@ std::vector<double> solve_again(BlockFactors<Dim>& factors, const std::vector<do
                                 const Clock& clock, const Grid<Dim>& grid, double tolerance) {
   Impl<Dim>& s = *factors.impl;
   take_right_hand_side<Dim>(s, right_hand_side);
-  std::fill(s.pressure.begin(), s.pressure.end(), 0.0);
   std::vector<double> x;
-  if (is_solved(solve_blocks<Dim>(s, tolerance))) {
+  if (is_solved(solve_blocks<Dim>(s, tolerance, Gmres::Start::zero))) {
     give_solution<Dim>(s, x);
   } else {
     solve_directly<Dim>(clock, grid, s.terms, right_hand_side, s, x);

@@ -1,7 +1,9 @@
 #pragma once
 /// \file
-/// GMRES with restarts and a preconditioner on the right, so that the residual is that of the system itself.
-/// Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856, doi:10.1137/0907058.
+/// GMRES with restarts and a preconditioner on the right, so that the residual is that of the system itself. The
+/// preconditioned directions are kept: where rounding makes the preconditioner not quite linear, the correction is
+/// still the one whose residual was found.
+/// Y. Saad, SIAM J. Sci. Comput. 14 (1993) 461, doi:10.1137/0914028 (flexible GMRES).
 
 #include "engine/parallel.hpp"
 
@@ -33,22 +35,30 @@ class Gmres {
     bool converged = false;
   };
 
+  enum class Start { zero, x };
+
   /// Improves x until |b - A x| <= target.
+  /// \param start         whether x holds something near, or is set to zero
   /// \param apply         apply(x, out) sets out = A x
   /// \param precondition  precondition(x, out) sets out to about A^-1 x
   template <class Apply, class Precondition>
   Report solve(const Apply& apply, const Precondition& precondition, const Values& b, double target,
-               std::int64_t most_iterations, Values& x) {
+               std::int64_t most_iterations, Start start, Values& x) {
     resize(b.size());
     Report report;
+    if (start == Start::zero) std::fill(x.begin(), x.end(), 0.0);
     while (true) {
-      apply(x, product_);
-      for_each_row(b.size(), [&](std::size_t i) { basis_[0][i] = b[i] - product_[i]; });
+      if (start == Start::zero && report.iterations == 0) {
+        basis_[0] = b;
+      } else {
+        apply(x, product_);
+        for_each_row(b.size(), [&](std::size_t i) { basis_[0][i] = b[i] - product_[i]; });
+      }
       report.residual = std::sqrt(dot(basis_[0], basis_[0]));
       report.converged = report.residual <= target;
       if (report.converged || report.iterations >= most_iterations || !std::isfinite(report.residual)) return report;
       const std::size_t size = cycle(apply, precondition, target, most_iterations, report);
-      add_correction(precondition, size, x);
+      add_correction(size, x);
       // After few iterations the estimate that ends a cycle is the residual to rounding. Later it can drift away.
       if (report.converged && report.iterations <= few_iterations) return report;
     }
@@ -61,15 +71,17 @@ class Gmres {
   void resize(std::size_t rows) {
     if (product_.size() == rows) return;
     product_.resize(rows);
-    direction_.resize(rows);
-    for (Values& v : basis_) v.clear();
     basis_.resize(restart + 1);
+    direction_.resize(restart);
+    for (Values& v : basis_) v.resize(v.empty() ? 0 : rows);
+    for (Values& v : direction_) v.resize(v.empty() ? 0 : rows);
     basis_[0].resize(rows);
   }
 
-  Values& basis(std::size_t k) {
-    basis_[k].resize(product_.size());
-    return basis_[k];
+  /// One more of the vectors that a cycle needs; most cycles need few.
+  Values& grown(std::vector<Values>& vectors, std::size_t k) {
+    vectors[k].resize(product_.size());
+    return vectors[k];
   }
 
   /// Builds up to `restart` basis vectors from the residual in the first, and the triangular system of their weights.
@@ -80,9 +92,10 @@ class Gmres {
     rest_[0] = report.residual;
     std::size_t k = 0;
     while (k < restart && report.iterations < most_iterations && !report.converged) {
-      precondition(basis_[k], direction_);
-      Values& next = basis(k + 1);
-      apply(direction_, next);
+      Values& direction = grown(direction_, k);
+      precondition(basis_[k], direction);
+      Values& next = grown(basis_, k + 1);
+      apply(direction, next);
       auto& column = hessenberg_[k];
       for (std::size_t j = 0; j <= k; ++j) {
         column[j] = dot(next, basis_[j]);
@@ -115,18 +128,14 @@ class Gmres {
     rest_[k] *= cosine_[k];
   }
 
-  template <class Precondition>
-  void add_correction(const Precondition& precondition, std::size_t size, Values& x) {
+  void add_correction(std::size_t size, Values& x) {
     std::array<double, restart> weight{};
     for (std::size_t k = size; k-- > 0;) {
       double sum = rest_[k];
       for (std::size_t j = k + 1; j < size; ++j) sum -= hessenberg_[j][k] * weight[j];
       weight[k] = hessenberg_[k][k] != 0 ? sum / hessenberg_[k][k] : 0;
     }
-    std::fill(product_.begin(), product_.end(), 0.0);
-    for (std::size_t k = 0; k < size; ++k) add_scaled(weight[k], basis_[k], product_);
-    precondition(product_, direction_);
-    add_scaled(1, direction_, x);
+    for (std::size_t k = 0; k < size; ++k) add_scaled(weight[k], direction_[k], x);
   }
 
   static void scale(double factor, Values& x) {
@@ -134,8 +143,8 @@ class Gmres {
   }
 
   std::vector<Values> basis_;
+  std::vector<Values> direction_;  ///< M^-1 of the basis vectors
   Values product_;
-  Values direction_;
   std::array<std::array<double, restart + 1>, restart> hessenberg_{};
   std::array<double, restart> cosine_{};
   std::array<double, restart> sine_{};

@@ -72,17 +72,12 @@ void PressurePreconditioner<Dim>::find_envelope(const PressureSchur<Dim>& schur)
   first_.resize(order_.size());
   std::iota(first_.begin(), first_.end(), 0U);
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-      if (schur.compact[r][k] == 0) continue;
-      const std::uint32_t i = place_[r];
-      const std::uint32_t j = place_[schur.neighbour[r][k]];
-      first_[std::max(i, j)] = std::min(first_[std::max(i, j)], std::min(i, j));
-    }
-    for (const auto& entry : schur.beyond[r]) {
-      const std::uint32_t i = place_[r];
-      const std::uint32_t j = place_[entry.row];
-      first_[std::max(i, j)] = std::min(first_[std::max(i, j)], std::min(i, j));
-    }
+    const auto include = [&](std::size_t r_j, double) {
+      const auto [low, high] = std::minmax(place_[r], place_[r_j]);
+      first_[high] = std::min(first_[high], low);
+    };
+    schur.for_each_compact(r, include);
+    for (const auto& entry : schur.beyond(r)) include(entry.row, entry.value);
   }
 }
 
@@ -90,31 +85,37 @@ template <int Dim>
 bool PressurePreconditioner<Dim>::factorize_envelope(const PressureSchur<Dim>& schur) {
   envelope_.start(first_);
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-      const double value = schur.compact[r][k];
-      if (value != 0) envelope_.at(place_[r], place_[schur.neighbour[r][k]]) += value;
-    }
-    for (const auto& entry : schur.beyond[r]) envelope_.at(place_[r], place_[entry.row]) += entry.value;
+    const auto add = [&](std::size_t r_j, double value) { envelope_.at(place_[r], place_[r_j]) += value; };
+    schur.for_each_compact(r, add);
+    for (const auto& entry : schur.beyond(r)) add(entry.row, entry.value);
   }
   return envelope_.factorize();
 }
 
+/// The symmetric part of the compact matrix.
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_sparse(const PressureSchur<Dim>& schur, bool with_surface) {
-  constexpr std::size_t own = stencil_size<Dim> / 2;
+bool PressurePreconditioner<Dim>::factorize_symmetric(const PressureSchur<Dim>& schur) {
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-      const std::size_t r_j = schur.neighbour[r][k];
-      if (r_j > r || (r_j == r && k != own)) continue;
-      const double value = with_surface ? (schur.compact[r][k] + schur.compact[r_j][stencil_size<Dim> - 1 - k]) / 2
-                                        : schur.pressure[r][k] + (k == own ? 1e-3 * schur.compact[r][own] : 0);
-      if (value != 0 || k == own) sparse_.add(r, r_j, value);
+    schur.for_each_compact_pair(r, [&](std::size_t r_j, double value, double back) {
+      if (r_j <= r) sparse_.add(r, r_j, (value + back) / 2);
+    });
+    for (const auto& entry : schur.beyond(r)) {
+      if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(schur.beyond(entry.row), r)) / 2);
     }
-    if (!with_surface) continue;
-    for (const auto& entry : schur.beyond[r]) {
-      if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(schur.beyond[entry.row], r)) / 2);
-    }
+  }
+  return sparse_.factorize();
+}
+
+/// T + e, with something of the diagonal: never indefinite.
+template <int Dim>
+bool PressurePreconditioner<Dim>::factorize_pressure(const PressureSchur<Dim>& schur) {
+  sparse_.start(order_.size());
+  for (std::size_t r = 0; r < order_.size(); ++r) {
+    const double more = 1e-3 / (schur.scale()[r] * schur.scale()[r]);
+    schur.for_each_pressure(r, [&](std::size_t r_j, double value) {
+      if (r_j <= r) sparse_.add(r, r_j, value + (r_j == r ? more : 0));
+    });
   }
   return sparse_.factorize();
 }
@@ -126,15 +127,13 @@ void PressurePreconditioner<Dim>::prepare(const PressureSchur<Dim>& schur, const
   find_envelope(schur);
   ordered_.resize(order_.size());
   narrow_ = EnvelopeLu::cost(first_) < widest && factorize_envelope(schur);
-  // The symmetric part can be indefinite in spray; T + e never is.
-  if (!narrow_ && !factorize_sparse(schur, true) && !factorize_sparse(schur, false)) {
+  // The symmetric part can be indefinite in spray.
+  if (!narrow_ && !factorize_symmetric(schur) && !factorize_pressure(schur)) {
     throw std::runtime_error("solve: the pressure matrix is not positive definite");
   }
   of_mass_.clear();
   if (viscous_part == 0) return;
-  for (std::size_t r = 0; r < order_.size(); ++r) {
-    of_mass_.push_back(viscous_part / (terms.m_i[terms.node[r]] * schur.scale[r] * schur.scale[r]));
-  }
+  for (std::size_t r = 0; r < order_.size(); ++r) of_mass_.push_back(viscous_part / terms.m_i[terms.node[r]]);
 }
 
 template <int Dim>

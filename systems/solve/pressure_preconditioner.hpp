@@ -34,13 +34,14 @@ class PressurePreconditioner {
   void find_order(const EquationTerms<Dim>& terms, const Grid<Dim>& grid);
   void find_envelope(const PressureSchur<Dim>& schur);
   bool factorize_envelope(const PressureSchur<Dim>& schur);
-  bool factorize_sparse(const PressureSchur<Dim>& schur, bool with_surface);
+  bool factorize_symmetric(const PressureSchur<Dim>& schur);
+  bool factorize_pressure(const PressureSchur<Dim>& schur);
 
   std::vector<std::uint32_t> order_;  ///< the rows, as the envelope has them
   std::vector<std::uint32_t> place_;  ///< where the envelope has a row
   std::vector<std::uint32_t> first_;
   Values ordered_;
-  Values of_mass_;  ///< b/(V_I s_I^2); empty if not viscous
+  Values of_mass_;  ///< b/V_I; empty if not viscous
   bool narrow_ = true;
   EnvelopeLu envelope_;
   SparseCholesky sparse_;

@@ -47,9 +47,10 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
     for (std::size_t e = 0; e < Dim; ++e) {
       const bool held = t.fixed[i] >> e & 1;
       for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-        const std::size_t r_j = schur_->neighbour[r][k];
-        const bool own = k == stencil_size<Dim> / 2;
-        if (r_j > r || (r_j == r && !own)) continue;
+        const std::int32_t there = schur_->blocks().neighbour(r, k);
+        if (there < 0 || there > static_cast<std::int32_t>(r)) continue;
+        const auto r_j = static_cast<std::size_t>(there);
+        const bool own = r_j == r;
         for (std::size_t d = 0; d < Dim; ++d) {
           if (own && d > e) continue;
           const bool diagonal = own && d == e;
@@ -70,12 +71,12 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
 template <int Dim>
 void VelocityBlock<Dim>::solve(Values& v) const {
   if (!factorized_) {
-    for_each_row(v.size(), [&](std::size_t i) { v[i] *= schur_->mobility[i]; });
+    for_each_row(v.size(), [&](std::size_t i) { v[i] *= schur_->mobility()[i]; });
     return;
   }
   const auto hold = [&] {
     for_each_row(v.size(), [&](std::size_t i) {
-      if (schur_->mobility[i] == 0) v[i] = 0;
+      if (schur_->mobility()[i] == 0) v[i] = 0;
     });
   };
   hold();
@@ -83,21 +84,25 @@ void VelocityBlock<Dim>::solve(Values& v) const {
 }
 
 template <int Dim>
-void VelocityBlock<Dim>::subtract_product(const Values& u, Values& out) const {
+void VelocityBlock<Dim>::find_rest(const Values& u, Values& out) const {
+  using Entries = Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
+  using Vector = Eigen::Map<const Eigen::Matrix<double, Dim, 1>>;
+  constexpr std::size_t own = stencil_size<Dim> / 2;
+  const auto& blocks = schur_->blocks();
   for_each_row(
-      schur_->rows(),
+      blocks.rows(),
       [&](std::size_t r) {
-        const std::uint32_t i = terms_.node[r];
-        for (std::size_t e = 0; e < Dim; ++e) {
-          double sum = terms_.c_a * terms_.m_i[i] * u[Dim * r + e];
-          for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-            const std::size_t r_j = schur_->neighbour[r][k];
-            if (r_j == r && k != stencil_size<Dim> / 2) continue;
-            for (std::size_t d = 0; d < Dim; ++d) {
-              sum += terms_.c_v * terms_.viscosity[r][Dim * (Dim * k + e) + d] * u[Dim * r_j + d];
-            }
-          }
-          out[Dim * r + e] = terms_.fixed[i] >> e & 1 ? 0 : out[Dim * r + e] - sum;
+        const double* of_row = terms_.viscosity[r].data();
+        Vec<Dim> sum = Vec<Dim>::Zero();
+        for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+          const std::int32_t there = blocks.neighbour(r, k);
+          if (there < 0) continue;
+          sum += Entries(of_row + Dim * Dim * k) * Vector(u.data() + Dim * static_cast<std::size_t>(there));
+        }
+        for (std::size_t d = 0; d < Dim; ++d) {
+          const double diagonal = of_row[Dim * (Dim * own + d) + d];
+          const double rest = diagonal * u[Dim * r + d] - sum[static_cast<Eigen::Index>(d)];
+          out[Dim * r + d] = schur_->mobility()[Dim * r + d] == 0 ? 0 : terms_.c_v * rest;
         }
       },
       256);

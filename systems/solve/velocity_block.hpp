@@ -14,16 +14,18 @@ class VelocityBlock {
  public:
   VelocityBlock();
   ~VelocityBlock();
-  /// \param schur  assembled from the same terms; its neighbours and mobility are kept by reference
+  /// \param schur  assembled from the same terms; its blocks and mobility are kept by reference
   /// \throws std::runtime_error if the factorization fails.
   void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur);
   /// How much of a vector about is left of v - A solve(v): 0 if solve() is the inverse, else it divides by the
   /// diagonal.
   double error() const { return error_; }
+  /// Whether solve() multiplies by the mobility of the Schur complement.
+  bool is_mobility() const { return !factorized_; }
   /// v = A^-1 v; zero towards walls.
   void solve(Values& v) const;
-  /// out -= A u; zero towards walls.
-  void subtract_product(const Values& u, Values& out) const;
+  /// What dividing by the diagonal has left of a right-hand side, out = (diagonal of A - A) u; zero towards walls.
+  void find_rest(const Values& u, Values& out) const;
 
  private:
   struct Factors;

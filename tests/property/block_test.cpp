@@ -216,15 +216,15 @@ TEST_CASE("GMRES solves with and without restarts, and says where it stopped", "
   };
   const auto precondition = [](const Values& r, Values& out) { out = r; };
   Gmres gmres;
-  Values x(200, 0.0);
+  Values x(200, 1.0);
   const double norm = std::sqrt(dot(b, b));
-  const auto report = gmres.solve(apply, precondition, b, 1e-11 * norm, 2000, x);
+  const auto report = gmres.solve(apply, precondition, b, 1e-11 * norm, 2000, Gmres::Start::zero, x);
   CHECK(report.converged);
   CHECK(report.iterations > 0);
   CHECK(report.residual <= 1e-11 * norm);
   CHECK(difference(x, x_e) < 1e-9);
   // From the solution there is nothing left to do; with too few iterations it does not claim success.
-  CHECK(gmres.solve(apply, precondition, b, 1e-10 * norm, 2000, x).iterations == 0);
+  CHECK(gmres.solve(apply, precondition, b, 1e-10 * norm, 2000, Gmres::Start::x, x).iterations == 0);
   Values y(200, 0.0);
-  CHECK_FALSE(gmres.solve(apply, precondition, b, 1e-11 * norm, 3, y).converged);
+  CHECK_FALSE(gmres.solve(apply, precondition, b, 1e-11 * norm, 3, Gmres::Start::zero, y).converged);
 }

@@ -1,0 +1,168 @@
+#include "systems/solve/row_blocks.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+/// Of x = -8: room for the images of a periodic axis and a margin beside them.
+template <int Dim>
+int block_at(int x) {
+  constexpr int width = RowBlocks<Dim>::width;
+  return (x + 2 * width) / width;
+}
+
+template <int Dim>
+std::size_t line_of(const Grid<Dim>& grid, const Index<Dim>& node) {
+  std::size_t number = 0;
+  for (int d = Dim - 1; d > 0; --d) {
+    number = number * static_cast<std::size_t>(grid.nodes(d)) + static_cast<std::size_t>(node[static_cast<std::size_t>(d)]);
+  }
+  return number;
+}
+
+}  // namespace
+
+/// The block of a node or image of the last line, and one more on each side.
+template <int Dim>
+void RowBlocks<Dim>::cover(int block) {
+  constexpr auto w = static_cast<std::uint32_t>(width);
+  const bool fresh = runs_.size() == lines_.back().first_run ||
+                     first_block_.back() + static_cast<int>(runs_.back().length / w) < block - 1;
+  if (fresh) {
+    runs_.push_back({runs_.back().begin + runs_.back().length, 0});
+    first_block_.push_back(block - 1);
+  }
+  runs_.back().length = w * static_cast<std::uint32_t>(block + 2 - first_block_.back());
+}
+
+template <int Dim>
+void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const std::uint32_t> node) {
+  // The first run stands for what is beyond the water.
+  runs_.assign(1, {0, 3 * width});
+  first_block_.assign(1, 0);
+  lines_.clear();
+  const int nodes = grid.nodes(0);
+  const auto x_of = [&](std::size_t r) { return grid.index(node[r])[0]; };
+  for (std::size_t begin = 0, end = 0; begin < node.size(); begin = end) {
+    const std::size_t number = line_of<Dim>(grid, grid.index(node[begin]));
+    while (end < node.size() && line_of<Dim>(grid, grid.index(node[end])) == number) ++end;
+    lines_.push_back({number, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(runs_.size())});
+    const std::size_t before = grid.periodic[0] ? std::min<std::size_t>(2, end - begin) : 0;
+    for (std::size_t r = end - before; r < end; ++r) {
+      if (x_of(r) >= nodes - 2) cover(block_at<Dim>(x_of(r) - nodes));
+    }
+    for (std::size_t r = begin; r < end; ++r) cover(block_at<Dim>(x_of(r)));
+    for (std::size_t r = begin; r < begin + before; ++r) {
+      if (x_of(r) < 2) cover(block_at<Dim>(x_of(r) + nodes));
+    }
+  }
+  lines_.push_back({~std::size_t{0}, static_cast<std::uint32_t>(node.size()), static_cast<std::uint32_t>(runs_.size())});
+}
+
+/// The places in lines_ of the lines that a stencil sees, -1 where there is none.
+template <int Dim>
+std::array<std::int32_t, RowBlocks<Dim>::lines> RowBlocks<Dim>::lines_around(const Grid<Dim>& grid,
+                                                                             std::size_t number) const {
+  Index<Dim> own{};
+  for (int d = 1; d < Dim; ++d) {
+    own[static_cast<std::size_t>(d)] = static_cast<int>(number % static_cast<std::size_t>(grid.nodes(d)));
+    number /= static_cast<std::size_t>(grid.nodes(d));
+  }
+  std::array<std::int32_t, lines> around;
+  for (std::size_t l = 0; l < lines; ++l) {
+    around[l] = -1;
+    Index<Dim> there = own;
+    std::size_t rest = l;
+    bool inside = true;
+    for (int d = 1; d < Dim; ++d, rest /= 5) {
+      auto& at = there[static_cast<std::size_t>(d)];
+      at = grid.wrapped(d, at + static_cast<int>(rest % 5) - 2);
+      inside = inside && at >= 0 && at < grid.nodes(d);
+    }
+    if (!inside) continue;
+    const std::size_t wanted = line_of<Dim>(grid, there);
+    const auto found = std::lower_bound(lines_.begin(), lines_.end(), wanted,
+                                        [](const Line& line, std::size_t value) { return line.number < value; });
+    if (found->number == wanted) around[l] = static_cast<std::int32_t>(found - lines_.begin());
+  }
+  return around;
+}
+
+template <int Dim>
+std::uint32_t RowBlocks<Dim>::slot_in_line(std::int32_t line, int block) const {
+  constexpr auto w = static_cast<std::uint32_t>(width);
+  if (line >= 0) {
+    const auto l = static_cast<std::size_t>(line);
+    for (std::uint32_t r = lines_[l].first_run; r < lines_[l + 1].first_run && first_block_[r] <= block; ++r) {
+      const std::uint32_t at = w * static_cast<std::uint32_t>(block - first_block_[r]);
+      if (at < runs_[r].length) return runs_[r].begin + at;
+    }
+  }
+  return w;
+}
+
+template <int Dim>
+void RowBlocks<Dim>::find_blocks(const Grid<Dim>& grid) {
+  for (std::size_t l = 0; l + 1 < lines_.size(); ++l) {
+    const auto around = lines_around(grid, lines_[l].number);
+    for (std::size_t r = lines_[l].first_run; r < lines_[l + 1].first_run; ++r) {
+      for (std::uint32_t at = 0; at < runs_[r].length; at += width) {
+        Block block{runs_[r].begin + at, {}, {}};
+        bool empty = true;
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          const std::int32_t row = row_[block.slot + lane];
+          const bool own = row >= 0 && slot_[static_cast<std::size_t>(row)] == block.slot + lane;
+          block.row[lane] = own ? row : -1;
+          if (own) block_of_row_[static_cast<std::size_t>(row)] = static_cast<std::uint32_t>(blocks_.size());
+          empty = empty && !own;
+        }
+        if (empty) {
+          margins_.push_back(block.slot);
+          continue;
+        }
+        const int number = first_block_[r] + static_cast<int>(at / width);
+        for (std::size_t k = 0; k < lines; ++k) block.beside[k] = slot_in_line(around[k], number);
+        blocks_.push_back(block);
+      }
+    }
+  }
+}
+
+template <int Dim>
+void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const std::uint32_t> node) {
+  find_runs(grid, node);
+  // A margin for those who look beside the last block.
+  const std::size_t slots = runs_.back().begin + runs_.back().length + width;
+  row_.assign(slots, -1);
+  slot_.resize(node.size());
+  block_of_row_.resize(node.size());
+  images_.clear();
+  blocks_.clear();
+  margins_.clear();
+  for (std::uint32_t at = 0; at < 3 * width; at += width) margins_.push_back(at);
+  run_of_block_.clear();
+  for (std::uint32_t r = 0; r < runs_.size(); ++r) run_of_block_.insert(run_of_block_.end(), runs_[r].length / width, r);
+  const int nodes = grid.nodes(0);
+  for (std::size_t l = 0; l + 1 < lines_.size(); ++l) {
+    const auto slot_at = [&](int x) {
+      return slot_in_line(static_cast<std::int32_t>(l), block_at<Dim>(x)) +
+             static_cast<std::uint32_t>((x + 2 * static_cast<int>(width)) % static_cast<int>(width));
+    };
+    for (std::uint32_t r = lines_[l].first_row; r < lines_[l + 1].first_row; ++r) {
+      const int x = grid.index(node[r])[0];
+      slot_[r] = slot_at(x);
+      row_[slot_[r]] = static_cast<std::int32_t>(r);
+      if (!grid.periodic[0] || (x >= 2 && x < nodes - 2)) continue;
+      images_.push_back({slot_[r], slot_at(x < 2 ? x + nodes : x - nodes)});
+      row_[images_.back()[1]] = static_cast<std::int32_t>(r);
+    }
+  }
+  find_blocks(grid);
+}
+
+template class RowBlocks<2>;
+template class RowBlocks<3>;
+
+}  // namespace minamo

@@ -1,0 +1,129 @@
+#pragma once
+/// \file
+/// The rows of the matrix tables along the lines of the grid, four nodes side by side, so that a sum over a stencil is
+/// vectorized over nodes: the neighbours of four nodes at one offset lie side by side, too.
+///
+/// Every node has a slot. A line (all nodes with the same y, z) consists of runs of blocks of four slots; around every
+/// node there is one more block on each side. Slots without a row hold zeros, and so does a run of its own that stands
+/// for everything beyond the water. Beyond the ends of a periodic x axis there are images of the nodes at the other.
+
+#include "components/grid.hpp"
+#include "components/types.hpp"
+#include "systems/solve/gmres.hpp"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace minamo {
+
+/// What four nodes side by side have.
+using Lanes = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
+inline Lanes load(const double* from) { return Eigen::Map<const Lanes>(from); }
+inline void store(const Lanes& value, double* to) { Eigen::Map<Lanes>{to} = value; }
+
+template <int Dim>
+class RowBlocks {
+ public:
+  static constexpr std::size_t width = 4;
+  /// Lines that a stencil sees.
+  static constexpr std::size_t lines = power(5, Dim - 1);
+  struct Block {
+    std::uint32_t slot;                          ///< the first
+    std::array<std::uint32_t, lines> beside;     ///< slot with the same x in a line of the stencil, y fastest
+    std::array<std::int32_t, width> row;         ///< -1 where there is none
+    std::size_t at(std::size_t place) const {    ///< where the neighbour at a place of the stencil begins
+      return beside[place / 5] + place % 5 - 2;
+    }
+  };
+  /// Slots of one line that follow one another.
+  struct Run {
+    std::uint32_t begin;
+    std::uint32_t length;
+  };
+
+  /// \param node  of every row, in the order of their places in the grid
+  void build(const Grid<Dim>& grid, std::span<const std::uint32_t> node);
+
+  std::size_t rows() const { return slot_.size(); }
+  std::size_t slots() const { return row_.size(); }
+  const std::vector<Block>& blocks() const { return blocks_; }
+  std::uint32_t slot(std::size_t row) const { return slot_[row]; }
+  /// The row of a slot, of an image too; -1 if there is none.
+  std::int32_t row(std::size_t slot) const { return row_[slot]; }
+  const Block& block(std::size_t row) const { return blocks_[block_of_row_[row]]; }
+  const Run& run(std::size_t slot) const { return runs_[run_of_block_[slot / width]]; }
+  /// The row at a place of the stencil of a row, -1 if there is none.
+  std::int32_t neighbour(std::size_t row, std::size_t place) const {
+    return row_[block(row).at(place) + slot_[row] % width];
+  }
+  /// Gives images what their nodes have.
+  void fill_images(double* of_slot) const {
+    for_each_image([&](std::uint32_t from, std::uint32_t to) { of_slot[to] = of_slot[from]; });
+  }
+  /// Whether a slot beside a block stands for what is beyond the water.
+  static constexpr bool is_beyond(std::uint32_t beside) { return beside == width; }
+  /// Calls body(slot of the node, slot of its image).
+  template <class Body>
+  void for_each_image(const Body& body) const {
+    for (const auto& [from, to] : images_) body(from, to);
+  }
+  /// Calls body(slot) for the first slots of blocks without a row.
+  template <class Body>
+  void for_each_margin(const Body& body) const {
+    for (const std::uint32_t slot : margins_) body(slot);
+  }
+
+ private:
+  struct Line {
+    std::size_t number;  ///< y + count of y times z
+    std::uint32_t first_row;
+    std::uint32_t first_run;
+  };
+  void find_runs(const Grid<Dim>& grid, std::span<const std::uint32_t> node);
+  void find_blocks(const Grid<Dim>& grid);
+  void cover(int block);
+  std::array<std::int32_t, lines> lines_around(const Grid<Dim>& grid, std::size_t number) const;
+  std::uint32_t slot_in_line(std::int32_t line, int block) const;
+
+  std::vector<Line> lines_;
+  std::vector<Run> runs_;
+  std::vector<int> first_block_;  ///< of every run, counted along x
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> slot_;
+  std::vector<std::uint32_t> block_of_row_;
+  std::vector<std::int32_t> row_;
+  std::vector<std::uint32_t> run_of_block_;
+  std::vector<std::uint32_t> margins_;
+  std::vector<std::array<std::uint32_t, 2>> images_;
+};
+
+/// `entries` numbers per slot. Those of a run lie together, so that a product streams through memory.
+template <int Dim>
+class BlockEntries {
+ public:
+  void resize(const RowBlocks<Dim>& blocks, std::size_t entries) {
+    blocks_ = &blocks;
+    entries_ = entries;
+    values_.resize(entries * blocks.slots());
+  }
+  /// Entry 0 of a slot; entry e stands e * stride(slot) further. Good also for the slots up to two beside its block.
+  double* at(std::size_t slot, std::size_t base) { return values_.data() + place(slot, base); }
+  const double* at(std::size_t slot, std::size_t base) const { return values_.data() + place(slot, base); }
+  std::size_t stride(std::size_t base) const { return blocks_->run(base).length; }
+  double* at(std::size_t slot) { return at(slot, slot); }
+  const double* at(std::size_t slot) const { return at(slot, slot); }
+
+ private:
+  std::size_t place(std::size_t slot, std::size_t base) const {
+    const auto& run = blocks_->run(base);
+    return entries_ * run.begin + slot - run.begin;
+  }
+  const RowBlocks<Dim>* blocks_ = nullptr;
+  std::size_t entries_ = 0;
+  Values values_;
+};
+
+}  // namespace minamo
