@@ -200,7 +200,7 @@ void PressureSchur<Dim>::fill_beyond(const EquationTerms<Dim>& t, const Grid<Dim
       const Index<Dim> offset = offset_of<Dim>(k, 9);
       if (std::all_of(offset.begin(), offset.end(), [](int o) { return std::abs(o) <= 2; })) continue;
       const std::int32_t there = row_at<Dim>(t, grid, node, offset);
-      if (there < 0 || !thin_[static_cast<std::size_t>(there)]) continue;
+      if (there < 0) continue;
       beyond.push_back({static_cast<std::uint32_t>(there), value});
     }
   }
@@ -218,7 +218,7 @@ void PressureSchur<Dim>::assemble(const EquationTerms<Dim>& t, const Grid<Dim>& 
   beyond_.resize(rows());
   for_each_row(rows(), [&](std::size_t r) {
     beyond_[r].clear();
-    thin_[r] = t.m_i[t.node[r]] < 0.5 * fluid.density * full_volume<Dim>(grid, t.node[r]);
+    thin_[r] = t.m_i[t.node[r]] < 0.9 * fluid.density * full_volume<Dim>(grid, t.node[r]);
   });
   fill_mobility(t);
   const auto& blocks = blocks_.blocks();
