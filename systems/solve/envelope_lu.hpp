@@ -1,11 +1,13 @@
 #pragma once
 /// \file
 /// LU factorization without pivoting within the envelope of a matrix whose pattern is symmetric: for row i the columns
-/// from the first that has an entry on. Needs no symbolic work, and its loops are dot products of neighbours in memory,
-/// so that it beats sparse factorizations as long as the envelope is narrow.
+/// from the first that has an entry on, in tiles of 4 x 4. Needs no symbolic work and streams through memory, so that
+/// it beats sparse factorizations as long as the envelope is narrow.
 /// A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems, Prentice-Hall 1981, ch. 4.
 
 #include "systems/solve/gmres.hpp"
+
+#include <Eigen/Core>
 
 namespace minamo {
 
@@ -13,25 +15,43 @@ class EnvelopeLu {
  public:
   /// \param first  column of the first entry of every row, at most the row itself
   void start(const std::vector<std::uint32_t>& first);
-  std::size_t rows() const { return first_.size(); }
+  std::size_t rows() const { return rows_; }
   /// Entry of the lower or upper part; \pre within the envelope.
   double& at(std::size_t row, std::size_t column) {
-    return column < row ? lower_[start_[row] + column - first_[row]] : upper_[start_[column] + row - first_[column]];
+    const std::size_t j = row / width;
+    const std::size_t i = column / width;
+    Tile& tile = i < j ? lower_[start_[j] + i - first_[j]] : upper_[start_[i] + j - first_[i]];
+    return tile(static_cast<Eigen::Index>(row % width), static_cast<Eigen::Index>(column % width));
   }
   /// False if a pivot is zero or not finite.
   bool factorize();
   /// Overwrites b with the solution.
-  void solve(Values& b) const;
+  void solve(Values& b);
 
   /// About the multiplications of factorize().
   static double cost(const std::vector<std::uint32_t>& first);
 
  private:
-  std::vector<std::uint32_t> first_;
-  std::vector<std::size_t>
-      start_;  ///< of row i of the lower and column i of the upper part; both end with the diagonal
-  Values lower_;
-  Values upper_;
+  static constexpr std::size_t width = 4;
+  using Tile = Eigen::Matrix<double, width, width>;
+  using Lanes = Eigen::Array<double, width, 1>;
+  using Columns = std::array<Lanes, width>;
+  static Columns columns(const Tile& tile);
+  static void subtract_product(const Tile& a, const Tile& b, Columns& c);
+  static Tile product(const Tile& a, const Columns& b);
+  static Tile product(const Columns& a, const Tile& b);
+  static Lanes product(const Tile& a, const Lanes& x);
+  Columns eliminated(const Tile& from, const Tile* lower, const Tile* upper, std::size_t count) const;
+  bool invert_diagonal(std::size_t j);
+
+  std::size_t rows_ = 0;
+  std::vector<std::uint32_t> first_;  ///< tile of every row of tiles
+  std::vector<std::size_t> start_;    ///< of row j of the lower and column j of the upper part
+  std::vector<Tile> lower_;           ///< row by row, up to and with an unused diagonal
+  std::vector<Tile> upper_;           ///< column by column, up to and with the diagonal
+  std::vector<Tile> inverse_lower_;   ///< of the diagonal tiles' factors
+  std::vector<Tile> inverse_upper_;
+  std::vector<Lanes> x_;
 };
 
 }  // namespace minamo

@@ -10,7 +10,7 @@ namespace minamo {
 namespace {
 
 /// Multiplications from which on the envelope is slower than a sparse factorization.
-constexpr double widest = 2e7;
+constexpr double widest = 1e9;
 
 /// The value of an entry in a list, 0 if it is not there.
 template <class Entries>

@@ -51,14 +51,11 @@ class PressureSchur {
   /// Calls body(row of the neighbour, entry, entry of the way back).
   template <class Body>
   void for_each_compact_pair(std::size_t row, const Body& body) const {
-    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-      const std::int32_t there = blocks_.neighbour(row, k);
-      if (there < 0) continue;
-      const auto other = static_cast<std::size_t>(there);
+    blocks_.for_each_neighbour(row, [&](std::size_t k, std::size_t other) {
       const double value = compact(row, k);
       const double back = compact(other, stencil_size<Dim> - 1 - k);
       if (value != 0 || back != 0) body(other, value, back);
-    }
+    });
   }
   /// The same as for_each_compact() for T + e.
   template <class Body>
@@ -77,10 +74,9 @@ class PressureSchur {
     const std::size_t slot = blocks_.slot(row);
     const double* first = entries.at(slot) + component * entries.stride(slot);
     const std::size_t step = width * entries.stride(slot);
-    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-      const std::int32_t there = blocks_.neighbour(row, k);
-      if (there >= 0 && first[k * step] != 0) body(static_cast<std::size_t>(there), first[k * step]);
-    }
+    blocks_.for_each_neighbour(row, [&](std::size_t k, std::size_t other) {
+      if (first[k * step] != 0) body(other, first[k * step]);
+    });
   }
   double compact(std::size_t row, std::size_t place) const {
     const std::size_t slot = blocks_.slot(row);

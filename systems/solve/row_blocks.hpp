@@ -55,9 +55,18 @@ class RowBlocks {
   std::int32_t row(std::size_t slot) const { return row_[slot]; }
   const Block& block(std::size_t row) const { return blocks_[block_of_row_[row]]; }
   const Run& run(std::size_t slot) const { return runs_[run_of_block_[slot / width]]; }
-  /// The row at a place of the stencil of a row, -1 if there is none.
-  std::int32_t neighbour(std::size_t row, std::size_t place) const {
-    return row_[block(row).at(place) + slot_[row] % width];
+  /// Calls body(place in the stencil, row) for the neighbours of a row that have one.
+  template <class Body>
+  void for_each_neighbour(std::size_t row, const Body& body) const {
+    const Block& of_row = block(row);
+    const std::size_t lane = slot_[row] % width;
+    for (std::size_t line = 0; line < lines; ++line) {
+      if (is_beyond(of_row.beside[line])) continue;
+      const std::int32_t* there = row_.data() + of_row.beside[line] + lane - 2;
+      for (std::size_t x = 0; x < 5; ++x) {
+        if (there[x] >= 0) body(5 * line + x, static_cast<std::size_t>(there[x]));
+      }
+    }
   }
   /// Gives images what their nodes have.
   void fill_images(double* of_slot) const {

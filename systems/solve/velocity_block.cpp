@@ -46,10 +46,8 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
     const std::uint32_t i = t.node[r];
     for (std::size_t e = 0; e < Dim; ++e) {
       const bool held = t.fixed[i] >> e & 1;
-      for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-        const std::int32_t there = schur_->blocks().neighbour(r, k);
-        if (there < 0 || there > static_cast<std::int32_t>(r)) continue;
-        const auto r_j = static_cast<std::size_t>(there);
+      schur.blocks().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
+        if (r_j > r) return;
         const bool own = r_j == r;
         for (std::size_t d = 0; d < Dim; ++d) {
           if (own && d > e) continue;
@@ -62,7 +60,7 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
           const double entry = t.c_v * t.viscosity[r][Dim * (Dim * k + e) + d];
           if (diagonal || entry != 0) factors_->add(Dim * r + e, Dim * r_j + d, inertia + entry);
         }
-      }
+      });
     }
   }
   if (!factors_->factorize()) throw std::runtime_error("solve: the velocity block is not positive definite");
@@ -94,11 +92,9 @@ void VelocityBlock<Dim>::find_rest(const Values& u, Values& out) const {
       [&](std::size_t r) {
         const double* of_row = terms_.viscosity[r].data();
         Vec<Dim> sum = Vec<Dim>::Zero();
-        for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-          const std::int32_t there = blocks.neighbour(r, k);
-          if (there < 0) continue;
-          sum += Entries(of_row + Dim * Dim * k) * Vector(u.data() + Dim * static_cast<std::size_t>(there));
-        }
+        blocks.for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
+          sum += Entries(of_row + Dim * Dim * k).lazyProduct(Vector(u.data() + Dim * r_j));
+        });
         for (std::size_t d = 0; d < Dim; ++d) {
           const double diagonal = of_row[Dim * (Dim * own + d) + d];
           const double rest = diagonal * u[Dim * r + d] - sum[static_cast<Eigen::Index>(d)];
