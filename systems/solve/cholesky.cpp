@@ -1,6 +1,9 @@
 #include "systems/solve/cholesky.hpp"
 
 #include <Eigen/CholmodSupport>
+#include <Eigen/IterativeLinearSolvers>
+
+#include <algorithm>
 
 extern "C" void omp_set_max_active_levels(int);
 
@@ -11,12 +14,18 @@ struct SparseCholesky::Impl {
   std::vector<int> outer, inner, known_outer, known_inner;
   Values values;
   std::size_t rows = 0;
+  std::vector<std::pair<int, double>> row;  ///< work space
   // Row r of the lower triangle is column r of the upper one.
-  Eigen::CholmodDecomposition<Matrix, Eigen::Upper> backend;
+  Eigen::CholmodDecomposition<Matrix, Eigen::Upper> complete;
+  Eigen::IncompleteCholesky<double, Eigen::Upper, Eigen::NaturalOrdering<int>> incomplete;
+  Kind kind = Kind::complete;
+
+  void sort_rows();
+  bool factorize_complete(const Eigen::Map<const Matrix>& matrix);
 };
 
 SparseCholesky::SparseCholesky() : impl_(std::make_unique<Impl>()) {
-  impl_->backend.cholmod().print = 0;  // factorize() tells
+  impl_->complete.cholmod().print = 0;  // factorize() tells
 }
 SparseCholesky::~SparseCholesky() = default;
 
@@ -28,40 +37,64 @@ void SparseCholesky::start(std::size_t rows) {
 }
 
 void SparseCholesky::add(std::size_t row, std::size_t column, double value) {
-  auto& [outer, inner, a, b, values, rows, backend] = *impl_;
-  while (outer.size() <= row) outer.push_back(static_cast<int>(inner.size()));
-  auto at = inner.size();
-  inner.push_back(static_cast<int>(column));
-  values.push_back(value);
-  const auto first = static_cast<std::size_t>(outer.back());
-  for (; at > first && inner[at - 1] > inner[at]; --at) {
-    std::swap(inner[at - 1], inner[at]);
-    std::swap(values[at - 1], values[at]);
+  Impl& s = *impl_;
+  while (s.outer.size() <= row) s.outer.push_back(static_cast<int>(s.inner.size()));
+  s.inner.push_back(static_cast<int>(column));
+  s.values.push_back(value);
+}
+
+void SparseCholesky::Impl::sort_rows() {
+  for (std::size_t r = 0; r < rows; ++r) {
+    const int begin = outer[r];
+    const int end = outer[r + 1];
+    if (std::is_sorted(inner.begin() + begin, inner.begin() + end)) continue;
+    row.clear();
+    for (int e = begin; e < end; ++e) {
+      row.emplace_back(inner[static_cast<std::size_t>(e)], values[static_cast<std::size_t>(e)]);
+    }
+    std::sort(row.begin(), row.end());
+    for (int e = begin; e < end; ++e) {
+      const auto& [column, value] = row[static_cast<std::size_t>(e - begin)];
+      inner[static_cast<std::size_t>(e)] = column;
+      values[static_cast<std::size_t>(e)] = value;
+    }
   }
 }
 
-bool SparseCholesky::factorize() {
+bool SparseCholesky::Impl::factorize_complete(const Eigen::Map<const Matrix>& matrix) {
   // CHOLMOD asks OpenMP for four threads whatever the environment says; threads are TBB's business.
   omp_set_max_active_levels(0);
-  auto& [outer, inner, known_outer, known_inner, values, rows, backend] = *impl_;
-  while (outer.size() <= rows) outer.push_back(static_cast<int>(inner.size()));
-  const auto size = static_cast<Eigen::Index>(rows);
-  const Eigen::Map<const Impl::Matrix> matrix(size, size, static_cast<Eigen::Index>(values.size()), outer.data(),
-                                              inner.data(), values.data());
   if (outer != known_outer || inner != known_inner) {
     // Dense blocks pay from a few thousand rows on.
-    backend.setMode(rows < 2000 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodSupernodalLLt);
-    backend.analyzePattern(matrix);
+    complete.setMode(rows < 2000 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodSupernodalLLt);
+    complete.analyzePattern(matrix);
     known_outer = outer;
     known_inner = inner;
   }
-  backend.factorize(matrix);
-  return backend.info() == Eigen::Success;
+  complete.factorize(matrix);
+  return complete.info() == Eigen::Success;
+}
+
+bool SparseCholesky::factorize(Kind kind) {
+  Impl& s = *impl_;
+  while (s.outer.size() <= s.rows) s.outer.push_back(static_cast<int>(s.inner.size()));
+  s.sort_rows();
+  s.kind = kind;
+  const auto size = static_cast<Eigen::Index>(s.rows);
+  const Eigen::Map<const Impl::Matrix> matrix(size, size, static_cast<Eigen::Index>(s.values.size()), s.outer.data(),
+                                              s.inner.data(), s.values.data());
+  if (kind == Kind::complete) return s.factorize_complete(matrix);
+  s.incomplete.compute(matrix);
+  return s.incomplete.info() == Eigen::Success;
 }
 
 void SparseCholesky::solve(Values& b) {
   Eigen::Map<Eigen::VectorXd> x(b.data(), static_cast<Eigen::Index>(b.size()));
-  x = impl_->backend.solve(x).eval();
+  if (impl_->kind == Kind::complete) {
+    x = impl_->complete.solve(x).eval();
+  } else {
+    x = impl_->incomplete.solve(x).eval();
+  }
 }
 
 }  // namespace minamo

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Sparse Cholesky factorization by CHOLMOD of a matrix that is given row by row; the symbolic work is kept while the
-/// pattern stays.
-/// Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, Algorithm 887: CHOLMOD, ACM TOMS 35 (2008) 22,
-/// doi:10.1145/1391989.1391995.
+/// Sparse Cholesky factorization of a symmetric matrix, given row by row: complete, by SuiteSparse's CHOLMOD on one
+/// thread, or incomplete, within the pattern of the matrix, by Eigen.
+/// Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, ACM TOMS 35 (2008) 22, doi:10.1145/1391989.1391995 (CHOLMOD);
+/// C.-J. Lin, J. J. Moré, SIAM J. Sci. Comput. 21 (1999) 24, doi:10.1137/S1064827597327334 (incomplete).
 
 #include "systems/solve/gmres.hpp"
 
@@ -13,13 +13,17 @@ namespace minamo {
 
 class SparseCholesky {
  public:
+  enum class Kind { complete, incomplete };
+
   SparseCholesky();
   ~SparseCholesky();
+  /// Starts a matrix without entries.
   void start(std::size_t rows);
-  /// Adds an entry of the lower triangle, rows rising, every place once. Columns may come in any order.
+  /// The next entry of the lower triangle; rows rise, every entry comes once.
   void add(std::size_t row, std::size_t column, double value);
-  /// False if the matrix is not positive definite.
-  bool factorize();
+  /// The symbolic factorization is kept as long as the pattern is. False if the matrix is not positive definite; the
+  /// incomplete factorization adds to the diagonal instead, until it is.
+  bool factorize(Kind kind = Kind::complete);
   /// Overwrites b with the solution.
   void solve(Values& b);
 

@@ -12,6 +12,14 @@ namespace {
 /// Multiplications from which on the envelope is slower than a sparse factorization.
 constexpr double widest = 1e9;
 
+/// Rows from which on, in 3-D, the fill of a complete factorization costs more than the iterations that it saves.
+constexpr std::size_t most_complete = 20000;
+
+template <int Dim>
+SparseCholesky::Kind kind_for(std::size_t rows) {
+  return Dim == 3 && rows > most_complete ? SparseCholesky::Kind::incomplete : SparseCholesky::Kind::complete;
+}
+
 /// The value of an entry in a list, 0 if it is not there.
 template <class Entries>
 double value_of(const Entries& entries, std::size_t row) {
@@ -104,7 +112,7 @@ bool PressurePreconditioner<Dim>::factorize_symmetric(const PressureSchur<Dim>& 
       if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(schur.beyond(entry.row), r)) / 2);
     }
   }
-  return sparse_.factorize();
+  return sparse_.factorize(kind_for<Dim>(order_.size()));
 }
 
 /// T + e, with something of the diagonal: never indefinite.
@@ -117,7 +125,7 @@ bool PressurePreconditioner<Dim>::factorize_pressure(const PressureSchur<Dim>& s
       if (r_j <= r) sparse_.add(r, r_j, value + (r_j == r ? more : 0));
     });
   }
-  return sparse_.factorize();
+  return sparse_.factorize(kind_for<Dim>(order_.size()));
 }
 
 template <int Dim>
