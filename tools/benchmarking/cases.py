@@ -1,0 +1,98 @@
+"""What is measured: cases, each of one or several runs that are compared with each other. Nothing is run here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+# What a scene gets that says nothing of its method; the scenes below name the method of the paper.
+DEFAULTS = {
+    "/transfer": {"scheme": "tpic"},
+    "/integrator": {"scheme": "midpoint"},
+    "/volume": {"scheme": "projection"},
+    "/solver": {"scheme": "block"},
+}
+NO_FRAMES = {"/output/every": 1e6}  # but the first and the last
+KERNELS = "kernels"  # the case that the program of the micro-benchmarks measures
+
+
+@dataclass(frozen=True)
+class Run:
+    """A call of `minamo run`."""
+
+    label: str
+    scene: str  # of the folder scenes, without .json
+    overrides: dict[str, Any]  # by JSON pointer
+    threads: int = 1
+    steps: int | None = None  # to the end of the scene if none
+    compare: bool = False  # with interFoam, by tools/compare_interfoam.py
+
+    def shortened(self, steps: int) -> Run:
+        """The same for a quick look."""
+        return replace(self, steps=min(steps, self.steps or steps), compare=False)
+
+
+@dataclass(frozen=True)
+class Case:
+    """Runs that take turns: A B A B ..."""
+
+    name: str
+    section: str
+    runs: list[Run] = field(default_factory=list)
+    repeat_at_most: int | None = None  # long ones are run less often than the others
+
+
+def dam_break(cells: int, per_cell: int, step: float, **more: Any) -> dict[str, Any]:
+    """scenes/dam_break.json on cells x cells. `step` in s."""
+    return DEFAULTS | {"/grid/cells": [cells, cells], "/particles/0/per_cell": per_cell, "/time/step": step} | more
+
+
+def paper_cases() -> list[Case]:
+    made = []
+    for cells, ms in ((40, 2), (40, 8), (80, 1), (80, 4)):
+        run = Run(f"{cells} x {cells}, {ms} ms", "dam_break", dam_break(cells, 2, 1e-3 * ms), compare=True)
+        made.append(Case(f"dam_break_{cells}_{ms}ms", "dam_break", [run]))
+    return made
+
+
+def thread_cases() -> list[Case]:
+    runs = [Run(f"large, {n} thread{'s' * (n > 1)}", "dam_break_large", NO_FRAMES, threads=n, steps=250)
+            for n in (1, 2)]
+    whole = Run("large, 2 threads, to 7 s", "dam_break_large", {}, threads=2)
+    return [Case("threads_250_steps", "threads", runs), Case("threads_whole", "threads", [whole], repeat_at_most=1)]
+
+
+def solver_cases() -> list[Case]:
+    made = []
+    for cells, per_cell, steps in ((40, 2, 250), (80, 4, 150), (160, 4, 50), (320, 4, 20)):
+        scene = dam_break(cells, per_cell, 0.08 / cells) | NO_FRAMES
+        runs = [Run(f"{cells} x {cells}, {per_cell} x {per_cell}, {solver}", "dam_break",
+                    scene | {"/solver": {"scheme": solver}}, steps=steps) for solver in ("block", "umfpack")]
+        made.append(Case(f"solvers_{cells}", "solvers", runs))
+    return made
+
+
+def size_cases() -> list[Case]:
+    return [Case(f"size_{cells}", "size",
+                 [Run(f"{cells} x {cells}, 4 x 4", "dam_break", dam_break(cells, 4, 0.08 / cells) | NO_FRAMES,
+                      steps=steps)])
+            for cells, steps in ((40, 100), (80, 100), (160, 60), (320, 40), (640, 40))]
+
+
+def assembly_cases() -> list[Case]:
+    runs = [Run(f"80 x 80, {n} x {n}", "dam_break", dam_break(80, n, 1e-3) | NO_FRAMES, steps=100) for n in (2, 6)]
+    return [Case("assembly_80", "assembly", runs)]
+
+
+def space_cases() -> list[Case]:
+    made = []
+    for cells, steps, repeat in ((32, 10, None), (68, 10, 1), (108, 3, 1)):
+        scene = DEFAULTS | NO_FRAMES | {"/grid/cells": [cells, cells // 2, cells], "/time/step": 0.056 / cells}
+        run = Run(f"{cells} x {cells // 2} x {cells}", "dam_break_3d", scene, threads=2, steps=steps)
+        made.append(Case(f"space_{cells}", "space", [run], repeat))
+    return made
+
+
+CASES = [*paper_cases(), *thread_cases(), *solver_cases(), *size_cases(), *assembly_cases(), *space_cases(),
+         Case(KERNELS, KERNELS)]
+SECTIONS = list(dict.fromkeys(case.section for case in CASES))

@@ -1,0 +1,80 @@
+"""RESULTS.md from results.json: the machine, then a section per group of cases."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from cases import CASES, SECTIONS
+from layout import digits, table
+from sections import BELOW, KERNEL_HEAD, TITLES
+
+Row = dict[str, Any]
+Results = dict[str, dict[str, Any]]  # by name of the case: "machine" and "rows"
+
+HEAD = """# Speed
+
+How fast the program was where `tools/bench` ran last. Written by it, not by hand; `tools/bench NAME...` replaces the
+rows of single cases, `tools/bench --list` names them.
+
+- *Wall* and *CPU* are the whole run: start, steps, output. *A step* is from the begin of its first system to the end of
+  its last, mean over the steps, without frames. All are medians over the runs; runs of one case take turns.
+- *Systems* are shares of the time of all systems of the steps.
+- *Peak memory* is that of the process: libraries, and the work space that solvers keep, are in it.
+- Where nothing else is said: TPIC, midpoint, PSPG, volume projection, corrected inertia, block solver; particles per
+  cell 2 x 2, in space 3 x 3 x 3, in the large tank 4 x 4; dynamic viscosity 1e-3 Pa s.
+"""
+
+
+def biggest_systems(systems: dict[str, float], count: int = 3) -> str:
+    total = sum(systems.values()) or 1
+    order = sorted(systems, key=lambda name: -systems[name])[:count]
+    return ", ".join(f"{name} {100 * systems[name] / total:.0f} %" for name in order)
+
+
+# Title of a column and what stands in it, for all whole runs.
+COLUMNS: dict[str, Callable[[Row], str]] = {
+    "run": lambda row: row["label"],
+    "threads": lambda row: str(row["threads"]),
+    "particles": lambda row: str(row["particles"]),
+    "unknowns": lambda row: str(row["unknowns_max"]),
+    "steps": lambda row: str(row["steps"]),
+    "wall [s]": lambda row: digits(row["wall_s"]),
+    "CPU per simulated second [s]": lambda row: digits(row["cpu_s"] / row["time"]),
+    "a step [ms]": lambda row: digits(1e3 * row["step_s"]),
+    "runs: from, to [ms]": lambda row: f"{row['runs']}: " + ", ".join(digits(1e3 * s) for s in row["step_s_range"]),
+    "iterations: mean, max": lambda row: f"{row['iterations_mean']:.1f}, {row['iterations_max']:.0f}",
+    "peak memory [MB]": lambda row: digits(1e-6 * row["peak_memory_bytes"]),
+    "bytes per particle": lambda row: digits(row["peak_memory_bytes"] / row["particles"]),
+    "systems": lambda row: biggest_systems(row["systems"]),
+}
+
+
+def run_table(rows: list[Row]) -> str:
+    return table(COLUMNS, ([of_row(row) for of_row in COLUMNS.values()] for row in rows))
+
+
+def machine_lines(results: Results) -> str:
+    """One line where all cases ran on the same machine, else one per machine with its cases."""
+    cases_of: dict[str, list[str]] = {}
+    for name, result in results.items():
+        cases_of.setdefault(", ".join(f"{key}: {value}" for key, value in result["machine"].items()), []).append(name)
+    if len(cases_of) == 1:
+        return f"{next(iter(cases_of))}.\n"
+    return "".join(f"- {', '.join(names)}: {machine}.\n" for machine, names in cases_of.items())
+
+
+def section(name: str, results: Results) -> str:
+    """Empty if nothing of it has been measured."""
+    rows = [row for case in CASES if case.section == name and case.name in results
+            for row in results[case.name]["rows"]]
+    if not rows:
+        return ""
+    if "line" in rows[0]:
+        return f"\n## {TITLES[name]}\n{KERNEL_HEAD}\n" + "".join(row["line"] + "\n" for row in rows)
+    below = BELOW[name](rows)
+    return f"\n## {TITLES[name]}\n\n{run_table(rows)}" + (f"\n{below}" if below else "")
+
+
+def page(results: Results) -> str:
+    return HEAD + f"\n{machine_lines(results)}" + "".join(section(name, results) for name in SECTIONS)

@@ -1,0 +1,126 @@
+"""What stands below the table of a section: ratios, fits, comparison with other programs."""
+
+from __future__ import annotations
+
+from math import log
+from typing import Any
+
+from layout import digits, table
+
+Row = dict[str, Any]
+
+TITLES = {
+    "dam_break": "The dam break of the paper",
+    "threads": "Two threads",
+    "solvers": "Block solver and UMFPACK",
+    "size": "Cost against size",
+    "assembly": "Assembly against particles per cell",
+    "space": "Three dimensions",
+    "kernels": "Kernels",
+}
+
+# CPU seconds per simulated second of the same dam break, 4 particles per cell, on one core of an AMD EPYC (Zen 4).
+PEERS = {
+    "40": {"interFoam": 2.4, "apic2d": 0.060, "MLS-MPM": 0.077},
+    "80": {"interFoam": 23, "apic2d": 0.32, "MLS-MPM": 0.61},
+}
+PEERS_TEXT = """\
+CPU seconds per simulated second beside those of OpenFOAM's interFoam, of apic2d (APIC, projection, CFL number 3, float)
+and of an explicit weakly compressible MLS-MPM (CFL number 0.7), on as many cells, with as many particles. Theirs were
+measured once, on one core of an AMD EPYC (Zen 4). A ratio above 1: theirs takes longer.
+"""
+DISTANCE_TEXT = """\
+Share of the water that is not where interFoam on 160 x 160 cells has it (`tools/compare_interfoam.py`), at output
+times within 2 ms of the reference's:
+"""
+ASSEMBLY = ("moments", "divergence_matrix", "laplacian_matrix", "viscosity_matrix", "stabilize_pspg",
+            "right_hand_side_viscous", "add_inertia_correction")
+
+
+def per_simulated_second(row: Row) -> float:
+    return row["cpu_s"] / row["time"]
+
+
+def below_dam_break(rows: list[Row]) -> str:
+    lines = []
+    for row in rows:
+        peers = PEERS[row["label"].split()[0]]
+        ours = per_simulated_second(row)
+        lines.append([row["label"], digits(ours)] + [f"{digits(theirs)}: {digits(theirs / ours)}"
+                                                     for theirs in peers.values()])
+    head = ["run", "minamo [s]", "interFoam: ratio", "apic2d: ratio", "MLS-MPM: ratio"]
+    text = f"{PEERS_TEXT}\n" + table(head, lines)
+    compared = [row for row in rows if row.get("distances")]
+    times = sorted({time for row in compared for time in row["distances"]}, key=float)
+    if times:
+        shares = [[f"{row['distances'][time]:.3f}" if time in row["distances"] else "" for time in times]
+                  for row in compared]
+        text += f"\n{DISTANCE_TEXT}\n" + table(["run", *(f"{time} s" for time in times)],
+                                              ([row["label"], *share] for row, share in zip(compared, shares)))
+    return text
+
+
+def below_threads(rows: list[Row]) -> str:
+    one, two = ([row for row in rows if row["threads"] == n and row["steps"] <= 250] for n in (1, 2))
+    if not one or not two:
+        return ""
+    differ = any(two[0]["difference"].values())
+    return (f"A step on two threads is {one[0]['step_s'] / two[0]['step_s']:.2f} times as fast as on one. "
+            f"Energies in history.csv {'differ' if differ else 'are the same to the last digit'}.\n")
+
+
+def below_solvers(rows: list[Row]) -> str:
+    lines = []
+    for block, direct in zip(rows[::2], rows[1::2]):
+        difference = direct["difference"]
+        lines.append([block["label"].removesuffix(", block"), digits(1e3 * block["step_s"]),
+                      digits(1e3 * direct["step_s"]), f"{direct['step_s'] / block['step_s']:.2f}",
+                      f"{difference['kinetic_energy']:.1e}", f"{difference['potential_energy']:.1e}"])
+    return ("Ratio of the medians of whole steps, and largest relative difference of the energies in history.csv:\n\n"
+            + table(["run", "block [ms]", "UMFPACK [ms]", "ratio", "kinetic", "potential"], lines))
+
+
+def slope(points: list[tuple[float, float]]) -> float:
+    """Exponent of the power law nearest to the points, by least squares of the logarithms."""
+    x, y = ([log(point[k]) for point in points] for k in (0, 1))
+    x_mean, y_mean = sum(x) / len(x), sum(y) / len(y)
+    return sum((a - x_mean) * (b - y_mean) for a, b in zip(x, y)) / sum((a - x_mean) ** 2 for a in x)
+
+
+def below_size(rows: list[Row]) -> str:
+    if len(rows) < 2:
+        return ""
+    exponent = slope([(row["unknowns_max"], row["step_s"]) for row in rows])
+    last = slope([(row["unknowns_max"], row["step_s"]) for row in rows[-2:]])
+    most = rows[-1]
+    added = (most["peak_memory_bytes"] - rows[0]["peak_memory_bytes"]) / (most["particles"] - rows[0]["particles"])
+    return (f"A step costs as (unknowns)^{exponent:.2f}, fitted over all sizes; ^{last:.2f} over the two largest. "
+            f"Memory that a particle adds: {added:.0f} bytes.\n")
+
+
+def below_assembly(rows: list[Row]) -> str:
+    if len(rows) < 2:
+        return ""
+    names = [name for name in ASSEMBLY if name in rows[0]["systems"]]
+    lines = []
+    for name in [*names, "all"]:
+        costs = [sum(row["systems"][n] for n in (names if name == "all" else [name])) / row["steps"] for row in rows]
+        lines.append([name, *(digits(1e6 * cost) for cost in costs), f"{costs[1] / costs[0]:.2f}"])
+    return ("us per step, and what nine times as many particles on the same cells multiply it by:\n\n"
+            + table(["system", "2 x 2", "6 x 6", "ratio"], lines))
+
+
+def below_space(rows: list[Row]) -> str:
+    lines = [[row["label"], str(row["particles"]), f"{row['step_s']:.3f}",
+              digits(1e6 * row["step_s"] / row["particles"])] for row in rows]
+    return table(["run", "particles", "seconds per step", "us per particle and step"], lines)
+
+
+BELOW = {"dam_break": below_dam_break, "threads": below_threads, "solvers": below_solvers, "size": below_size,
+         "assembly": below_assembly, "space": below_space}
+KERNEL_HEAD = """
+What a kernel must move and compute at least, by the formulas in [work.hpp](work.hpp), over the time it takes; as shares
+of the triad a = b + s c over as many bytes, and of the peak of fused multiply-adds, both measured in the same run on as
+many threads. Kernels multiply and add separately, so that half of that peak is the most they could reach. Rows are
+particles for transfers and moments, nodes for matrices and the solve.
+"""
