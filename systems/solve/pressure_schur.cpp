@@ -119,7 +119,8 @@ std::int32_t row_at(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const In
     there[axis] = grid.wrapped(d, node[axis] + offset[axis]);
     if (there[axis] < 0 || there[axis] >= grid.nodes(d)) return -1;
   }
-  return t.row[grid.row(there)];
+  const auto i = t.rows_of_sites->find(there);
+  return i ? t.row[*i] : -1;
 }
 
 /// Entries of (E56) beyond the stencil, without scales. \pre the node is thin.
@@ -130,7 +131,7 @@ void fill_beyond(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const std::
   for_each_surface_term<Dim>(t, r, s, [&](const Index<Dim>& to_k, double weight, const double* row) {
     add_wide<Dim>(to_k, weight, row, sum.data());
   });
-  const Index<Dim> node = grid.index(t.node[r]);
+  const Index<Dim> node = t.site[t.node[r]];
   for (std::size_t k = 0; k < sum.size(); ++k) {
     if (sum[k] == 0) continue;
     Index<Dim> offset;
@@ -167,7 +168,7 @@ template <int Dim>
 void PressureSchur<Dim>::assemble(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
                                   double of_laplacian) {
   constexpr std::size_t own = stencil_size<Dim> / 2;
-  const Stencil<Dim> stencil(grid);
+  const Stencil<Dim> stencil(grid, *t.rows_of_sites, t.site);
   const std::size_t n = t.node.size();
   neighbour.resize(n);
   push.resize(n);
@@ -182,7 +183,7 @@ void PressureSchur<Dim>::assemble(const EquationTerms<Dim>& t, const Grid<Dim>& 
       n,
       [&](std::size_t r) {
         fill_row<Dim>(t, stencil, r, *this);
-        thin[r] = t.m_i[t.node[r]] < 0.5 * fluid.density * full_volume<Dim>(grid, t.node[r]);
+        thin[r] = t.m_i[t.node[r]] < 0.5 * fluid.density * full_volume<Dim>(grid, t.site[t.node[r]]);
       },
       rows_per_task);
   for_each_row(

@@ -24,7 +24,6 @@ std::size_t fill(World& world, int cells, std::size_t per_cell) {
   grid.cells.fill(cells);
   grid.low = Vec<Dim>::Zero();
   grid.high = Vec<Dim>::Ones();
-  world.resize<Nodes>(grid.node_count());
   const std::size_t count = per_cell * power(static_cast<std::size_t>(cells), Dim);
   world.resize<Particles>(count);
   kernels::Random random(1);
@@ -33,6 +32,7 @@ std::size_t fill(World& world, int cells, std::size_t per_cell) {
   for (Mat<Dim>& gradient : world.column<particle::VelocityGradient<Dim>>()) gradient = random.matrix<Dim>(-1, 1);
   for (double& m : world.column<particle::Mass>()) m = 1;
   kernels::run<Bin<Dim>>(world);
+  kernels::run<NumberNodes<Dim>>(world);
   return count;
 }
 
