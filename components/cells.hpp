@@ -4,6 +4,7 @@
 /// of an axis up to 7), cells within a block. Blocks of one colour share no node: they can be scattered from side by
 /// side.
 
+#include "components/blocks.hpp"
 #include "components/types.hpp"
 #include "engine/component.hpp"
 
@@ -20,9 +21,10 @@ struct OccupiedCells {
   static constexpr std::size_t colours = power(3, Dim);
 
   struct Cell {
-    Index<Dim> node;      ///< the node in its middle
-    std::uint32_t begin;  ///< first particle
-    std::uint32_t end;    ///< past the last particle
+    Index<Dim> node;                                    ///< the node in its middle
+    std::uint32_t begin;                                ///< first particle
+    std::uint32_t end;                                  ///< past the last particle
+    std::array<std::uint32_t, support_size<Dim>> rows;  ///< of its 3^d nodes in the node tables, x fastest
   };
   struct Block {
     std::uint32_t begin;  ///< first cell
@@ -43,10 +45,11 @@ struct Moments {
 
 /// Work space of the sort, kept so that a step does not allocate.
 struct BinBuffer {
-  std::vector<std::uint32_t> number;          ///< of the cell of every particle
-  std::vector<std::uint32_t> first;           ///< particle of every cell
+  BlockNumbers blocks;                        ///< those with particles
+  std::vector<std::uint32_t> first_of_block;  ///< number of the first cell of every block with particles
+  std::vector<std::uint32_t> number;          ///< of the cell of every particle, among the cells of such blocks
+  std::vector<std::uint32_t> first;           ///< particle of every such cell
   std::vector<std::uint32_t> place;           ///< which particle comes here
-  std::vector<std::uint32_t> first_of_block;  ///< cell of every block
   static constexpr ComponentInfo info{"cells.bin_buffer", "", "1", Lifetime::cache};
 };
 

@@ -33,7 +33,7 @@ struct Grid {
     for (int d = 0; d < Dim; ++d) count *= static_cast<std::size_t>(nodes(d));
     return count;
   }
-  /// Row of a node in the tables, x fastest.
+  /// Place of a node in the order of all nodes, x fastest.
   std::size_t row(const Index<Dim>& node) const {
     std::size_t row = 0;
     for (int d = Dim - 1; d >= 0; --d) {
@@ -41,7 +41,7 @@ struct Grid {
     }
     return row;
   }
-  /// The node of a row.
+  /// The node at a place of that order.
   Index<Dim> index(std::size_t row) const {
     Index<Dim> node;
     for (int d = 0; d < Dim; ++d) {
@@ -56,6 +56,14 @@ struct Grid {
     for (int d = 0; d < Dim; ++d) x[d] = low[d] + spacing * node[static_cast<std::size_t>(d)];
     return x;
   }
+};
+
+/// Components of the displacement that the walls hold at zero, bit d for direction d: per axis those of the low and the
+/// high end. [1]
+template <int Dim>
+struct Walls {
+  std::array<std::array<std::uint8_t, 2>, static_cast<std::size_t>(Dim)> held{};
+  static constexpr ComponentInfo info{"walls", "", "1", Lifetime::constant};
 };
 
 }  // namespace minamo

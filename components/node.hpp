@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// What grid nodes carry. One row per node of the whole grid, x fastest (grid.hpp).
+/// What grid nodes carry. One row per node of an occupied dual cell, in the order of their sites, x fastest; numbered
+/// anew whenever particles are sorted (sites.hpp).
 /// A node is empty (no mass), light (too little mass for a pressure; it moves freely), or active (a row of the matrix).
 
 #include "components/types.hpp"
@@ -14,9 +15,16 @@ struct Nodes {
 
 namespace node {
 
+/// Where the node is in the grid: (i, j, k). [1]
+template <int Dim>
+struct Site : Column<Nodes, Index<Dim>> {
+  // State, because rows of other state mean nothing without it.
+  static constexpr ComponentInfo info{"node.site", "", "1", Lifetime::state};
+};
+
 /// Components of the displacement that a wall holds at zero: bit d for direction d. [1]
 struct Fixed : Column<Nodes, std::uint8_t> {
-  static constexpr ComponentInfo info{"node.fixed", "", "1", Lifetime::constant};
+  static constexpr ComponentInfo info{"node.fixed", "", "1", Lifetime::scratch};
 };
 
 /// Row in the matrix tables, -1 for a node that is not active. [1]
@@ -99,21 +107,6 @@ struct Residue : Column<Nodes, Vec<Dim>> {
 template <int Dim>
 struct Smoothed : Column<Nodes, Vec<Dim>> {
   static constexpr ComponentInfo info{"node.smoothed", "S^+ S r_I", "m/s", Lifetime::scratch};
-};
-
-/// Volume V~_I of the particles around a node at the end of the step. [m^3; m^2 in 2-D]
-struct Volume : Column<Nodes, double> {
-  static constexpr ComponentInfo info{"node.volume", "V~_I", "m^d", Lifetime::scratch};
-};
-
-/// Particle volume E_I to be pushed away from a node, or drawn to it. [m^3; m^2 in 2-D]
-struct VolumeExcess : Column<Nodes, double> {
-  static constexpr ComponentInfo info{"node.volume_excess", "E_I", "m^d", Lifetime::scratch};
-};
-
-/// How much of the excess a unit step of the delta-correction takes away. [m^(d-2)]
-struct VolumeResponse : Column<Nodes, double> {
-  static constexpr ComponentInfo info{"node.volume_response", "r_I", "m^(d-2)", Lifetime::scratch};
 };
 
 /// Displacement d_I that corrects the volume. [m]

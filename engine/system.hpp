@@ -103,6 +103,8 @@ class Resize {
   void resize(std::size_t rows) const { world_->resize<Table>(rows); }
   /// Row k becomes what row `order[k]` was.
   void reorder(std::span<const std::uint32_t> order) const { world_->reorder<Table>(order); }
+  /// As many rows as entries; row k becomes what row `from[k]` was, or zero if there is none.
+  void renumber(std::span<const std::optional<std::uint32_t>> from) const { world_->renumber<Table>(from); }
 
  private:
   World* world_;

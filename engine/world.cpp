@@ -38,4 +38,16 @@ void World::reorder(std::string_view table, std::span<const std::uint32_t> order
   }
 }
 
+void World::renumber(std::string_view table, std::span<const std::optional<std::uint32_t>> from) {
+  rows_[std::string(table)] = from.size();
+  for (const auto& storage : by_id_) {
+    if (!storage || storage->table() != table) continue;
+    if (storage->info().lifetime == Lifetime::scratch) {
+      storage->resize(from.size());
+    } else {
+      storage->renumber(from);
+    }
+  }
+}
+
 }  // namespace minamo

@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,8 @@ class Storage {
   virtual void resize(std::size_t rows) = 0;
   /// Row k becomes what row `order[k]` was.
   virtual void reorder(std::span<const std::uint32_t> order) = 0;
+  /// Row k becomes what row `from[k]` was, or zero if there is none.
+  virtual void renumber(std::span<const std::optional<std::uint32_t>> from) = 0;
   virtual std::size_t rows() const = 0;  ///< 1 for a resource
   virtual const std::type_info& value_type() const = 0;
   virtual std::size_t value_bytes() const = 0;        ///< 0 if the value is not trivially copyable
@@ -83,6 +86,11 @@ class ColumnStorage final : public Storage {
     for (std::size_t k = 0; k < order.size(); ++k) spare_[k] = values_[order[k]];
     values_.swap(spare_);
   }
+  void renumber(std::span<const std::optional<std::uint32_t>> from) override {
+    spare_.resize(from.size(), zero<T>());
+    for (std::size_t k = 0; k < from.size(); ++k) spare_[k] = from[k] ? values_[*from[k]] : zero<T>();
+    values_.swap(spare_);
+  }
   std::size_t rows() const override { return values_.size(); }
   const std::type_info& value_type() const override { return typeid(T); }
   std::size_t value_bytes() const override { return detail::bytes_are_value<T> ? sizeof(T) : 0; }
@@ -91,7 +99,7 @@ class ColumnStorage final : public Storage {
 
  private:
   std::vector<T> values_;
-  std::vector<T> spare_;  // the second buffer of reorder(), kept so that a step does not allocate
+  std::vector<T> spare_;  // the second buffer of the two above, kept so that a step does not allocate
 };
 
 template <ResourceComponent C>
@@ -101,6 +109,7 @@ class ResourceStorage final : public Storage {
   C& value() { return value_; }
   void resize(std::size_t) override {}
   void reorder(std::span<const std::uint32_t>) override {}
+  void renumber(std::span<const std::optional<std::uint32_t>>) override {}
   std::size_t rows() const override { return 1; }
   const std::type_info& value_type() const override { return typeid(C); }
   std::size_t value_bytes() const override { return detail::bytes_are_value<C> ? sizeof(C) : 0; }
@@ -162,6 +171,13 @@ class World {
     reorder(Table::name, order);
   }
 
+  /// The table gets a row per entry of `from`: in every column that outlives a step what row `from[k]` was, or zero if
+  /// there is none. Scratch columns get the number of rows, and mean nothing.
+  template <class Table>
+  void renumber(std::span<const std::optional<std::uint32_t>> from) {
+    renumber(Table::name, from);
+  }
+
   /// All stored components by name.
   const std::map<std::string, Storage*, std::less<>>& components() const { return by_name_; }
 
@@ -175,6 +191,7 @@ class World {
   void insert(std::size_t id, std::unique_ptr<Storage> storage);
   void resize(std::string_view table, std::size_t rows);
   void reorder(std::string_view table, std::span<const std::uint32_t> order);
+  void renumber(std::string_view table, std::span<const std::optional<std::uint32_t>> from);
 
   std::vector<std::unique_ptr<Storage>> by_id_;
   std::map<std::string, Storage*, std::less<>> by_name_;

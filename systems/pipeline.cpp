@@ -114,7 +114,7 @@ std::vector<Slot> step_slots(const Needs& needs) {
   const TransferScheme& transfer = needs.transfer;
   return {
       {"configure", {needs.newmark ? "configure_at_start" : "configure_at_middle"}},
-      {"bin", {"bin"}},
+      {"bin", {"bin", "number_nodes"}},
       {"p2g", with({"p2g_mass", transfer.p2g_velocity}, needs.newmark, transfer.p2g_acceleration)},
       {"walls", with({"activate", "hold_velocity_at_walls"}, needs.newmark, "hold_acceleration_at_walls")},
       {"predict", with({needs.newmark ? "predict_newmark" : "predict_midpoint"}, needs.ode, "integrate_ode")},
@@ -134,6 +134,7 @@ std::vector<Slot> step_slots(const Needs& needs) {
 std::vector<std::string> standing_step(const Needs& needs, const std::string& configure) {
   std::vector<std::string> systems{configure,
                                    "bin",
+                                   "number_nodes",
                                    "p2g_mass",
                                    needs.transfer.p2g_velocity,
                                    "activate",

@@ -2,6 +2,7 @@
 
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/number_nodes.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/integrate/body_force.hpp"
 #include "systems/integrate/configuration.hpp"
@@ -39,6 +40,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<ConfigureStepBefore>("configure_step_before");
   registry.add<ConfigureStepAhead>("configure_step_ahead");
   registry.add<Bin>("bin");
+  registry.add<NumberNodes>("number_nodes");
 
   registry.add<P2GMass>("p2g_mass");
   registry.add<P2GVelocityPic>("p2g_velocity_pic");

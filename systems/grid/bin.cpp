@@ -8,103 +8,123 @@ namespace minamo {
 
 namespace {
 
-/// The blocks of a grid. The last block of an axis takes what is left, so that no block is narrow.
+/// The blocks of a grid, x fastest. The last block of an axis takes what is left, so that no block is narrow.
 template <int Dim>
 class Blocks {
  public:
   static constexpr int width = OccupiedCells<Dim>::block_width;
 
-  /// \param first  is filled with the number of the first cell of every block
-  Blocks(const Grid<Dim>& grid, std::vector<std::uint32_t>& first) : grid_(grid), first_(first) {
+  explicit Blocks(const Grid<Dim>& grid) : grid_(grid) {
+    for (int d = 0; d < Dim; ++d) blocks_[static_cast<std::size_t>(d)] = std::max(1, grid.nodes(d) / width);
+  }
+
+  std::size_t count() const {
     std::size_t count = 1;
-    for (int d = 0; d < Dim; ++d) {
-      blocks_[static_cast<std::size_t>(d)] = std::max(1, grid.nodes(d) / width);
-      count *= static_cast<std::size_t>(blocks_[static_cast<std::size_t>(d)]);
-    }
-    first.assign(count + 1, 0);
-    Index<Dim> block{};
-    for (std::size_t b = 0; b < count; ++b, advance(block)) first[b + 1] = first[b] + cells_in(block);
-  }
-
-  std::uint32_t cell_count() const { return first_.back(); }
-
-  /// Cells are numbered block by block, x fastest in both.
-  std::uint32_t number(const Index<Dim>& cell) const {
-    std::size_t block = 0;
-    std::size_t within = 0;
-    for (std::size_t d = Dim; d-- > 0;) {
-      const int b = std::min(cell[d] / width, blocks_[d] - 1);
-      block = block * static_cast<std::size_t>(blocks_[d]) + static_cast<std::size_t>(b);
-      within = within * static_cast<std::size_t>(extent(d, b)) + static_cast<std::size_t>(cell[d] - b * width);
-    }
-    return first_[block] + static_cast<std::uint32_t>(within);
-  }
-
-  /// Calls start(colour) for every block and cell(number, node) for its cells, in the order of the numbers.
-  template <class Start, class Cell>
-  void for_each(const Start& start, const Cell& cell) const {
-    std::uint32_t number = 0;
-    Index<Dim> block{};
-    for (std::size_t b = 0; b + 1 < first_.size(); ++b, advance(block)) {
-      start(colour(block));
-      for (Index<Dim> within{}; number < first_[b + 1]; ++number) {
-        Index<Dim> node;
-        for (std::size_t d = 0; d < Dim; ++d) node[d] = block[d] * width + within[d];
-        cell(number, node);
-        for (std::size_t d = 0; d < Dim && ++within[d] == extent(d, block[d]) && d + 1 < Dim; ++d) within[d] = 0;
-      }
-    }
-  }
-
- private:
-  /// Cells of the blocks at place b of an axis.
-  int extent(std::size_t axis, int b) const {
-    return b + 1 < blocks_[axis] ? width : grid_.nodes(static_cast<int>(axis)) - b * width;
-  }
-  std::uint32_t cells_in(const Index<Dim>& block) const {
-    std::uint32_t count = 1;
-    for (std::size_t d = 0; d < Dim; ++d) count *= static_cast<std::uint32_t>(extent(d, block[d]));
+    for (const int blocks : blocks_) count *= static_cast<std::size_t>(blocks);
     return count;
   }
-  void advance(Index<Dim>& block) const {
-    for (std::size_t d = 0; d < Dim && ++block[d] == blocks_[d] && d + 1 < Dim; ++d) block[d] = 0;
+  std::uint32_t block_of(const Index<Dim>& cell) const {
+    std::size_t block = 0;
+    for (std::size_t d = Dim; d-- > 0;) {
+      block = block * static_cast<std::size_t>(blocks_[d]) + static_cast<std::size_t>(along(d, cell));
+    }
+    return static_cast<std::uint32_t>(block);
+  }
+  /// Number of a cell among those of its block, x fastest.
+  std::uint32_t within(const Index<Dim>& cell) const {
+    int within = 0;
+    for (std::size_t d = Dim; d-- > 0;) {
+      const int b = along(d, cell);
+      within = within * extent(d, b) + cell[d] - b * width;
+    }
+    return static_cast<std::uint32_t>(within);
+  }
+  std::uint32_t cells_in(std::uint32_t block) const {
+    const Index<Dim> at = place(block);
+    int count = 1;
+    for (std::size_t d = 0; d < Dim; ++d) count *= extent(d, at[d]);
+    return static_cast<std::uint32_t>(count);
+  }
+  /// Calls body(node) for the cells of a block, in the order of their numbers.
+  template <class Body>
+  void for_each_cell_of(std::uint32_t block, const Body& body) const {
+    const Index<Dim> at = place(block);
+    Index<Dim> within{};
+    for (std::uint32_t left = cells_in(block); left > 0; --left) {
+      Index<Dim> node;
+      for (std::size_t d = 0; d < Dim; ++d) node[d] = at[d] * width + within[d];
+      body(node);
+      for (std::size_t d = 0; d < Dim && ++within[d] == extent(d, at[d]) && d + 1 < Dim; ++d) within[d] = 0;
+    }
   }
   /// Even and odd places; the last of an odd number around a periodic axis meets an even one and gets a third.
-  std::size_t colour(const Index<Dim>& block) const {
+  std::size_t colour(std::uint32_t block) const {
+    const Index<Dim> at = place(block);
     std::size_t colour = 0;
     for (std::size_t d = Dim; d-- > 0;) {
-      const bool meets_first = grid_.periodic[d] && blocks_[d] % 2 == 1 && block[d] + 1 == blocks_[d];
-      colour = 3 * colour + (meets_first ? 2 : static_cast<std::size_t>(block[d] % 2));
+      const bool meets_first = grid_.periodic[d] && blocks_[d] % 2 == 1 && at[d] + 1 == blocks_[d];
+      colour = 3 * colour + (meets_first ? 2 : static_cast<std::size_t>(at[d] % 2));
     }
     return colour;
   }
 
+ private:
+  /// Place along an axis of the block of a cell.
+  int along(std::size_t axis, const Index<Dim>& cell) const { return std::min(cell[axis] / width, blocks_[axis] - 1); }
+  /// Cells of the blocks at place b of an axis.
+  int extent(std::size_t axis, int b) const {
+    return b + 1 < blocks_[axis] ? width : grid_.nodes(static_cast<int>(axis)) - b * width;
+  }
+  Index<Dim> place(std::uint32_t block) const {
+    Index<Dim> place;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      place[d] = static_cast<int>(block % static_cast<std::uint32_t>(blocks_[d]));
+      block /= static_cast<std::uint32_t>(blocks_[d]);
+    }
+    return place;
+  }
+
   const Grid<Dim>& grid_;
-  const std::vector<std::uint32_t>& first_;
   Index<Dim> blocks_;
 };
 
+/// Numbers the cells of the blocks with particles, block by block, and tells every particle that of its cell.
+/// \return how many cells these are
+template <int Dim>
+std::size_t number_cells(const Grid<Dim>& grid, const Blocks<Dim>& blocks, std::span<const Vec<Dim>> y_p,
+                         BinBuffer& buffer) {
+  auto& number = buffer.number;
+  number.resize(y_p.size());
+  for_each_row(y_p.size(), [&](std::size_t p) { number[p] = blocks.block_of(dual_cell<Dim>(grid, y_p[p])); });
+  buffer.blocks.start(blocks.count());
+  for (const std::uint32_t block : number) buffer.blocks.number(block);
+  buffer.blocks.sort();
+  buffer.first_of_block.resize(buffer.blocks.size());
+  std::uint32_t cells = 0;
+  for (const std::uint32_t block : buffer.blocks.used()) {
+    buffer.first_of_block[*buffer.blocks.find(block)] = cells;
+    cells += blocks.cells_in(block);
+  }
+  for_each_row(y_p.size(), [&](std::size_t p) {
+    number[p] = buffer.first_of_block[*buffer.blocks.find(number[p])] + blocks.within(dual_cell<Dim>(grid, y_p[p]));
+  });
+  return cells;
+}
+
 /// Lists the cells and blocks that hold particles.
 template <int Dim>
-void list_occupied(const Blocks<Dim>& blocks, std::span<const std::uint32_t> first, OccupiedCells<Dim>& occupied) {
+void list_occupied(const Blocks<Dim>& blocks, const BinBuffer& buffer, OccupiedCells<Dim>& occupied) {
   occupied.cells.clear();
   for (auto& of_colour : occupied.blocks) of_colour.clear();
-  std::size_t colour = 0;
-  bool is_new = true;
-  blocks.for_each(
-      [&](std::size_t c) {
-        colour = c;
-        is_new = true;
-      },
-      [&](std::uint32_t number, const Index<Dim>& node) {
-        if (first[number] == first[number + 1]) return;
-        const auto place = static_cast<std::uint32_t>(occupied.cells.size());
-        auto& of_colour = occupied.blocks[colour];
-        if (is_new) of_colour.push_back({place, place});
-        is_new = false;
-        occupied.cells.push_back({node, first[number], first[number + 1]});
-        of_colour.back().end = place + 1;
-      });
+  std::size_t number = 0;
+  for (const std::uint32_t block : buffer.blocks.used()) {
+    const auto begin = static_cast<std::uint32_t>(occupied.cells.size());
+    blocks.for_each_cell_of(block, [&](const Index<Dim>& node) {
+      const std::uint32_t first = buffer.first[number++];
+      if (first < buffer.first[number]) occupied.cells.push_back({node, first, buffer.first[number], {}});
+    });
+    occupied.blocks[blocks.colour(block)].push_back({begin, static_cast<std::uint32_t>(occupied.cells.size())});
+  }
 }
 
 }  // namespace
@@ -112,20 +132,18 @@ void list_occupied(const Blocks<Dim>& blocks, std::span<const std::uint32_t> fir
 template <int Dim>
 void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim>> y_p, Resize<Particles> particles,
                           Write<OccupiedCells<Dim>> cells, Update<BinBuffer> buffer) const {
-  auto& [number, first, place, first_of_block] = *buffer;
-  const Blocks<Dim> blocks(*grid, first_of_block);
-  const std::size_t count = y_p.size();
-  number.resize(count);
-  place.resize(count);
-  for_each_row(count, [&](std::size_t p) { number[p] = blocks.number(dual_cell<Dim>(*grid, y_p[p])); });
+  const Blocks<Dim> blocks(*grid);
+  const std::size_t cell_count = number_cells<Dim>(*grid, blocks, y_p.span(), *buffer);
+  auto& [used, first_of_block, number, first, place] = *buffer;
 
   // Counting sort: first[c] becomes the place of the first particle of cell c.
-  first.assign(blocks.cell_count() + 1, 0);
+  first.assign(cell_count + 1, 0);
   for (const std::uint32_t c : number) ++first[c + 1];
   for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
-  list_occupied<Dim>(blocks, first, *cells);
+  list_occupied<Dim>(blocks, *buffer, *cells);
   if (std::is_sorted(number.begin(), number.end())) return;
-  for (std::size_t p = 0; p < count; ++p) place[first[number[p]]++] = static_cast<std::uint32_t>(p);
+  place.resize(number.size());
+  for (std::size_t p = 0; p < number.size(); ++p) place[first[number[p]]++] = static_cast<std::uint32_t>(p);
   particles.reorder(place);
 }
 

@@ -2,6 +2,8 @@
 /// \file
 /// Volume around nodes: of the grid, and of the particles.
 
+#include "components/end_node.hpp"
+#include "engine/system.hpp"
 #include "systems/grid/place.hpp"
 
 #include <span>
@@ -10,29 +12,42 @@ namespace minamo {
 
 /// (E39)  V_I, the integral of S_I over the box: h^d, times 13/24 on a wall and 23/24 beside it. [m^3; m^2 in 2-D]
 template <int Dim>
-double full_volume(const Grid<Dim>& grid, std::size_t node) {
+double full_volume(const Grid<Dim>& grid, const Index<Dim>& site) {
   double volume = 1;
-  for (int d = 0; d < Dim; ++d) {
-    const auto nodes = static_cast<std::size_t>(grid.nodes(d));
-    const auto axis = static_cast<std::size_t>(d);
+  for (std::size_t d = 0; d < Dim; ++d) {
     volume *= grid.spacing;
-    if (!grid.periodic[axis]) volume *= axis_integral(static_cast<int>(node % nodes), grid.cells[axis]);
-    node /= nodes;
+    if (!grid.periodic[d]) volume *= axis_integral(site[d], grid.cells[d]);
   }
   return volume;
 }
 
-/// (E35)  V~_I = sum_p S_I(x_p) V_p, wherever the particles are. One after the other: they may have left the cells that
-/// they are sorted by.
+/// Numbers the nodes that particles touch, wherever they are.
 template <int Dim>
-void gather_node_volume(const Grid<Dim>& grid, double density, std::span<const Vec<Dim>> x_p,
+void number_end_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resize<EndNodes> nodes, EndSites<Dim>& rows,
+                      Write<end_node::Site<Dim>> sites) {
+  rows.start(grid);
+  std::optional<Index<Dim>> last;
+  for (const Vec<Dim>& x : x_p) {
+    const Index<Dim> own = dual_cell<Dim>(grid, fold<Dim>(grid, x));
+    // Most particles are still beside those that they were sorted beside.
+    if (last == own) continue;
+    last = own;
+    const SupportBox<Dim> support(grid, own);
+    for_each_support<Dim>([&](std::size_t, const Index<Dim>& offset) { rows.add(support.site(grid, offset)); });
+  }
+  nodes.resize(rows.number_rows());
+  rows.for_each([&](const Index<Dim>& site, std::uint32_t i) { sites[i] = site; });
+}
+
+/// (E35)  V~_I = sum_p S_I(x_p) V_p. One after the other: particles may have left the cells that they are sorted by.
+template <int Dim>
+void gather_node_volume(const Grid<Dim>& grid, const EndSites<Dim>& rows, double density, std::span<const Vec<Dim>> x_p,
                         std::span<const double> m_p, std::span<double> v_i) {
   std::fill(v_i.begin(), v_i.end(), 0.0);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const double v = m_p[p] / density;
-    const Place<Dim> place(grid, x_p[p]);
-    for_each_support<Dim>(
-        [&](std::size_t k, const Index<Dim>& offset) { v_i[place.support.node[k]] += place.weights(offset) * v; });
+    const Place<Dim> place(grid, rows, x_p[p]);
+    place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { v_i[i] += place.weights(offset) * v; });
   }
 }
 

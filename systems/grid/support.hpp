@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// The 3^d nodes of a dual cell, the weights of a particle on them, and the loops that all kernels share:
-/// for_each_support() over the nodes, for_each_cell() to gather, for_each_cell_coloured() to scatter.
+/// for_each_support() over the nodes, for_each_cell() to gather, for_each_cell_coloured() to scatter. For points that
+/// are in no occupied cell: place.hpp.
 
 #include "components/cells.hpp"
 #include "engine/parallel.hpp"
@@ -29,26 +30,42 @@ inline void for_each_support(const Body& body) {
   }
 }
 
-/// The nodes of a dual cell.
+/// Where the nodes of a dual cell are.
 template <int Dim>
-struct Support {
+struct SupportBox {
   std::array<const AxisBasis*, static_cast<std::size_t>(Dim)> basis;
-  std::array<std::size_t, support_size<Dim>> node;  ///< rows in the node tables
-  Index<Dim> first;                                 ///< lowest node; -1 at the low end of a periodic axis
-  Vec<Dim> centre;                                  ///< the cell's own node [m]
-  Vec<Dim> corner;                                  ///< the lowest node [m]
-  double per_spacing;                               ///< 1/h [1/m]
+  Index<Dim> first;    ///< lowest node; -1 at the low end of a periodic axis
+  Vec<Dim> centre;     ///< the cell's own node [m]
+  Vec<Dim> corner;     ///< the lowest node [m]
+  double per_spacing;  ///< 1/h [1/m]
 
-  Support(const Grid<Dim>& grid, const Index<Dim>& own) : centre(grid.position(own)), per_spacing(1 / grid.spacing) {
+  SupportBox(const Grid<Dim>& grid, const Index<Dim>& own) : centre(grid.position(own)), per_spacing(1 / grid.spacing) {
     for (std::size_t d = 0; d < Dim; ++d) {
       basis[d] = &axis_basis<Dim>(grid, d, own[d]);
       first[d] = own[d] + basis[d]->first;
     }
     corner = grid.position(first);
-    for_each_support<Dim>([&](std::size_t k, Index<Dim> offset) {
-      for (std::size_t d = 0; d < Dim; ++d) offset[d] = grid.wrapped(static_cast<int>(d), offset[d] + first[d]);
-      node[k] = grid.row(offset);
-    });
+  }
+  /// The site of the node at an offset from the first.
+  Index<Dim> site(const Grid<Dim>& grid, Index<Dim> offset) const {
+    for (std::size_t d = 0; d < Dim; ++d) offset[d] = grid.wrapped(static_cast<int>(d), offset[d] + first[d]);
+    return offset;
+  }
+};
+
+/// The nodes of an occupied dual cell.
+template <int Dim>
+struct Support : SupportBox<Dim> {
+  std::array<std::size_t, support_size<Dim>> node;  ///< rows in the node tables
+
+  Support(const Grid<Dim>& grid, const typename OccupiedCells<Dim>::Cell& cell) : SupportBox<Dim>(grid, cell.node) {
+    std::copy(cell.rows.begin(), cell.rows.end(), node.begin());
+  }
+  /// The row of the cell's own node.
+  std::size_t own() const {
+    std::size_t k = 0;
+    for (std::size_t d = Dim; d-- > 0;) k = 3 * k + static_cast<std::size_t>(-this->basis[d]->first);
+    return node[k];
   }
 };
 
@@ -58,7 +75,7 @@ struct Weights {
   std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> value;
   std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> slope;  ///< [1/m]
 
-  Weights(const Support<Dim>& support, const Vec<Dim>& y) {
+  Weights(const SupportBox<Dim>& support, const Vec<Dim>& y) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const double xi = (y[axis] - support.centre[axis]) * support.per_spacing;

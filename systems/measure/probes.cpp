@@ -1,23 +1,22 @@
 #include "systems/measure/probes.hpp"
 
-#include "systems/grid/support.hpp"
+#include "systems/grid/place.hpp"
 
 namespace minamo {
 
 template <int Dim, class Velocity>
-void MeasureProbesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Read<measure::Probes<Dim>> probes,
-                                                Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<Velocity> v_i,
+void MeasureProbesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
+                                                Read<measure::Probes<Dim>> probes, Read<node::Mass> m_i,
+                                                Read<node::Pressure> p_i, Read<Velocity> v_i,
                                                 Update<measure::Columns> columns) const {
   for (const auto& probe : probes->probes) {
-    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, probe.at));
-    const Weights<Dim> weights(support, probe.at);
+    const Place<Dim> place(*grid, *rows, probe.at);
     double wet = 0;
     double p_s = 0;
     Vec<Dim> v_s = Vec<Dim>::Zero();
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-      const std::size_t i = support.node[k];
+    place.for_each_node([&](std::size_t i, const Index<Dim>& offset) {
       if (m_i[i] == 0) return;
-      const double weight = weights(offset);
+      const double weight = place.weights(offset);
       wet += weight;
       p_s += weight * p_i[i];
       v_s += weight * v_i[i];

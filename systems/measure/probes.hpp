@@ -5,6 +5,7 @@
 #include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/node.hpp"
+#include "components/sites.hpp"
 #include "engine/system.hpp"
 
 namespace minamo {
@@ -16,8 +17,9 @@ namespace minamo {
 template <int Dim, class Velocity>
 struct MeasureProbesIn {
   static constexpr std::string_view doc = "(E43), (E44) pressure and velocity at the probes";
-  void operator()(Read<Grid<Dim>> grid, Read<measure::Probes<Dim>> probes, Read<node::Mass> m_i,
-                  Read<node::Pressure> p_i, Read<Velocity> v_i, Update<measure::Columns> columns) const;
+  void operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<measure::Probes<Dim>> probes,
+                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<Velocity> v_i,
+                  Update<measure::Columns> columns) const;
 };
 template <int Dim>
 using MeasureProbes = MeasureProbesIn<Dim, node::NewVelocity<Dim>>;

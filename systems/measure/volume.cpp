@@ -8,12 +8,12 @@
 namespace minamo {
 
 template <int Dim>
-void MeasureDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                                        Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                                        Read<node::Mass> m_i, Read<node::KnownVelocity<Dim>> v_known,
-                                        Read<node::Displacement<Dim>> u_i,
+void MeasureDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
+                                        Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node,
+                                        Read<matrix::Divergence<Dim>> divergence, Read<node::Mass> m_i,
+                                        Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
                                         Write<measure::MaxDivergence> largest) const {
-  const Stencil<Dim> stencil(*grid);
+  const Stencil<Dim> stencil(*grid, *rows, sites.span());
   const auto of_row = [&](std::size_t r) {
     double sum = 0;
     stencil.for_each_neighbour(node[r], [&](std::size_t k, std::uint32_t j) {
@@ -27,12 +27,14 @@ void MeasureDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid,
 
 template <int Dim>
 void MeasureOverlap<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
-                                     Read<particle::Mass> m_p, Write<node::Volume> v_i,
+                                     Read<particle::Mass> m_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
+                                     Write<end_node::Site<Dim>> sites, Write<end_node::Volume> v_i,
                                      Write<measure::Overlap> overlap) const {
-  gather_node_volume<Dim>(*grid, fluid->density, x_p.span(), m_p.span(), v_i.span());
+  number_end_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
+  gather_node_volume<Dim>(*grid, *rows, fluid->density, x_p.span(), m_p.span(), v_i.span());
   double excess = 0;
   for (std::size_t i = 0; i < v_i.size(); ++i) {
-    if (v_i[i] > 0) excess += std::max(0.0, v_i[i] - full_volume<Dim>(*grid, i));
+    if (v_i[i] > 0) excess += std::max(0.0, v_i[i] - full_volume<Dim>(*grid, sites[i]));
   }
   double total = 0;
   for (const double m : m_p) total += m / fluid->density;

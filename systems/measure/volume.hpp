@@ -2,12 +2,14 @@
 /// \file
 /// How well the volume is kept: divergence of the nodal velocity, overlap of the particles.
 
+#include "components/end_node.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
 #include "components/measure.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
+#include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/system.hpp"
 
@@ -17,9 +19,9 @@ namespace minamo {
 template <int Dim>
 struct MeasureDivergence {
   static constexpr std::string_view doc = "(E31) largest divergence";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>> divergence, Read<node::Mass> m_i,
-                  Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
+  void operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites, Read<Fluid> fluid,
+                  Read<Rates> rates, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<node::Mass> m_i, Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
                   Write<measure::MaxDivergence> largest) const;
 };
 
@@ -28,7 +30,8 @@ template <int Dim>
 struct MeasureOverlap {
   static constexpr std::string_view doc = "(E32) overlap";
   void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p, Read<particle::Mass> m_p,
-                  Write<node::Volume> v_i, Write<measure::Overlap> overlap) const;
+                  Resize<EndNodes> nodes, Write<EndSites<Dim>> rows, Write<end_node::Site<Dim>> sites,
+                  Write<end_node::Volume> v_i, Write<measure::Overlap> overlap) const;
 };
 
 }  // namespace minamo

@@ -1,7 +1,7 @@
 #include "systems/output/fields.hpp"
 
 #include "engine/hdf5.hpp"
-#include "systems/grid/support.hpp"
+#include "systems/grid/place.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -63,14 +63,13 @@ std::string grid_text(const FieldsFile::Frame& frame, std::size_t k) {
 }  // namespace
 
 template <int Dim>
-void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim>> y_p,
-                                     Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const {
+void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
+                                     Read<particle::Configuration<Dim>> y_p, Read<node::Pressure> p_i,
+                                     Write<particle::Pressure> p_p) const {
   for_each_row(y_p.size(), [&](std::size_t p) {
-    const Support<Dim> support(*grid, dual_cell<Dim>(*grid, y_p[p]));
-    const Weights<Dim> weights(support, y_p[p]);
+    const Place<Dim> place(*grid, *rows, y_p[p]);
     double sum = 0;
-    for_each_support<Dim>(
-        [&](std::size_t k, const Index<Dim>& offset) { sum += weights(offset) * p_i[support.node[k]]; });
+    place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { sum += place.weights(offset) * p_i[i]; });
     p_p[p] = sum;
   });
 }

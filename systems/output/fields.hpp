@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
+#include "components/sites.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 
@@ -29,8 +30,8 @@ struct FieldsFile {
 template <int Dim>
 struct SamplePressure {
   static constexpr std::string_view doc = "(E33) p_p";
-  void operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim>> y_p, Read<node::Pressure> p_i,
-                  Write<particle::Pressure> p_p) const;
+  void operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<particle::Configuration<Dim>> y_p,
+                  Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const;
 };
 
 /// Adds a frame to fields.h5.

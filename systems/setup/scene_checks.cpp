@@ -11,8 +11,8 @@ namespace minamo {
 
 namespace {
 
-/// Nodal arrays take about 300 bytes per node.
-constexpr double most_nodes = 3e7;
+/// Dry nodes take up to 0.4 bytes each, in tables of blocks of them.
+constexpr double most_nodes = 5e8;
 
 std::vector<double> spacings(const GridScene& grid) {
   std::vector<double> spacing;
@@ -109,7 +109,7 @@ void check_grid(Input& input, GridScene& grid) {
     nodes *= grid.cells[d] + 1.0;
   }
   if (nodes > most_nodes) {
-    input.problem("cells", "too many cells", fmt::format("at most {:.0e} nodes, about 10 GB", most_nodes),
+    input.problem("cells", "too many cells", fmt::format("at most {:.0e} nodes", most_nodes),
                   fmt::format("[{}], {:.3g} nodes", fmt::join(grid.cells, ", "), nodes));
     return;
   }

@@ -2,7 +2,6 @@
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
-#include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "systems/setup/lattice.hpp"
@@ -12,6 +11,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <unordered_map>
 
 namespace minamo {
 
@@ -31,29 +31,21 @@ Grid<Dim> make_grid(const GridScene& scene, const std::vector<std::array<Wall, 2
   return grid;
 }
 
-/// The directions that the walls hold at a place of one axis.
+/// The directions that a wall of an axis holds.
 template <int Dim>
-std::uint8_t held_by(const std::array<Wall, 2>& walls, int place, int last, std::size_t axis) {
-  if (walls[0] == Wall::periodic) return 0;
+std::uint8_t held_by(Wall wall, std::size_t axis) {
   constexpr auto all = static_cast<std::uint8_t>((1 << Dim) - 1);
-  if (place != 0 && place != last) return 0;
-  const Wall wall = walls[place == 0 ? 0 : 1];
+  if (wall == Wall::periodic) return 0;
   return wall == Wall::no_slip ? all : static_cast<std::uint8_t>(1U << axis);
 }
 
 template <int Dim>
-void set_walls(const Scene& scene, const Grid<Dim>& grid, World& world) {
-  world.resize<Nodes>(grid.node_count());
-  const auto fixed = world.column<node::Fixed>();
-  for (std::size_t i = 0; i < fixed.size(); ++i) {
-    std::size_t rest = i;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const int nodes = grid.nodes(static_cast<int>(d));
-      const int place = static_cast<int>(rest % static_cast<std::size_t>(nodes));
-      fixed[i] |= held_by<Dim>(scene.walls[d], place, nodes - 1, d);
-      rest /= static_cast<std::size_t>(nodes);
-    }
+Walls<Dim> make_walls(const std::vector<std::array<Wall, 2>>& scene) {
+  Walls<Dim> walls;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    for (std::size_t end = 0; end < 2; ++end) walls.held[d][end] = held_by<Dim>(scene[d][end], d);
   }
+  return walls;
 }
 
 /// A vector of expressions at a place, at t = 0.
@@ -102,7 +94,7 @@ struct Seeds {
 template <int Dim>
 Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, const std::string& file, std::vector<Problem>& problems) {
   Seeds<Dim> seeds;
-  std::vector<double> filled(grid.node_count(), 0.0);
+  std::unordered_map<std::size_t, double> filled;
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
     const auto positions = lattice<Dim>(scene.particles[r], grid, start_of(scene));
     const std::string pointer = fmt::format("/particles/{}", r);
@@ -195,7 +187,7 @@ void seed_world(const Scene& scene, const std::string& file, World& world) {
   world.resource<SolverTolerance>() = {scene.solver_tolerance};
   world.resource<XpicOrder>() = {scene.xpic_order};
   world.resource<FlipBlend>() = {scene.flip_blend};
-  set_walls<Dim>(scene, grid, world);
+  world.resource<Walls<Dim>>() = make_walls<Dim>(scene.walls);
   std::vector<Problem> problems;
   const Seeds<Dim> seeds = lay_out<Dim>(scene, grid, file, problems);
   set_particles<Dim>(scene, grid, seeds, file, world, problems);

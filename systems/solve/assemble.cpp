@@ -11,7 +11,7 @@ void AssembleDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCell
   const auto rows = divergence.span();
   clear_rows(rows);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
+    const Support<Dim> support(*grid, cell);
     for (int d = 0; d < Dim; ++d) {
       const auto matrix = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, -1, d));
       add_to_rows<Dim>(support, row.span(), matrix, support.per_spacing, Dim, static_cast<std::size_t>(d), rows);
@@ -26,7 +26,7 @@ void AssembleLaplacian<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells
   const auto rows = laplacian.span();
   clear_rows(rows);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
+    const Support<Dim> support(*grid, cell);
     CellMatrix<Dim> sum{};
     for (int d = 0; d < Dim; ++d) {
       const auto matrix = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, d, d));
@@ -43,7 +43,7 @@ void AssembleViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells
   const auto rows = viscosity.span();
   clear_rows(rows);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
+    const Support<Dim> support(*grid, cell);
     const double scale = fluid->viscosity * support.per_spacing * support.per_spacing;
     const auto add = [&](const CellMatrix<Dim>& matrix, int a, int b) {
       add_to_rows<Dim>(support, row.span(), matrix, scale, Dim * Dim, static_cast<std::size_t>(Dim * a + b), rows);

@@ -187,7 +187,8 @@ std::vector<double> solve_again(BlockFactors<Dim>& factors, const std::vector<do
 template <int Dim>
 void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed,
-                                 Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<matrix::Node> node,
+                                 Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows,
+                                 Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                  Read<matrix::Divergence<Dim>> divergence,
                                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                                  Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
@@ -198,6 +199,8 @@ void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<F
                                  row.span(),
                                  fixed.span(),
                                  m_i.span(),
+                                 site.span(),
+                                 &*rows,
                                  node.span(),
                                  divergence.span(),
                                  stabilization.span(),
@@ -209,17 +212,25 @@ void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<F
 template <int Dim>
 void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                         Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed,
-                                        Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<matrix::Node> node,
+                                        Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows,
+                                        Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                         Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::Stabilization<Dim>> stabilization,
                                         Read<matrix::StabilizationScale> scale, Read<matrix::Viscosity<Dim>> viscosity,
                                         Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
                                         Write<matrix::Solution> solution, Write<SolveReport> report) const {
-  const EquationTerms<Dim> terms{
-      rates->velocity, rates->acceleration, pressure_per_mass(clock->step, fluid->density, grid->spacing),
-      row.span(),      fixed.span(),        m_i.span(),
-      node.span(),     divergence.span(),   stabilization.span(),
-      viscosity.span()};
+  const EquationTerms<Dim> terms{rates->velocity,
+                                 rates->acceleration,
+                                 pressure_per_mass(clock->step, fluid->density, grid->spacing),
+                                 row.span(),
+                                 fixed.span(),
+                                 m_i.span(),
+                                 site.span(),
+                                 &*rows,
+                                 node.span(),
+                                 divergence.span(),
+                                 stabilization.span(),
+                                 viscosity.span()};
   *report = solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(),
                        right_hand_side->values, *factors->impl, solution->values);
 }

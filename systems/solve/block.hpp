@@ -8,6 +8,7 @@
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
+#include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
@@ -41,7 +42,8 @@ struct SolveBlock {
   /// \throws std::runtime_error if neither GMRES nor UMFPACK solves the system, with step, time and size.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-                  Read<node::Pressure> p_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                   Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
                   Write<matrix::Solution> solution, Write<SolveReport> report) const;
@@ -53,7 +55,8 @@ struct SolveBlockViscous {
   /// \throws std::runtime_error if neither GMRES nor UMFPACK solves the system, with step, time and size.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-                  Read<node::Pressure> p_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                   Read<matrix::Viscosity<Dim>> viscosity, Read<matrix::RightHandSide> right_hand_side,
                   Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution, Write<SolveReport> report) const;

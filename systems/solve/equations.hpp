@@ -4,7 +4,7 @@
 /// of the displacement, and the pressure for i = d.
 
 #include "components/matrix.hpp"
-#include "components/types.hpp"
+#include "components/sites.hpp"
 
 #include <span>
 
@@ -27,6 +27,8 @@ struct EquationTerms {
   std::span<const std::int32_t> row;
   std::span<const std::uint8_t> fixed;
   std::span<const double> m_i;
+  std::span<const Index<Dim>> site;    ///< of every node
+  const SiteRows<Dim>* rows_of_sites;  ///< and which node is there
   std::span<const std::uint32_t> node;
   std::span<const typename matrix::Divergence<Dim>::value_type> divergence;
   std::span<const typename matrix::Stabilization<Dim>::value_type> stabilization;

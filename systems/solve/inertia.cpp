@@ -37,7 +37,7 @@ void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
                           std::span<Vec<Dim>> out) {
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
   for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto& cell) {
-    const Support<Dim> support(grid, cell.node);
+    const Support<Dim> support(grid, cell);
     const Mat<Dim> gradient = density * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
     for (int d = 0; d < Dim; ++d) {
       const auto way = integrate<Dim>(moments.of_cell[c], node_factors<Dim>(support, d, &AxisBasis::of_distance));
@@ -78,7 +78,7 @@ void G2PForceGradient<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, 
                                        Write<particle::ForceGradient<Dim>> grad_f_p) const {
   const double per_step = 1 / clock->step;
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
+    const Support<Dim> support(*grid, cell);
     Mat<Dim> gradient = Mat<Dim>::Zero();
     for (int d = 0; d < Dim; ++d) {
       const auto slope = integrate<Dim>(moments->of_cell[c], node_factors<Dim>(support, d, &AxisBasis::of_slope));

@@ -85,7 +85,7 @@ void column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_
 template <int Dim>
 void fill_monolithic(const EquationTerms<Dim>& t, const Grid<Dim>& grid, matrix::Pattern& pattern,
                      std::vector<double>& values) {
-  const Stencil<Dim> stencil(grid);
+  const Stencil<Dim> stencil(grid, *t.rows_of_sites, t.site);
   const std::size_t columns = unknowns_per_row(Dim) * t.node.size();
   pattern.next_outer.assign(columns + 1, 0);
   constexpr std::size_t columns_per_task = 256;
@@ -123,7 +123,8 @@ void fill_monolithic(const EquationTerms<Dim>& t, const Grid<Dim>& grid, matrix:
 template <int Dim>
 void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                          Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-                                         Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                                         Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                         Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
                                          Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
   fill_monolithic<Dim>({rates->velocity,
@@ -132,6 +133,8 @@ void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid
                         row.span(),
                         fixed.span(),
                         m_i.span(),
+                        site.span(),
+                        &*rows,
                         node.span(),
                         divergence.span(),
                         stabilization.span(),
@@ -140,16 +143,15 @@ void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid
 }
 
 template <int Dim>
-void AssembleMonolithicViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid,
-                                                Read<Rates> rates, Read<node::Row> row, Read<node::Fixed> fixed,
-                                                Read<node::Mass> m_i, Read<matrix::Node> node,
-                                                Read<matrix::Divergence<Dim>> divergence,
-                                                Read<matrix::Stabilization<Dim>> stabilization,
-                                                Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern,
-                                                Write<matrix::Values> values) const {
+void AssembleMonolithicViscous<Dim>::operator()(
+    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
+    Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+    Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+    Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
   fill_monolithic<Dim>({rates->velocity, rates->acceleration,
                         pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
-                        m_i.span(), node.span(), divergence.span(), stabilization.span(), viscosity.span()},
+                        m_i.span(), site.span(), &*rows, node.span(), divergence.span(), stabilization.span(),
+                        viscosity.span()},
                        *grid, *pattern, values->values);
 }
 

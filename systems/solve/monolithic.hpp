@@ -16,6 +16,7 @@
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
+#include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
@@ -32,19 +33,20 @@ template <int Dim>
 struct AssembleMonolithic {
   static constexpr std::string_view doc = "(E25) (E26) (E27) matrix, inviscid";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-                  Update<matrix::Pattern> pattern, Write<matrix::Values> values) const;
+                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Update<matrix::Pattern> pattern,
+                  Write<matrix::Values> values) const;
 };
 
 template <int Dim>
 struct AssembleMonolithicViscous {
   static constexpr std::string_view doc = "(E25) (E26) (E27) matrix, viscous";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-                  Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern,
-                  Write<matrix::Values> values) const;
+                  Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::Viscosity<Dim>> viscosity,
+                  Update<matrix::Pattern> pattern, Write<matrix::Values> values) const;
 };
 
 }  // namespace minamo

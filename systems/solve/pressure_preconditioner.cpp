@@ -49,12 +49,12 @@ double viscous_part(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Fl
 
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
-void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t, const Grid<Dim>& grid) {
+void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t, const Grid<Dim>&) {
   std::array<std::array<int, 2>, Dim> range;
   range.fill({std::numeric_limits<int>::max(), -1});
   std::vector<Index<Dim>> at(t.node.size());
   for (std::size_t r = 0; r < t.node.size(); ++r) {
-    at[r] = grid.index(t.node[r]);
+    at[r] = t.site[t.node[r]];
     for (std::size_t d = 0; d < Dim; ++d) {
       range[d] = {std::min(range[d][0], at[r][d]), std::max(range[d][1], at[r][d])};
     }

@@ -63,7 +63,8 @@ std::int32_t row_at(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const In
     there[axis] = grid.wrapped(d, node[axis] + offset[axis]);
     if (there[axis] < 0 || there[axis] >= grid.nodes(d)) return -1;
   }
-  return t.row[grid.row(there)];
+  const auto i = t.rows_of_sites->find(there);
+  return i ? t.row[*i] : -1;
 }
 
 }  // namespace
@@ -193,7 +194,7 @@ void PressureSchur<Dim>::fill_beyond(const EquationTerms<Dim>& t, const Grid<Dim
   for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
     if (block.row[lane] < 0 || !thin_[static_cast<std::size_t>(block.row[lane])]) continue;
     auto& beyond = beyond_[static_cast<std::size_t>(block.row[lane])];
-    const Index<Dim> node = grid.index(t.node[static_cast<std::size_t>(block.row[lane])]);
+    const Index<Dim> node = t.site[t.node[static_cast<std::size_t>(block.row[lane])]];
     for (std::size_t k = 0; k < power(std::size_t{9}, Dim); ++k) {
       const double value = wide[k][static_cast<Eigen::Index>(lane)];
       if (value == 0) continue;
@@ -209,7 +210,7 @@ void PressureSchur<Dim>::fill_beyond(const EquationTerms<Dim>& t, const Grid<Dim
 template <int Dim>
 void PressureSchur<Dim>::assemble(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
                                   double of_laplacian) {
-  blocks_.build(grid, t.node);
+  blocks_.build(grid, t.site, t.node);
   push_.resize(blocks_, Dim * stencil_size<Dim>);
   spread_.resize(blocks_, (Dim + 1) * stencil_size<Dim>);
   compact_.resize(blocks_, stencil_size<Dim>);
@@ -218,7 +219,7 @@ void PressureSchur<Dim>::assemble(const EquationTerms<Dim>& t, const Grid<Dim>& 
   beyond_.resize(rows());
   for_each_row(rows(), [&](std::size_t r) {
     beyond_[r].clear();
-    thin_[r] = t.m_i[t.node[r]] < 0.9 * fluid.density * full_volume<Dim>(grid, t.node[r]);
+    thin_[r] = t.m_i[t.node[r]] < 0.9 * fluid.density * full_volume<Dim>(grid, t.site[t.node[r]]);
   });
   fill_mobility(t);
   const auto& blocks = blocks_.blocks();

@@ -48,8 +48,7 @@ void fill_row(const KnownTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t
 }
 
 template <int Dim>
-void fill(const KnownTerms<Dim>& terms, const Grid<Dim>& grid, std::vector<double>& right_hand_side) {
-  const Stencil<Dim> stencil(grid);
+void fill(const KnownTerms<Dim>& terms, const Stencil<Dim>& stencil, std::vector<double>& right_hand_side) {
   right_hand_side.resize(unknowns_per_row(Dim) * terms.node.size());
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
@@ -61,9 +60,9 @@ void fill(const KnownTerms<Dim>& terms, const Grid<Dim>& grid, std::vector<doubl
 }  // namespace
 
 template <int Dim>
-void FillRightHandSide<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<node::Fixed> fixed,
-                                        Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                                        Read<node::KnownVelocity<Dim>> v_known,
+void FillRightHandSide<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
+                                        Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+                                        Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
                                         Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
                                         Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::StabilizationSource> source,
@@ -79,19 +78,20 @@ void FillRightHandSide<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates,
              divergence.span(),
              source.span(),
              {}},
-            *grid, right_hand_side->values);
+            {*grid, *rows, sites.span()}, right_hand_side->values);
 }
 
 template <int Dim>
 void FillRightHandSideViscous<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i,
-    Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+    Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites, Read<Rates> rates,
+    Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+    Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
     Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
     Read<matrix::StabilizationSource> source, Read<matrix::Viscosity<Dim>> viscosity,
     Write<matrix::RightHandSide> right_hand_side) const {
   fill<Dim>({rates->velocity, fixed.span(), m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(),
              node.span(), divergence.span(), source.span(), viscosity.span()},
-            *grid, right_hand_side->values);
+            {*grid, *rows, sites.span()}, right_hand_side->values);
 }
 
 template struct FillRightHandSide<2>;

@@ -38,16 +38,16 @@ void RowBlocks<Dim>::cover(int block) {
 }
 
 template <int Dim>
-void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const std::uint32_t> node) {
+void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node) {
   // The first run stands for what is beyond the water.
   runs_.assign(1, {0, 3 * width});
   first_block_.assign(1, 0);
   lines_.clear();
   const int nodes = grid.nodes(0);
-  const auto x_of = [&](std::size_t r) { return grid.index(node[r])[0]; };
+  const auto x_of = [&](std::size_t r) { return site[node[r]][0]; };
   for (std::size_t begin = 0, end = 0; begin < node.size(); begin = end) {
-    const std::size_t number = line_of<Dim>(grid, grid.index(node[begin]));
-    while (end < node.size() && line_of<Dim>(grid, grid.index(node[end])) == number) ++end;
+    const std::size_t number = line_of<Dim>(grid, site[node[begin]]);
+    while (end < node.size() && line_of<Dim>(grid, site[node[end]]) == number) ++end;
     lines_.push_back({number, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(runs_.size())});
     const std::size_t before = grid.periodic[0] ? std::min<std::size_t>(2, end - begin) : 0;
     for (std::size_t r = end - before; r < end; ++r) {
@@ -131,8 +131,8 @@ void RowBlocks<Dim>::find_blocks(const Grid<Dim>& grid) {
 }
 
 template <int Dim>
-void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const std::uint32_t> node) {
-  find_runs(grid, node);
+void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node) {
+  find_runs(grid, site, node);
   // A margin for those who look beside the last block.
   const std::size_t slots = runs_.back().begin + runs_.back().length + width;
   row_.assign(slots, -1);
@@ -151,7 +151,7 @@ void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const std::uint32_t>
              static_cast<std::uint32_t>((x + 2 * static_cast<int>(width)) % static_cast<int>(width));
     };
     for (std::uint32_t r = lines_[l].first_row; r < lines_[l + 1].first_row; ++r) {
-      const int x = grid.index(node[r])[0];
+      const int x = site[node[r]][0];
       slot_[r] = slot_at(x);
       row_[slot_[r]] = static_cast<std::int32_t>(r);
       if (!grid.periodic[0] || (x >= 2 && x < nodes - 2)) continue;

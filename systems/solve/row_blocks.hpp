@@ -44,8 +44,9 @@ class RowBlocks {
     std::uint32_t length;
   };
 
-  /// \param node  of every row, in the order of their places in the grid
-  void build(const Grid<Dim>& grid, std::span<const std::uint32_t> node);
+  /// \param site  of every node
+  /// \param node  of every row, in the order of their sites
+  void build(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node);
 
   std::size_t rows() const { return slot_.size(); }
   std::size_t slots() const { return row_.size(); }
@@ -91,7 +92,7 @@ class RowBlocks {
     std::uint32_t first_row;
     std::uint32_t first_run;
   };
-  void find_runs(const Grid<Dim>& grid, std::span<const std::uint32_t> node);
+  void find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node);
   void find_blocks(const Grid<Dim>& grid);
   void cover(int block);
   std::array<std::int32_t, lines> lines_around(const Grid<Dim>& grid, std::size_t number) const;

@@ -27,13 +27,12 @@ double dot(const typename matrix::Divergence<Dim>::value_type& row, std::size_t 
 /// Starts every row with tau L_IJ and no source, and calls add(r, k, j, row_j) for its active neighbours J: k their
 /// place in the stencil of row r, row_j their row of D.
 template <int Dim, class Add>
-void fill_rows(const Grid<Dim>& grid, double tau, std::span<const std::int32_t> row,
+void fill_rows(const Stencil<Dim>& stencil, double tau, std::span<const std::int32_t> row,
                std::span<const std::uint32_t> node,
                std::span<const typename matrix::Divergence<Dim>::value_type> divergence,
                std::span<const typename matrix::Laplacian<Dim>::value_type> laplacian,
                std::span<typename matrix::Stabilization<Dim>::value_type> stabilization, std::span<double> source,
                const Add& add) {
-  const Stencil<Dim> stencil(grid);
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
       node.size(),
@@ -51,7 +50,8 @@ void fill_rows(const Grid<Dim>& grid, double tau, std::span<const std::int32_t> 
 }  // namespace
 
 template <int Dim>
-void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
+void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
+                                    Read<node::Site<Dim>> sites, Read<Fluid> fluid, Read<node::Row> row,
                                     Read<node::BodyForce<Dim>> b_i, Read<node::KnownAcceleration<Dim>> a_known,
                                     Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                     Read<matrix::Laplacian<Dim>> laplacian,
@@ -61,8 +61,9 @@ void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   const double tau_rho = tau * fluid->density;
   *scale = {.pressure = tau, .acceleration = tau_rho};
-  fill_rows<Dim>(*grid, tau, row.span(), node.span(), divergence.span(), laplacian.span(), stabilization.span(),
-                 source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
+  fill_rows<Dim>({*grid, *rows, sites.span()}, tau, row.span(), node.span(), divergence.span(), laplacian.span(),
+                 stabilization.span(), source.span(),
+                 [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
                    const std::size_t back = stencil_size<Dim> - 1 - k;
                    for (std::size_t d = 0; d < Dim; ++d) {
                      stabilization[r][(Dim + 1) * k + d] = tau_rho * row_j[Dim * back + d];
@@ -72,7 +73,8 @@ void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
 }
 
 template <int Dim>
-void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
+void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
+                                   Read<node::Site<Dim>> sites, Read<Fluid> fluid, Read<node::Row> row,
                                    Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
                                    Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
                                    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
@@ -82,9 +84,10 @@ void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   *scale = {.pressure = tau, .acceleration = 0};
   constexpr double full_enough = 0.6;  // without this guard the dam break blows up at its surface
-  fill_rows<Dim>(*grid, tau, row.span(), node.span(), divergence.span(), laplacian.span(), stabilization.span(),
-                 source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
-                   const bool full = m_i[j] > full_enough * fluid->density * full_volume<Dim>(*grid, j);
+  fill_rows<Dim>({*grid, *rows, sites.span()}, tau, row.span(), node.span(), divergence.span(), laplacian.span(),
+                 stabilization.span(), source.span(),
+                 [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
+                   const bool full = m_i[j] > full_enough * fluid->density * full_volume<Dim>(*grid, sites[j]);
                    const Vec<Dim> g = full ? g_i[j] : Vec<Dim>(fluid->density * b_i[j]);
                    source[r] += tau * dot<Dim>(row_j, stencil_size<Dim> - 1 - k, g);
                  });
@@ -95,7 +98,7 @@ void G2PPressureGradient<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCel
                                           Read<particle::Configuration<Dim>> y_p, Read<node::Pressure> p_i,
                                           Write<particle::PressureGradient<Dim>> grad_p_p) const {
   for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
+    const Support<Dim> support(*grid, cell);
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
       const Weights<Dim> weights(support, y_p[p]);
       Vec<Dim> gradient = Vec<Dim>::Zero();

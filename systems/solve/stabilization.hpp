@@ -10,6 +10,7 @@
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
+#include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
@@ -22,8 +23,9 @@ namespace minamo {
 template <int Dim>
 struct StabilizePspg {
   static constexpr std::string_view doc = "(E24) PSPG";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
-                  Read<node::BodyForce<Dim>> b_i, Read<node::KnownAcceleration<Dim>> a_known, Read<matrix::Node> node,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
+                  Read<Fluid> fluid, Read<node::Row> row, Read<node::BodyForce<Dim>> b_i,
+                  Read<node::KnownAcceleration<Dim>> a_known, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
                   Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source,
                   Write<matrix::StabilizationScale> scale) const;
@@ -35,8 +37,9 @@ struct StabilizePspg {
 template <int Dim>
 struct StabilizeOss {
   static constexpr std::string_view doc = "(E48) orthogonal subscales";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row, Read<node::Mass> m_i,
-                  Read<node::BodyForce<Dim>> b_i, Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
+                  Read<Fluid> fluid, Read<node::Row> row, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+                  Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
                   Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source,
                   Write<matrix::StabilizationScale> scale) const;

@@ -21,12 +21,6 @@ double tau_1(double dt, double spacing, const Fluid& fluid, double speed) {
 /// tau_2 of (E51). [Pa s]
 double tau_2(double spacing, double tau) { return 4 / std::numbers::pi * spacing * spacing / (c_1 * tau); }
 
-template <int Dim>
-double cell_tau(double dt, const Grid<Dim>& grid, const Fluid& fluid, std::span<const Vec<Dim>> v_i,
-                const Index<Dim>& own) {
-  return tau_1(dt, grid.spacing, fluid, v_i[grid.row(own)].norm());
-}
-
 }  // namespace
 
 template <int Dim>
@@ -44,8 +38,8 @@ void StabilizeVms<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
   clear_rows(rows);
   for_each_row(source.size(), [&](std::size_t r) { source[r] = 0; });
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
-    const double tau = cell_tau<Dim>(clock->step, *grid, *fluid, v_i.span(), cell.node);
+    const Support<Dim> support(*grid, cell);
+    const double tau = tau_1(clock->step, grid->spacing, *fluid, v_i[support.own()].norm());
     const double h = support.per_spacing;
     for (int d = 0; d < Dim; ++d) {
       const auto laplacian = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, d, d));
@@ -66,8 +60,8 @@ void AddVmsBulkViscosity<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> gri
                                           Read<node::Velocity<Dim>> v_i,
                                           Update<matrix::Viscosity<Dim>> viscosity) const {
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
-    const double tau = cell_tau<Dim>(clock->step, *grid, *fluid, v_i.span(), cell.node);
+    const Support<Dim> support(*grid, cell);
+    const double tau = tau_1(clock->step, grid->spacing, *fluid, v_i[support.own()].norm());
     const double scale = tau_2(grid->spacing, tau) * support.per_spacing * support.per_spacing;
     for (int i = 0; i < Dim; ++i) {
       for (int j = 0; j < Dim; ++j) {

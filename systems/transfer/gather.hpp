@@ -49,7 +49,7 @@ template <int Dim, class AtNode, class Use>
 void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
             const AtNode& at_node, const Use& use) {
   for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(grid, cell.node);
+    const Support<Dim> support(grid, cell);
     std::array<Vec<Dim>, support_size<Dim>> q;
     for (std::size_t k = 0; k < q.size(); ++k) q[k] = at_node(support.node[k]);
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
@@ -73,7 +73,7 @@ template <int Dim, class Slope, class Use>
 void gather_value_and_slope(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
                             std::span<const Vec<Dim>> q_i, const Slope& slope, const Use& use) {
   for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(grid, cell.node);
+    const Support<Dim> support(grid, cell);
     std::array<Vec<Dim>, support_size<Dim>> q;
     for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
     for (std::size_t p = cell.begin; p < cell.end; ++p) {

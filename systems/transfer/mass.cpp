@@ -11,7 +11,7 @@ void P2GMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cel
   const auto m_node = m_i.span();
   std::fill(m_node.begin(), m_node.end(), 0.0);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
+    const Support<Dim> support(*grid, cell);
     std::array<double, support_size<Dim>> sum{};
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
       const Weights<Dim> weights(support, y_p[p]);

@@ -36,7 +36,7 @@ void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
   const double alpha = blend->alpha;
   // alpha (v_p + S (v_new - v_old)) + (1 - alpha) S v_new = alpha v_p + S (v_new - alpha v_old).
   for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(*grid, cell.node);
+    const Support<Dim> support(*grid, cell);
     std::array<Vec<Dim>, support_size<Dim>> increment;
     for (std::size_t k = 0; k < increment.size(); ++k) {
       increment[k] = v_new[support.node[k]] - alpha * v_old[support.node[k]];

@@ -26,7 +26,7 @@ template <int Dim, class Add>
 void scatter_mean(const ScatterSource<Dim>& source, std::span<Vec<Dim>> out, const Add& add) {
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
   for_each_cell_coloured<Dim>(source.cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(source.grid, cell.node);
+    const Support<Dim> support(source.grid, cell);
     std::array<Vec<Dim>, support_size<Dim>> sum;
     sum.fill(Vec<Dim>::Zero());
     for (std::size_t p = cell.begin; p < cell.end; ++p) {

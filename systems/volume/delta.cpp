@@ -12,9 +12,7 @@ namespace {
 template <int Dim>
 Vec<Dim> slope(const Place<Dim>& place, std::span<const double> e_i) {
   Vec<Dim> g = Vec<Dim>::Zero();
-  for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-    g += e_i[place.support.node[k]] * place.weights.gradient(offset);
-  });
+  place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { g += e_i[i] * place.weights.gradient(offset); });
   return g;
 }
 
@@ -34,23 +32,23 @@ double step_length(std::span<const double> e_i, std::span<const double> r_i) {
 
 template <int Dim>
 void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Mass> m_p,
-                                   Read<node::Volume> v_i, Write<node::VolumeExcess> e_i,
-                                   Write<node::VolumeResponse> r_i, Update<particle::Position<Dim>> x_p) const {
+                                   Read<EndSites<Dim>> rows, Read<end_node::Site<Dim>> sites,
+                                   Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i,
+                                   Write<end_node::VolumeResponse> r_i, Update<particle::Position<Dim>> x_p) const {
   for_each_row(e_i.size(), [&](std::size_t i) {
-    e_i[i] = std::max(0.0, v_i[i] - full_volume<Dim>(*grid, i));
+    e_i[i] = std::max(0.0, v_i[i] - full_volume<Dim>(*grid, sites[i]));
     r_i[i] = 0;
   });
   // One after the other: particles have left the cells that they are sorted by.
   for (std::size_t p = 0; p < x_p.size(); ++p) {
-    const Place<Dim> place(*grid, x_p[p]);
+    const Place<Dim> place(*grid, *rows, x_p[p]);
     const Vec<Dim> g = m_p[p] / fluid->density * slope<Dim>(place, e_i.span());
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-      r_i[place.support.node[k]] += place.weights.gradient(offset).dot(g);
-    });
+    place.for_each_node(
+        [&](std::size_t i, const Index<Dim>& offset) { r_i[i] += place.weights.gradient(offset).dot(g); });
   }
   const double lambda = step_length(e_i.span(), r_i.span());
   for_each_row(x_p.size(), [&](std::size_t p) {
-    const Place<Dim> place(*grid, x_p[p]);
+    const Place<Dim> place(*grid, *rows, x_p[p]);
     x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(-lambda * slope<Dim>(place, e_i.span())));
   });
 }

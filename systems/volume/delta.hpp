@@ -5,9 +5,9 @@
 /// Chandra et al., CMAME 419 (2024) 116644, doi:10.1016/j.cma.2023.116644; the length of the step by a line search is
 /// ours.
 
+#include "components/end_node.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
-#include "components/node.hpp"
 #include "components/particle.hpp"
 #include "engine/system.hpp"
 
@@ -18,9 +18,9 @@ namespace minamo {
 template <int Dim>
 struct ShiftByDelta {
   static constexpr std::string_view doc = "(E52) x_p, delta-correction";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Mass> m_p, Read<node::Volume> v_i,
-                  Write<node::VolumeExcess> e_i, Write<node::VolumeResponse> r_i,
-                  Update<particle::Position<Dim>> x_p) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Mass> m_p, Read<EndSites<Dim>> rows,
+                  Read<end_node::Site<Dim>> sites, Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i,
+                  Write<end_node::VolumeResponse> r_i, Update<particle::Position<Dim>> x_p) const;
 };
 
 }  // namespace minamo

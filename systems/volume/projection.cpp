@@ -10,24 +10,28 @@ namespace minamo {
 
 template <int Dim>
 void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
-                                       Read<particle::Mass> m_p, Write<node::Volume> v_i) const {
-  gather_node_volume<Dim>(*grid, fluid->density, x_p.span(), m_p.span(), v_i.span());
+                                       Read<particle::Mass> m_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
+                                       Write<end_node::Site<Dim>> sites, Write<end_node::Volume> v_i) const {
+  number_end_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
+  gather_node_volume<Dim>(*grid, *rows, fluid->density, x_p.span(), m_p.span(), v_i.span());
 }
 
 template <int Dim>
-void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Volume> v_i,
-                                       Write<node::VolumeExcess> e_i) const {
+void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>> rows, Read<end_node::Site<Dim>> sites,
+                                       Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i) const {
   // Deep inside: all nodes within two rings are at least half full, so that the support holds no part of the surface.
-  const Stencil<Dim> stencil(*grid);
-  const auto half_full = [&](std::size_t j) { return v_i[j] > 0.5 * full_volume<Dim>(*grid, j); };
+  const Stencil<Dim> stencil(*grid, *rows, sites.span());
+  const auto half_full = [&](std::size_t j) { return v_i[j] > 0.5 * full_volume<Dim>(*grid, sites[j]); };
   for_each_row(e_i.size(), [&](std::size_t i) {
     e_i[i] = 0;
     if (v_i[i] == 0) return;
-    const double excess = v_i[i] - full_volume<Dim>(*grid, i);
+    const double excess = v_i[i] - full_volume<Dim>(*grid, sites[i]);
     bool counts = excess >= 0 || half_full(i);
     if (excess < 0 && counts) {
-      stencil.for_each_neighbour(static_cast<std::uint32_t>(i),
-                                 [&](std::size_t, std::uint32_t j) { counts = counts && half_full(j); });
+      const auto node = static_cast<std::uint32_t>(i);
+      std::size_t full = 0;
+      stencil.for_each_neighbour(node, [&](std::size_t, std::uint32_t j) { full += half_full(j); });
+      counts = full == stencil.places_inside(node);
     }
     if (counts) e_i[i] = excess;
   });
@@ -35,12 +39,16 @@ void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Volume> 
 
 namespace {
 
-/// (0; c_v r E_I)
-std::vector<double> volume_source(int dim, double scale, std::span<const std::uint32_t> node,
-                                  std::span<const double> e_i) {
-  const std::size_t width = unknowns_per_row(dim);
+/// (0; c_v r E_I), I a node of the step, which no particle may touch any more.
+template <int Dim>
+std::vector<double> volume_source(double scale, std::span<const std::uint32_t> node, std::span<const Index<Dim>> sites,
+                                  const EndSites<Dim>& end_rows, std::span<const double> e_i) {
+  constexpr std::size_t width = unknowns_per_row(Dim);
   std::vector<double> b(width * node.size(), 0.0);
-  for (std::size_t r = 0; r < node.size(); ++r) b[width * r + width - 1] = scale * e_i[node[r]];
+  for (std::size_t r = 0; r < node.size(); ++r) {
+    const auto i = end_rows.find(sites[node[r]]);
+    b[width * r + width - 1] = scale * (i ? e_i[*i] : 0);
+  }
   return b;
 }
 
@@ -61,32 +69,33 @@ double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2,
 
 template <int Dim>
 void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row,
-                                         Read<matrix::Node> node, Read<node::VolumeExcess> e_i,
+                                         Read<matrix::Node> node, Read<node::Site<Dim>> sites,
+                                         Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
                                          Read<matrix::Values>,  // the backend refines its solution with them
                                          Update<UmfpackFactors> factors, Write<node::Shift<Dim>> d_i) const {
-  const auto b = volume_source(Dim, rates->velocity * rate->rate, node.span(), e_i.span());
+  const auto b = volume_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span());
   take_shift<Dim>(solve_again(*factors, b), row.span(), d_i.span());
 }
 
 template <int Dim>
 void SolveVolumeBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Rates> rates,
                                        Read<VolumeRate> rate, Read<SolverTolerance> tolerance, Read<node::Row> row,
-                                       Read<node::Fixed>, Read<node::Mass>, Read<matrix::Node> node,
+                                       Read<node::Fixed>, Read<node::Mass>, Read<WetSites<Dim>>,
+                                       Read<node::Site<Dim>> sites, Read<matrix::Node> node,
                                        Read<matrix::Divergence<Dim>>, Read<matrix::Stabilization<Dim>>,
-                                       Read<node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
-                                       Write<node::Shift<Dim>> d_i) const {
-  const auto b = volume_source(Dim, rates->velocity * rate->rate, node.span(), e_i.span());
+                                       Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
+                                       Update<BlockFactors<Dim>> factors, Write<node::Shift<Dim>> d_i) const {
+  const auto b = volume_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span());
   take_shift<Dim>(solve_again<Dim>(*factors, b, *clock, *grid, shift_tolerance(*tolerance)), row.span(), d_i.span());
 }
 
 template <int Dim>
-void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Shift<Dim>> d_i,
+void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Shift<Dim>> d_i,
                                      Update<particle::Position<Dim>> x_p) const {
   for_each_row(x_p.size(), [&](std::size_t p) {
-    const Place<Dim> place(*grid, x_p[p]);
+    const Place<Dim> place(*grid, *rows, x_p[p]);
     Vec<Dim> shift = Vec<Dim>::Zero();
-    for_each_support<Dim>(
-        [&](std::size_t k, const Index<Dim>& offset) { shift += place.weights(offset) * d_i[place.support.node[k]]; });
+    place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { shift += place.weights(offset) * d_i[i]; });
     x_p[p] = shifted<Dim>(*grid, x_p[p], shift);
   });
 }

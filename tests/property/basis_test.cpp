@@ -14,11 +14,12 @@ PlainWeights<Dim> kernel_weights(const Grid<Dim>& grid, const Vec<Dim>& x) {
   PlainWeights<Dim> all(grid, x);
   all.value.assign(grid.node_count(), 0);
   all.gradient.assign(grid.node_count(), Vec<Dim>::Zero());
-  const Support<Dim> support(grid, dual_cell<Dim>(grid, x));
+  const SupportBox<Dim> support(grid, dual_cell<Dim>(grid, x));
   const Weights<Dim> weights(support, x);
-  for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-    all.value[support.node[k]] += weights(offset);
-    all.gradient[support.node[k]] += weights.gradient(offset);
+  for_each_support<Dim>([&](std::size_t, const Index<Dim>& offset) {
+    const std::size_t i = grid.row(support.site(grid, offset));
+    all.value[i] += weights(offset);
+    all.gradient[i] += weights.gradient(offset);
   });
   return all;
 }

@@ -81,9 +81,9 @@ std::vector<Mat<Dim>> force_gradient(World& world) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   const double dt = world.resource<Clock>().step;
   const auto y_p = world.column<particle::Configuration<Dim>>();
-  const auto v_old = world.column<node::Velocity<Dim>>();
-  const auto v_new = world.column<node::NewVelocity<Dim>>();
-  const auto c_i = world.column<node::InertiaCorrection<Dim>>();
+  const auto v_old = kernels::on_grid<Dim, node::Velocity<Dim>>(world);
+  const auto v_new = kernels::on_grid<Dim, node::NewVelocity<Dim>>(world);
+  const auto c_i = kernels::on_grid<Dim, node::InertiaCorrection<Dim>>(world);
   std::vector<Mat<Dim>> gradient(y_p.size(), Mat<Dim>(Mat<Dim>::Zero()));
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     const kernels::PlainWeights<Dim> w(grid, y_p[p]);
@@ -107,10 +107,10 @@ TEMPLATE_TEST_CASE_SIG("the inertia correction is the first moment of the forces
   const auto before = by_id<particle::ForceGradient<Dim>>(world);
   run.step();
   const auto expected = first_moment<Dim>(world, cell_means<Dim>(world, in_rows(world, before)));
-  const auto c_i = world.template column<node::InertiaCorrection<Dim>>();
-  const auto m_i = world.template column<node::Mass>();
-  const auto row = world.template column<node::Row>();
-  const auto fixed = world.template column<node::Fixed>();
+  const auto c_i = kernels::on_grid<Dim, node::InertiaCorrection<Dim>>(world);
+  const auto m_i = kernels::on_grid<Dim, node::Mass>(world);
+  const auto row = kernels::on_grid<Dim, node::Row>(world, -1);
+  const auto fixed = kernels::on_grid<Dim, node::Fixed>(world);
   double worst = 0;
   double largest = 0;
   std::size_t held = 0;

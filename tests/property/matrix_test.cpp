@@ -13,6 +13,11 @@ namespace {
 
 constexpr double viscosity = 0.7;
 
+template <int Dim>
+Stencil<Dim> stencil_of(World& world) {
+  return {world.resource<Grid<Dim>>(), world.resource<WetSites<Dim>>(), world.column<node::Site<Dim>>()};
+}
+
 /// The matrices of random particles, moments first, as the step assembles them.
 template <int Dim>
 void assemble(World& world, std::uint64_t seed) {
@@ -63,7 +68,7 @@ Blocks<Rows, Columns> plain_sum(World& world, const Pair& pair) {
 template <int Dim, int Rows, int Columns, class Entries>
 double difference(World& world, const Blocks<Rows, Columns>& expected, const Entries& entries) {
   const Grid<Dim> grid = small_grid<Dim>();
-  const Stencil<Dim> stencil(grid);
+  const Stencil<Dim> stencil = stencil_of<Dim>(world);
   const auto node = world.column<matrix::Node>();
   const std::size_t n = grid.node_count();
   double worst = 0;
@@ -150,7 +155,7 @@ TEMPLATE_TEST_CASE_SIG("the divergence of v = x is the dimension times the nodal
   World world;
   assemble<Dim>(world, 25);
   const Grid<Dim> grid = small_grid<Dim>();
-  const Stencil<Dim> stencil(grid);
+  const Stencil<Dim> stencil = stencil_of<Dim>(world);
   const auto D = world.column<matrix::Divergence<Dim>>();
   const auto node = world.column<matrix::Node>();
   const auto m_i = world.column<node::Mass>();
@@ -170,7 +175,7 @@ TEMPLATE_TEST_CASE_SIG("the divergence of v = x is the dimension times the nodal
 TEMPLATE_TEST_CASE_SIG("L is symmetric", "[property]", ((int Dim), Dim), 2, 3) {
   World world;
   assemble<Dim>(world, 26);
-  const Stencil<Dim> stencil(small_grid<Dim>());
+  const Stencil<Dim> stencil = stencil_of<Dim>(world);
   const auto L = world.column<matrix::Laplacian<Dim>>();
   const auto node = world.column<matrix::Node>();
   const auto row = world.column<node::Row>();

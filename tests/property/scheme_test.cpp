@@ -156,5 +156,5 @@ TEST_CASE("every stabilization gives the hydrostatic pressure", "[property]") {
   run.step(20);
   const Grid<2>& grid = run.world().resource<Grid<2>>();
   // The surface is of first order: 6 % of the pressure of one cell, 1 kPa, was measured.
-  CHECK(run.world().column<node::Pressure>()[grid.row({5, 0})] == Approx(5000).margin(100));
+  CHECK(on_grid<2, node::Pressure>(run.world())[grid.row({5, 0})] == Approx(5000).margin(100));
 }

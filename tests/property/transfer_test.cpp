@@ -126,7 +126,7 @@ TEMPLATE_TEST_CASE_SIG("P2G leaves a node without mass at rest", "[property]", (
   world.resize<Particles>(1);
   world.column<particle::Configuration<Dim>>()[0] = small_grid<Dim>().low;
   world.column<particle::Mass>()[0] = 1;
-  run<Bin<Dim>>(world);
+  sort<Dim>(world);
   run<P2GMass<Dim>>(world);
   set_velocities<Dim>(world, 9);
   run<P2GVelocityTpic<Dim>>(world);

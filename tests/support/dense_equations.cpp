@@ -24,15 +24,15 @@ struct Kinematics {
     const double beta = run.scene().newmark_beta;
     const double gamma = run.scene().newmark_gamma;
     const bool newmark = run.scene().integrator == "newmark";
-    const auto v_n = world.column<node::Velocity<Dim>>();
+    const auto v_n = kernels::on_grid<Dim, node::Velocity<Dim>>(world);
+    const auto a_n = newmark ? kernels::on_grid<Dim, node::Acceleration<Dim>>(world) : v_n;
     c_v = newmark ? gamma / (beta * dt) : 1 / dt;
     c_a = newmark ? 1 / (beta * dt * dt) : 2 / (dt * dt);
     time = newmark ? clock.time : clock.time - dt / 2;
     for (std::size_t i = 0; i < v_n.size(); ++i) {
       if (newmark) {
-        const Vec<Dim> a_n = world.column<node::Acceleration<Dim>>()[i];
-        v_known.push_back(-(gamma / beta - 1) * v_n[i] - dt / 2 * (gamma / beta - 2) * a_n);
-        a_known.push_back(-1 / (beta * dt) * v_n[i] - (1 / (2 * beta) - 1) * a_n);
+        v_known.push_back(-(gamma / beta - 1) * v_n[i] - dt / 2 * (gamma / beta - 2) * a_n[i]);
+        a_known.push_back(-1 / (beta * dt) * v_n[i] - (1 / (2 * beta) - 1) * a_n[i]);
       } else {
         v_known.push_back(Vec<Dim>::Zero());
         a_known.push_back(-2 / dt * v_n[i]);
@@ -92,8 +92,8 @@ Equations assemble(scene_run::SceneRun& run) {
   World& world = run.world();
   const Kinematics<Dim> kin(run);
   const Sums<Dim> s = sum_over_particles<Dim>(run, kin.time);
-  const auto row = world.column<node::Row>();
-  const auto fixed = world.column<node::Fixed>();
+  const auto row = kernels::on_grid<Dim, node::Row>(world, -1);
+  const auto fixed = kernels::on_grid<Dim, node::Fixed>(world);
   const double dt = world.resource<Clock>().step;
   const double h = run.scene().grid.spacing;
   const double rho = run.scene().density;

@@ -8,6 +8,7 @@
 #include "components/particle.hpp"
 #include "engine/system.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/number_nodes.hpp"
 #include "systems/grid/support.hpp"
 #include "systems/transfer/mass.hpp"
 
@@ -76,12 +77,45 @@ Vec<Dim> random_place(Random& random, const Grid<Dim>& grid, std::size_t number)
   return x;
 }
 
+/// Gives every node of the grid a row, Grid::row(), whether a particle touches it or not.
+template <int Dim>
+void number_all_nodes(World& world) {
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  auto& rows = world.resource<WetSites<Dim>>();
+  rows.start(grid);
+  for (std::size_t i = 0; i < grid.node_count(); ++i) rows.add(grid.index(i));
+  world.resize<Nodes>(rows.number_rows());
+  rows.for_each([&](const Index<Dim>& site, std::uint32_t i) { world.column<node::Site<Dim>>()[i] = site; });
+  for (auto& cell : world.resource<OccupiedCells<Dim>>().cells) {
+    const SupportBox<Dim> support(grid, cell.node);
+    for_each_support<Dim>(
+        [&](std::size_t k, const Index<Dim>& offset) { cell.rows[k] = *rows.find(support.site(grid, offset)); });
+  }
+}
+
 template <int Dim>
 void set_grid(World& world, const Grid<Dim>& grid) {
   world.resource<Grid<Dim>>() = grid;
   world.resource<Fluid>() = {1000, 0.7};
-  world.resize<Nodes>(grid.node_count());
+  number_all_nodes<Dim>(world);
   world.column<node::Fixed>();
+}
+
+template <int Dim>
+void sort(World& world) {
+  run<Bin<Dim>>(world);
+  number_all_nodes<Dim>(world);
+}
+
+/// A column of the nodes with an entry for every node of the grid, by Grid::row(); `dry` where the column has no row.
+template <int Dim, class C>
+std::vector<typename C::value_type> on_grid(World& world,
+                                            const typename C::value_type& dry = zero<typename C::value_type>()) {
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  std::vector<typename C::value_type> all(grid.node_count(), dry);
+  const auto sites = world.column<node::Site<Dim>>();
+  for (std::size_t i = 0; i < sites.size(); ++i) all[grid.row(sites[i])] = world.column<C>()[i];
+  return all;
 }
 
 /// Particles with random masses at random places, sorted, with the nodal mass.
@@ -98,7 +132,7 @@ void fill(World& world, std::size_t count, std::uint64_t seed, const Grid<Dim>& 
     m_p[p] = random(0.5, 1.5);
     id[p] = static_cast<std::int64_t>(p);
   }
-  run<Bin<Dim>>(world);
+  sort<Dim>(world);
   run<P2GMass<Dim>>(world);
 }
 

@@ -34,7 +34,7 @@ std::set<std::size_t> nodes_of(const Grid<Dim>& grid, const OccupiedCells<Dim>& 
                                const typename OccupiedCells<Dim>::Block& block) {
   std::set<std::size_t> nodes;
   for (std::size_t c = block.begin; c < block.end; ++c) {
-    const Support<Dim> support(grid, cells.cells[c].node);
+    const Support<Dim> support(grid, cells.cells[c]);
     nodes.insert(support.node.begin(), support.node.end());
   }
   return nodes;
@@ -149,7 +149,7 @@ TEST_CASE("blocks of one colour share no node across the ends of periodic axes",
   for (std::size_t i = 0; i < grid.node_count(); ++i) {
     world.column<particle::Configuration<2>>()[i] = node_position<2>(grid, i);
   }
-  run<Bin<2>>(world);
+  sort<2>(world);
   const auto& occupied = world.resource<OccupiedCells<2>>();
   REQUIRE(occupied.cells.size() == grid.node_count());
   std::size_t shared = 0;

@@ -1,3 +1,4 @@
+#include "support/kernels.hpp"
 #include "support/scene_run.hpp"
 
 #include "components/grid.hpp"
@@ -32,7 +33,7 @@ double total_mass(World& world) {
 }
 
 std::uint8_t fixed_at(World& world, int i, int j) {
-  return world.column<node::Fixed>()[world.resource<Grid<2>>().row({i, j})];
+  return kernels::on_grid<2, node::Fixed>(world)[world.resource<Grid<2>>().row({i, j})];
 }
 
 }  // namespace
@@ -120,6 +121,7 @@ TEST_CASE("particles start with the velocity of their place and its gradient", "
 
 TEST_CASE("slip walls hold the normal component, corners both", "[unit]") {
   SceneRun run(with(box(R"([{"shape": {"where": "1"}}])"), {R"(/walls="slip")"}));
+  run.start();
   CHECK(fixed_at(run.world(), 0, 5) == 0b01);
   CHECK(fixed_at(run.world(), 10, 5) == 0b01);
   CHECK(fixed_at(run.world(), 5, 0) == 0b10);
@@ -129,6 +131,7 @@ TEST_CASE("slip walls hold the normal component, corners both", "[unit]") {
 
 TEST_CASE("a no-slip wall holds all components on its own side", "[unit]") {
   SceneRun run(with(box(R"([{"shape": {"where": "1"}}])"), {R"(/walls={"x": ["slip", "no_slip"]})"}));
+  run.start();
   CHECK(fixed_at(run.world(), 0, 5) == 0b01);
   CHECK(fixed_at(run.world(), 10, 5) == 0b11);
   CHECK(fixed_at(run.world(), 5, 10) == 0b10);

@@ -132,6 +132,27 @@ TEST_CASE("a second reorder of the same length moves no array to new memory", "[
   CHECK(world.column<Height>().data() == first);
 }
 
+TEST_CASE("after a renumbering row k is what row from[k] was, and zero where there was none", "[unit]") {
+  World world = world_with_heights({10, 11, 12});
+  world.renumber<Rows>(std::array<std::optional<std::uint32_t>, 4>{std::nullopt, 2, 0, std::nullopt});
+  CHECK(values(world.column<Height>()) == std::vector<double>{0, 12, 10, 0});
+  CHECK(world.rows<Rows>() == 4);
+}
+
+TEST_CASE("a renumbering gives scratch the new number of rows", "[unit]") {
+  World world = world_with_heights({10, 11, 12});
+  world.column<Slope>();
+  world.renumber<Rows>(std::array<std::optional<std::uint32_t>, 2>{1, 2});
+  CHECK(world.column<Slope>().size() == 2);
+}
+
+TEST_CASE("a renumbering leaves other tables alone", "[unit]") {
+  World world = world_with_heights({10, 11});
+  world.resize<OtherRows>(5);
+  world.renumber<Rows>(std::array<std::optional<std::uint32_t>, 1>{1});
+  CHECK(world.column<Depth>().size() == 5);
+}
+
 TEST_CASE("a resource starts with its default", "[unit]") {
   World world;
   CHECK(world.resource<Total>().value == 3);

@@ -1,3 +1,4 @@
+#include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
 #include "components/grid.hpp"
@@ -26,7 +27,7 @@ Json column(const std::string& gravity) {
 /// Largest |p - rho g (H - y)| over nodes below y = `up_to`, over rho g H.
 double pressure_error(World& world, double up_to) {
   const Grid<2>& grid = world.resource<Grid<2>>();
-  const auto p_i = world.column<node::Pressure>();
+  const auto p_i = kernels::on_grid<2, node::Pressure>(world);
   double worst = 0;
   for (int j = 0; j <= grid.cells[1]; ++j) {
     for (int i = 0; i <= grid.cells[0]; ++i) {

@@ -1,3 +1,4 @@
+#include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
 #include "components/grid.hpp"
@@ -18,7 +19,7 @@ Json patch(const std::string& integrator) {
 
 double centre_pressure(World& world) {
   const Grid<2>& grid = world.resource<Grid<2>>();
-  return world.column<node::Pressure>()[grid.row({grid.cells[0] / 2, grid.cells[1] / 2})];
+  return kernels::on_grid<2, node::Pressure>(world)[grid.row({grid.cells[0] / 2, grid.cells[1] / 2})];
 }
 
 constexpr double exact_centre = -147.343;  // -0.147343 rho omega^2 L^2 [Pa]

@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// The nodes that particles touch where a step has moved them, which are not all those of the step (node.hpp), and what
+/// they carry. Numbered anew whenever the volume around nodes is gathered; rows in the order of their sites, x fastest.
+
+#include "components/sites.hpp"
+
+namespace minamo {
+
+struct EndNodes {
+  static constexpr std::string_view name = "end_node";
+};
+
+/// The rows of EndNodes.
+template <int Dim>
+struct EndSites : SiteRows<Dim> {
+  static constexpr ComponentInfo info{"end_node.rows", "", "1", Lifetime::scratch};
+};
+
+namespace end_node {
+
+/// Where the node is in the grid: (i, j, k). [1]
+template <int Dim>
+struct Site : Column<EndNodes, Index<Dim>> {
+  static constexpr ComponentInfo info{"end_node.site", "", "1", Lifetime::scratch};
+};
+
+/// Volume V~_I of the particles around a node at the end of the step. [m^3; m^2 in 2-D]
+struct Volume : Column<EndNodes, double> {
+  static constexpr ComponentInfo info{"end_node.volume", "V~_I", "m^d", Lifetime::scratch};
+};
+
+/// Particle volume E_I to be pushed away from a node, or drawn to it. [m^3; m^2 in 2-D]
+struct VolumeExcess : Column<EndNodes, double> {
+  static constexpr ComponentInfo info{"end_node.volume_excess", "E_I", "m^d", Lifetime::scratch};
+};
+
+/// How much of the excess a unit step of the delta-correction takes away. [m^(d-2)]
+struct VolumeResponse : Column<EndNodes, double> {
+  static constexpr ComponentInfo info{"end_node.volume_response", "r_I", "m^(d-2)", Lifetime::scratch};
+};
+
+}  // namespace end_node
+}  // namespace minamo

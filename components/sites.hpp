@@ -1,0 +1,145 @@
+#pragma once
+/// \file
+/// Which row of a node table belongs to a site, a place (i, j, k) of the grid. Node tables hold the nodes that the
+/// liquid touches, in the order of their sites, x fastest; SiteRows finds them. It is dense within pages of 8^d sites,
+/// and only pages with a node take memory.
+
+#include "components/blocks.hpp"
+#include "components/grid.hpp"
+
+namespace minamo {
+
+template <int Dim>
+class SiteRows {
+ public:
+  static constexpr int width_bits = 3;
+  static constexpr int width = 1 << width_bits;
+
+  /// Where a site is kept: the sums of what its coordinates add.
+  struct Address {
+    std::size_t page = 0;
+    std::size_t within = 0;
+  };
+
+  /// No site has a row.
+  void start(const Grid<Dim>& grid) {
+    std::size_t count = 1;
+    for (int d = 0; d < Dim; ++d) {
+      pages_before_[static_cast<std::size_t>(d)] = count;
+      count *= static_cast<std::size_t>((grid.nodes(d) - 1) / width + 1);
+    }
+    numbers_.start(count);
+  }
+  /// Gives a site a row, by the next number_rows().
+  void add(const Index<Dim>& site) {
+    const Address at = address(site);
+    const std::size_t before = numbers_.size();
+    const std::uint32_t page = numbers_.number(at.page);
+    if (page == before) {
+      if (page == one_past_.size()) one_past_.emplace_back();
+      one_past_[page].fill(0);
+    }
+    one_past_[page][at.within] = 1;
+  }
+  /// Numbers the sites that were added in their order.
+  /// \return how many there are
+  std::size_t number_rows();
+
+  /// The row of a site of the grid, if it has one.
+  std::optional<std::uint32_t> find(const Index<Dim>& site) const { return find(address(site)); }
+  std::optional<std::uint32_t> find(const Address& at) const {
+    const auto page = numbers_.find(at.page);
+    if (!page) return std::nullopt;
+    const std::uint32_t one_past = one_past_[*page][at.within];
+    if (one_past == 0) return std::nullopt;
+    return one_past - 1;
+  }
+  Address moved(Address from, int axis, int coordinate) const {
+    const auto d = static_cast<std::size_t>(axis);
+    from.page += pages_before_[d] * static_cast<std::size_t>(coordinate >> width_bits);
+    from.within += static_cast<std::size_t>(coordinate & (width - 1)) << (d * width_bits);
+    return from;
+  }
+
+  /// Calls body(site, row) for all sites with rows, in no particular order.
+  template <class Body>
+  void for_each(const Body& body) const;
+
+  std::size_t page_count() const { return numbers_.size(); }
+
+ private:
+  using Page = std::array<std::uint32_t, power(width, Dim)>;  ///< 1 + row; 0: no row
+
+  Address address(const Index<Dim>& site) const {
+    Address at;
+    for (int d = 0; d < Dim; ++d) at = moved(at, d, site[static_cast<std::size_t>(d)]);
+    return at;
+  }
+  Page& page_of(std::size_t block) { return one_past_[*numbers_.find(block)]; }
+  /// \param pages   which lie side by side beyond this axis, rising
+  /// \param within  where in them the axes beyond this one are
+  /// \param count   rows so far
+  /// \return rows then
+  template <int Axis>
+  std::uint32_t number_along(std::span<const std::uint32_t> pages, std::size_t within, std::uint32_t count);
+
+  Index<Dim> first_site(std::size_t page) const {
+    Index<Dim> first;
+    for (std::size_t d = Dim; d-- > 0; page %= pages_before_[d]) {
+      first[d] = static_cast<int>(page / pages_before_[d]) * width;
+    }
+    return first;
+  }
+
+  std::array<std::size_t, static_cast<std::size_t>(Dim)> pages_before_{};  ///< pages per step along an axis
+  BlockNumbers numbers_;
+  std::vector<Page> one_past_;
+};
+
+template <int Dim>
+std::size_t SiteRows<Dim>::number_rows() {
+  numbers_.sort();
+  return number_along<Dim - 1>(numbers_.used(), 0, 0);
+}
+
+template <int Dim>
+template <int Axis>
+std::uint32_t SiteRows<Dim>::number_along(std::span<const std::uint32_t> pages, std::size_t within,
+                                          std::uint32_t count) {
+  for (std::size_t begin = 0, end = 0; begin < pages.size(); begin = end) {
+    while (end < pages.size() && pages[end] / pages_before_[Axis] == pages[begin] / pages_before_[Axis]) ++end;
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::size_t at = within + (k << (Axis * width_bits));
+      if constexpr (Axis == 0) {
+        std::uint32_t& one_past = page_of(pages[begin])[at];
+        if (one_past != 0) one_past = ++count;
+      } else {
+        count = number_along<Axis - 1>(pages.subspan(begin, end - begin), at, count);
+      }
+    }
+  }
+  return count;
+}
+
+template <int Dim>
+template <class Body>
+void SiteRows<Dim>::for_each(const Body& body) const {
+  for (const std::uint32_t block : numbers_.used()) {
+    const Page& page = one_past_[*numbers_.find(block)];
+    const Index<Dim> first = first_site(block);
+    for (std::size_t k = 0; k < page.size(); ++k) {
+      if (page[k] == 0) continue;
+      Index<Dim> site = first;
+      for (std::size_t d = 0; d < Dim; ++d) site[d] += static_cast<int>(k >> (d * width_bits)) & (width - 1);
+      body(site, page[k] - 1);
+    }
+  }
+}
+
+/// The rows of Nodes.
+template <int Dim>
+struct WetSites : SiteRows<Dim> {
+  static constexpr ComponentInfo info{"node.rows", "", "1", Lifetime::cache};
+};
+
+}  // namespace minamo

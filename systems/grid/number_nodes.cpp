@@ -1,0 +1,73 @@
+#include "systems/grid/number_nodes.hpp"
+
+#include "systems/grid/support.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// Calls body(k, site) for the nodes of a dual cell.
+template <int Dim, class Body>
+void for_each_site(const Grid<Dim>& grid, const Index<Dim>& own, const Body& body) {
+  const SupportBox<Dim> support(grid, own);
+  for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { body(k, support.site(grid, offset)); });
+}
+
+/// The components that the walls hold at a site.
+template <int Dim>
+std::uint8_t held_at(const Grid<Dim>& grid, const Walls<Dim>& walls, const Index<Dim>& site) {
+  std::uint8_t held = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    if (site[d] == 0) held |= walls.held[d][0];
+    if (site[d] == grid.cells[d]) held |= walls.held[d][1];
+  }
+  return held;
+}
+
+/// Which row every row was before, from the sites of the rows before.
+template <int Dim>
+void find_origin(const WetSites<Dim>& rows, std::span<const Index<Dim>> sites,
+                 std::vector<std::optional<std::uint32_t>>& from) {
+  std::fill(from.begin(), from.end(), std::nullopt);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    if (const auto row = rows.find(sites[i])) from[*row] = static_cast<std::uint32_t>(i);
+  }
+}
+
+/// Tells every cell the rows of its nodes.
+template <int Dim>
+void look_up(const Grid<Dim>& grid, const WetSites<Dim>& rows, OccupiedCells<Dim>& cells) {
+  constexpr std::size_t cells_per_task = 64;
+  const auto of_cell = [&](std::size_t c) {
+    auto& cell = cells.cells[c];
+    for_each_site<Dim>(grid, cell.node,
+                       [&](std::size_t k, const Index<Dim>& site) { cell.rows[k] = *rows.find(site); });
+  };
+  for_each_row(cells.cells.size(), of_cell, cells_per_task);
+}
+
+}  // namespace
+
+template <int Dim>
+void NumberNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, Resize<Nodes> nodes,
+                                  Update<OccupiedCells<Dim>> cells, Update<WetSites<Dim>> rows,
+                                  Update<node::Site<Dim>> sites, Write<node::Fixed> fixed,
+                                  Update<NumberingBuffer> buffer) const {
+  rows->start(*grid);
+  for (const auto& cell : cells->cells) {
+    for_each_site<Dim>(*grid, cell.node, [&](std::size_t, const Index<Dim>& site) { rows->add(site); });
+  }
+  buffer->from.resize(rows->number_rows());
+  find_origin<Dim>(*rows, sites.span(), buffer->from);
+  nodes.renumber(buffer->from);
+  rows->for_each([&](const Index<Dim>& site, std::uint32_t i) {
+    sites[i] = site;
+    fixed[i] = held_at<Dim>(*grid, *walls, site);
+  });
+  look_up<Dim>(*grid, *rows, *cells);
+}
+
+template struct NumberNodes<2>;
+template struct NumberNodes<3>;
+
+}  // namespace minamo

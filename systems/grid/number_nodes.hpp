@@ -1,0 +1,29 @@
+#pragma once
+/// \file
+/// Which nodes of the grid have a row in the node tables.
+
+#include "components/cells.hpp"
+#include "components/grid.hpp"
+#include "components/node.hpp"
+#include "components/sites.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// Work space of the numbering, kept so that a step does not allocate.
+struct NumberingBuffer {
+  std::vector<std::optional<std::uint32_t>> from;  ///< which row a row was before
+  static constexpr ComponentInfo info{"node.numbering_buffer", "", "1", Lifetime::cache};
+};
+
+/// Gives the nodes of occupied dual cells rows, in the order of their sites. What outlives a step moves along; nodes
+/// that were dry start from zero.
+template <int Dim>
+struct NumberNodes {
+  static constexpr std::string_view doc = "number the nodes of occupied dual cells";
+  void operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, Resize<Nodes> nodes, Update<OccupiedCells<Dim>> cells,
+                  Update<WetSites<Dim>> rows, Update<node::Site<Dim>> sites, Write<node::Fixed> fixed,
+                  Update<NumberingBuffer> buffer) const;
+};
+
+}  // namespace minamo
