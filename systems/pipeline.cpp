@@ -55,9 +55,12 @@ bool needs_viscosity_matrix(const Needs& needs) { return needs.viscous || needs.
 
 std::vector<std::string> assemble_systems(const Needs& needs) {
   std::vector<std::string> systems{"moments", "divergence_matrix"};
-  if (needs.stabilization != "vms") systems.emplace_back("laplacian_matrix");
   if (needs_viscosity_matrix(needs)) systems.emplace_back("viscosity_matrix");
-  if (needs.stabilization == "vms") systems.emplace_back("add_vms_bulk_viscosity");
+  if (needs.stabilization == "vms") {
+    systems.emplace_back("add_vms_bulk_viscosity");
+  } else {
+    systems.emplace_back(needs.viscous ? "laplacian_from_viscosity" : "laplacian_matrix");
+  }
   if (needs.stabilization == "oss") systems.emplace_back("p2g_pressure_gradient");
   systems.push_back("stabilize_" + needs.stabilization);
   const std::string viscous = needs_viscosity_matrix(needs) ? "_viscous" : "";

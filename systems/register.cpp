@@ -73,6 +73,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<GatherMoments>("moments");
   registry.add<AssembleDivergence>("divergence_matrix");
   registry.add<AssembleLaplacian>("laplacian_matrix");
+  registry.add<LaplacianFromViscosity>("laplacian_from_viscosity");
   registry.add<AssembleViscosity>("viscosity_matrix");
   registry.add<StabilizePspg>("stabilize_pspg");
   registry.add<StabilizeVms>("stabilize_vms");

@@ -17,6 +17,14 @@ std::array<double, product_powers> product(const std::array<double, N>& x, const
   return xy;
 }
 
+/// Puts the product of polynomials where pair `place` has its coefficients.
+template <std::size_t N, std::size_t M>
+void set_product(const std::array<double, N>& x, const std::array<double, M>& y, std::size_t place,
+                 AxisBasis::PairProducts& pairs) {
+  const auto xy = product(x, y);
+  for (std::size_t k = 0; k < xy.size(); ++k) pairs[k][place] = xy[k];
+}
+
 AxisBasis make_basis(int first, const Weights& weight) {
   AxisBasis basis{};
   basis.first = first;
@@ -29,10 +37,10 @@ AxisBasis make_basis(int first, const Weights& weight) {
   }
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t b = 0; b < 3; ++b) {
-      basis.weight_weight[3 * a + b] = product(weight[a], weight[b]);
-      basis.slope_weight[3 * a + b] = product(basis.slope[a], weight[b]);
-      basis.weight_slope[3 * a + b] = product(weight[a], basis.slope[b]);
-      basis.slope_slope[3 * a + b] = product(basis.slope[a], basis.slope[b]);
+      set_product(weight[a], weight[b], 3 * a + b, basis.weight_weight);
+      set_product(basis.slope[a], weight[b], 3 * a + b, basis.slope_weight);
+      set_product(weight[a], basis.slope[b], 3 * a + b, basis.weight_slope);
+      set_product(basis.slope[a], basis.slope[b], 3 * a + b, basis.slope_slope);
     }
   }
   return basis;

@@ -17,6 +17,8 @@ namespace minamo {
 /// Powers of the local coordinate in a weight (0, 1, 2), and in a product of two weights (0 ... 4).
 inline constexpr std::size_t weight_powers = 3;
 inline constexpr std::size_t product_powers = 5;
+/// The nine pairs of nodes, and zeros up to a whole number of vectors.
+inline constexpr std::size_t padded_pairs = 12;
 
 /// The three weights of one axis within a dual cell: w_a(xi) = sum_k weight[a][k] xi^k, xi in units of h from the
 /// cell's own node. Node a is node `first + a` of the axis, `first` relative to the cell's own node.
@@ -24,8 +26,8 @@ struct AxisBasis {
   int first;
   std::array<std::array<double, weight_powers>, 3> weight;
   std::array<std::array<double, 2>, 3> slope;  ///< dw_a/dxi
-  /// Products of node a and node b at [3 a + b], by power: w_a w_b, dw_a w_b, w_a dw_b, dw_a dw_b.
-  using PairProducts = std::array<std::array<double, product_powers>, 9>;
+  /// Products of node a and node b at [3 a + b] of every power: w_a w_b, dw_a w_b, w_a dw_b, dw_a dw_b.
+  using PairProducts = std::array<std::array<double, padded_pairs>, product_powers>;
   PairProducts weight_weight;
   PairProducts slope_weight;
   PairProducts weight_slope;

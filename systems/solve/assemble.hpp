@@ -32,4 +32,12 @@ struct AssembleViscosity {
                   Read<node::Row> row, Write<matrix::Viscosity<Dim>> viscosity) const;
 };
 
+/// (E22)  L_IJ = tr K_IJ/((d + 1) mu): cheaper than L where K is there already.
+template <int Dim>
+struct LaplacianFromViscosity {
+  static constexpr std::string_view doc = "(E22) L_IJ, from K_IJ";
+  void operator()(Read<Fluid> fluid, Read<matrix::Viscosity<Dim>> viscosity,
+                  Write<matrix::Laplacian<Dim>> laplacian) const;
+};
+
 }  // namespace minamo

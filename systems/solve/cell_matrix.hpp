@@ -20,30 +20,28 @@ PairFactors<Dim> slope_factors(const Support<Dim>& support, int slope_of_i, int 
   return factors;
 }
 
-/// The cell matrix with the roles of I and J exchanged.
-template <int Dim>
-CellMatrix<Dim> transposed(const CellMatrix<Dim>& matrix) {
+/// Calls add(I J in a CellMatrix, J I in it, entries of the pair) for every active I; `width` entries per neighbour.
+template <int Dim, class Rows, class Add>
+void for_each_pair(const Support<Dim>& support, std::span<const std::int32_t> row, std::size_t width, const Rows& rows,
+                   const Add& add) {
   const PairPlaces<Dim>& places = pair_places<Dim>();
-  CellMatrix<Dim> out;
   for (std::size_t i = 0; i < support_size<Dim>; ++i) {
-    for (std::size_t j = 0; j < support_size<Dim>; ++j) out[places.in_cell[i][j]] = matrix[places.in_cell[j][i]];
+    const std::int32_t r = row[support.node[i]];
+    if (r < 0) continue;
+    double* entries = rows[static_cast<std::size_t>(r)].data();
+    for (std::size_t j = 0; j < support_size<Dim>; ++j) {
+      add(places.in_cell[i][j], places.in_cell[j][i], entries + width * places.in_stencil[i][j]);
+    }
   }
-  return out;
 }
 
 /// Adds scale * matrix(I, J) to entry [width * stencil place + component] of the row of every active I.
 template <int Dim, class Rows>
 void add_to_rows(const Support<Dim>& support, std::span<const std::int32_t> row, const CellMatrix<Dim>& matrix,
                  double scale, std::size_t width, std::size_t component, const Rows& rows) {
-  const PairPlaces<Dim>& places = pair_places<Dim>();
-  for (std::size_t i = 0; i < support_size<Dim>; ++i) {
-    const std::int32_t r = row[support.node[i]];
-    if (r < 0) continue;
-    auto& entries = rows[static_cast<std::size_t>(r)];
-    for (std::size_t j = 0; j < support_size<Dim>; ++j) {
-      entries[width * places.in_stencil[i][j] + component] += scale * matrix[places.in_cell[i][j]];
-    }
-  }
+  for_each_pair<Dim>(support, row, width, rows, [&](std::size_t pair, std::size_t, double* entries) {
+    entries[component] += scale * matrix[pair];
+  });
 }
 
 /// Adds sum_J matrix(I, J) at_node(J) to the row of every active I.

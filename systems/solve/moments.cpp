@@ -10,40 +10,47 @@ std::array<double, product_powers> powers(double xi) {
   return {1, xi, xi2, xi2 * xi, xi2 * xi2};
 }
 
-/// out[N g + q][r] = sum_k factor[q][k] in[g][k rest + r]: contracts the slowest direction of every group.
-template <std::size_t Rest, std::size_t N>
-void contract(std::size_t groups, const std::array<std::array<double, product_powers>, N>& factor, const double* in,
-              double* out) {
+/// out[N g + q][r] = sum_k factor(q, k) in[g][k rest + r]: contracts the slowest direction of every group.
+template <std::size_t Rest, std::size_t N, class Factor>
+void contract(std::size_t groups, const Factor& factor, const double* in, double* out) {
   for (std::size_t g = 0; g < groups; ++g, in += product_powers * Rest) {
     for (std::size_t q = 0; q < N; ++q, out += Rest) {
       for (std::size_t r = 0; r < Rest; ++r) {
         double sum = 0;
-        for (std::size_t k = 0; k < product_powers; ++k) sum += factor[q][k] * in[k * Rest + r];
+        for (std::size_t k = 0; k < product_powers; ++k) sum += factor(q, k) * in[k * Rest + r];
         out[r] = sum;
       }
     }
   }
 }
 
-/// Direction by direction, the last one first.
-template <int Dim, std::size_t N>
-std::array<double, power(N, Dim)>
-contract_all(const std::array<double, stencil_size<Dim>>& moments,
-             const std::array<const std::array<std::array<double, product_powers>, N>*, static_cast<std::size_t>(Dim)>&
-                 factors) {
-  std::array<double, power(N, Dim)> done;
+/// Direction by direction, the last one first; `contract_x` is left to do, from one group to the next.
+template <int Dim, std::size_t N, class FactorOf, class ContractX>
+void contract_all(const std::array<double, stencil_size<Dim>>& moments, const FactorOf& factor_of,
+                  const ContractX& contract_x) {
   if constexpr (Dim == 2) {
     std::array<double, N * 5> y_done;
-    contract<5>(1, *factors[1], moments.data(), y_done.data());
-    contract<1>(N, *factors[0], y_done.data(), done.data());
+    contract<5, N>(1, factor_of(1), moments.data(), y_done.data());
+    contract_x(N, y_done.data());
   } else {
     std::array<double, N * 25> z_done;
     std::array<double, N * N * 5> y_done;
-    contract<25>(1, *factors[2], moments.data(), z_done.data());
-    contract<5>(N, *factors[1], z_done.data(), y_done.data());
-    contract<1>(N * N, *factors[0], y_done.data(), done.data());
+    contract<25, N>(1, factor_of(2), moments.data(), z_done.data());
+    contract<5, N>(N, factor_of(1), z_done.data(), y_done.data());
+    contract_x(N * N, y_done.data());
   }
-  return done;
+}
+
+/// out[g][q] = sum_k factor[k][q] in[g][k], vectorized over pairs.
+void contract_pairs(std::size_t groups, const AxisBasis::PairProducts& factor, const double* in, double* out) {
+  using Pairs = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
+  for (std::size_t g = 0; g < groups; ++g, in += product_powers, out += padded_pairs) {
+    for (std::size_t q = 0; q < padded_pairs; q += 4) {
+      const auto of_power = [&](std::size_t k) { return Eigen::Map<const Pairs>(factor[k].data() + q); };
+      Eigen::Map<Pairs>{out + q} = ((of_power(0) * in[0] + of_power(1) * in[1]) +
+                                    (of_power(2) * in[2] + of_power(3) * in[3])) + of_power(4) * in[4];
+    }
+  }
 }
 
 }  // namespace
@@ -81,12 +88,24 @@ void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim
 
 template <int Dim>
 CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors) {
-  return contract_all<Dim, 9>(moments, factors);
+  CellMatrix<Dim> done;
+  contract_all<Dim, 9>(
+      moments,
+      [&](std::size_t d) { return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[k][q]; }; },
+      [&](std::size_t groups, const double* in) { contract_pairs(groups, *factors[0], in, done.data()); });
+  return done;
 }
 
 template <int Dim>
 CellVector<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const NodeFactors<Dim>& factors) {
-  return contract_all<Dim, 3>(moments, factors);
+  CellVector<Dim> done;
+  const auto factor_of = [&](std::size_t d) {
+    return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[q][k]; };
+  };
+  contract_all<Dim, 3>(moments, factor_of, [&](std::size_t groups, const double* in) {
+    contract<1, 3>(groups, factor_of(0), in, done.data());
+  });
+  return done;
 }
 
 template <int Dim>
@@ -98,7 +117,7 @@ const PairPlaces<Dim>& pair_places() {
         int in_cell = 0;
         int in_stencil = 0;
         for (std::size_t d = Dim; d-- > 0;) {
-          in_cell = 9 * in_cell + 3 * at_i[d] + at_j[d];
+          in_cell = (d == 0 ? static_cast<int>(padded_pairs) : 9) * in_cell + 3 * at_i[d] + at_j[d];
           in_stencil = 5 * in_stencil + at_j[d] - at_i[d] + 2;
         }
         made.in_cell[i][j] = static_cast<std::uint16_t>(in_cell);

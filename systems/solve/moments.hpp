@@ -22,9 +22,9 @@ struct GatherMoments {
                   Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p, Write<Moments<Dim>> moments) const;
 };
 
-/// sum_p V_p f_I g_J for the node pairs of a cell at [pair_place(I, J)], f and g products of weights and slopes.
+/// sum_p V_p f_I g_J for the node pairs of a cell at PairPlaces::in_cell, f and g products of weights and slopes.
 template <int Dim>
-using CellMatrix = std::array<double, power(9, Dim)>;
+using CellMatrix = std::array<double, padded_pairs * power(9, Dim - 1)>;
 
 /// One factor per direction: AxisBasis::weight_weight, slope_weight, ...
 template <int Dim>

@@ -71,14 +71,15 @@ TEST_CASE("products of weights and slopes are the products", "[unit]") {
   CAPTURE(cell, a, b);
   const AxisBasis& basis = axis_basis(cell, last);
   const double xi = 0.25;
-  const auto polynomial = [&](const std::array<double, product_powers>& c) {
-    return c[0] + xi * (c[1] + xi * (c[2] + xi * (c[3] + xi * c[4])));
+  const auto polynomial = [&](const AxisBasis::PairProducts& c) {
+    const std::size_t ab = 3 * a + b;
+    return c[0][ab] + xi * (c[1][ab] + xi * (c[2][ab] + xi * (c[3][ab] + xi * c[4][ab])));
   };
   // Dyadic numbers: exact.
-  CHECK(polynomial(basis.weight_weight[3 * a + b]) == basis.value(a, xi) * basis.value(b, xi));
-  CHECK(polynomial(basis.slope_weight[3 * a + b]) == basis.derivative(a, xi) * basis.value(b, xi));
-  CHECK(polynomial(basis.weight_slope[3 * a + b]) == basis.value(a, xi) * basis.derivative(b, xi));
-  CHECK(polynomial(basis.slope_slope[3 * a + b]) == basis.derivative(a, xi) * basis.derivative(b, xi));
+  CHECK(polynomial(basis.weight_weight) == basis.value(a, xi) * basis.value(b, xi));
+  CHECK(polynomial(basis.slope_weight) == basis.derivative(a, xi) * basis.value(b, xi));
+  CHECK(polynomial(basis.weight_slope) == basis.value(a, xi) * basis.derivative(b, xi));
+  CHECK(polynomial(basis.slope_slope) == basis.derivative(a, xi) * basis.derivative(b, xi));
 }
 
 TEST_CASE("the integral of a weight is that of a quadrature", "[unit]") {
