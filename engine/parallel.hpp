@@ -13,19 +13,27 @@ namespace minamo {
 /// Rows handed to a thread at a time. Sums are added up in pieces of this size, whatever the number of threads.
 inline constexpr std::size_t grain = 2048;
 
-/// body(row) for every row; it may write what belongs to that row only.
+/// body(begin, end) for ranges that cover all rows; it may write what belongs to their rows only.
 template <class Body>
-void for_each_row(std::size_t rows, const Body& body, std::size_t rows_per_task = grain) {
+void for_each_range(std::size_t rows, const Body& body, std::size_t rows_per_task = grain) {
   if (rows <= rows_per_task) {
-    for (std::size_t row = 0; row < rows; ++row) body(row);
+    body(std::size_t{0}, rows);
     return;
   }
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, rows, rows_per_task),
-      [&](const auto& range) {
-        for (std::size_t row = range.begin(); row != range.end(); ++row) body(row);
+      [&](const auto& range) { body(range.begin(), range.end()); }, tbb::simple_partitioner());
+}
+
+/// body(row) for every row; it may write what belongs to that row only.
+template <class Body>
+void for_each_row(std::size_t rows, const Body& body, std::size_t rows_per_task = grain) {
+  for_each_range(
+      rows,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row != end; ++row) body(row);
       },
-      tbb::simple_partitioner());
+      rows_per_task);
 }
 
 /// combine(... combine(start, value(0)) ..., value(rows - 1)) up to the order, which depends on `rows` alone.

@@ -9,7 +9,7 @@ namespace {
 using Weights = std::array<std::array<double, weight_powers>, 3>;
 
 template <std::size_t N, std::size_t M>
-std::array<double, product_powers> product(const std::array<double, N>& x, const std::array<double, M>& y) {
+constexpr std::array<double, product_powers> product(const std::array<double, N>& x, const std::array<double, M>& y) {
   std::array<double, product_powers> xy{};
   for (std::size_t i = 0; i < N; ++i) {
     for (std::size_t j = 0; j < M; ++j) xy[i + j] += x[i] * y[j];
@@ -19,13 +19,13 @@ std::array<double, product_powers> product(const std::array<double, N>& x, const
 
 /// Puts the product of polynomials where pair `place` has its coefficients.
 template <std::size_t N, std::size_t M>
-void set_product(const std::array<double, N>& x, const std::array<double, M>& y, std::size_t place,
+constexpr void set_product(const std::array<double, N>& x, const std::array<double, M>& y, std::size_t place,
                  AxisBasis::PairProducts& pairs) {
   const auto xy = product(x, y);
   for (std::size_t k = 0; k < xy.size(); ++k) pairs[k][place] = xy[k];
 }
 
-AxisBasis make_basis(int first, const Weights& weight) {
+constexpr AxisBasis make_basis(int first, const Weights& weight) {
   AxisBasis basis{};
   basis.first = first;
   basis.weight = weight;
@@ -48,18 +48,10 @@ AxisBasis make_basis(int first, const Weights& weight) {
 
 }  // namespace
 
-const AxisBasis& inner_basis() {
-  static const AxisBasis inside =
-      make_basis(-1, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
-  return inside;
-}
-
-const AxisBasis& axis_basis(int node, int last) {
-  static const AxisBasis low_wall = make_basis(0, {{{1, -1, 0}, {0, 1, 0}, {0, 0, 0}}});
-  static const AxisBasis high_wall = make_basis(-2, {{{0, 0, 0}, {0, -1, 0}, {1, 1, 0}}});
-  if (node == 0) return low_wall;
-  return node == last ? high_wall : inner_basis();
-}
+constinit const AxisBasis low_wall_basis = make_basis(0, {{{1, -1, 0}, {0, 1, 0}, {0, 0, 0}}});
+constinit const AxisBasis high_wall_basis = make_basis(-2, {{{0, 0, 0}, {0, -1, 0}, {1, 1, 0}}});
+constinit const AxisBasis inner_basis =
+    make_basis(-1, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
 
 double axis_integral(int node, int last) {
   const int from_wall = std::min(node, last - node);

@@ -42,18 +42,23 @@ struct AxisBasis {
   double derivative(std::size_t a, double xi) const { return slope[a][0] + xi * slope[a][1]; }
 };
 
-/// The basis of an axis in the dual cell of `node`, on an axis with nodes 0 ... `last` between walls.
-const AxisBasis& axis_basis(int node, int last);
+/// In the dual cells on a low wall, on a high wall, and away from walls.
+extern const AxisBasis low_wall_basis;
+extern const AxisBasis high_wall_basis;
+extern const AxisBasis inner_basis;
 
-/// The basis away from walls.
-const AxisBasis& inner_basis();
+/// The basis of an axis in the dual cell of `node`, on an axis with nodes 0 ... `last` between walls.
+inline const AxisBasis& axis_basis(int node, int last) {
+  if (node == 0) return low_wall_basis;
+  return node == last ? high_wall_basis : inner_basis;
+}
 
 /// Integral of a node's weight over its axis, in units of h: 13/24, 23/24, 1, ... from a wall.
 double axis_integral(int node, int last);
 
 template <int Dim>
 const AxisBasis& axis_basis(const Grid<Dim>& grid, std::size_t axis, int node) {
-  return grid.periodic[axis] ? inner_basis() : axis_basis(node, grid.cells[axis]);
+  return grid.periodic[axis] ? inner_basis : axis_basis(node, grid.cells[axis]);
 }
 
 }  // namespace minamo

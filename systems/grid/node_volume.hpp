@@ -26,13 +26,11 @@ template <int Dim>
 void number_end_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resize<EndNodes> nodes, EndSites<Dim>& rows,
                       Write<end_node::Site<Dim>> sites) {
   rows.start(grid);
-  std::optional<Index<Dim>> last;
+  DualCellFinder<Dim> cell(grid);
+  Vec<Dim> y;
   for (const Vec<Dim>& x : x_p) {
-    const Index<Dim> own = dual_cell<Dim>(grid, fold<Dim>(grid, x));
-    // Most particles are still beside those that they were sorted beside.
-    if (last == own) continue;
-    last = own;
-    const SupportBox<Dim> support(grid, own);
+    if (!cell.finds_another(x, y)) continue;
+    const SupportBox<Dim> support(grid, cell.own());
     for_each_support<Dim>([&](std::size_t, const Index<Dim>& offset) { rows.add(support.site(grid, offset)); });
   }
   nodes.resize(rows.number_rows());
@@ -44,10 +42,12 @@ template <int Dim>
 void gather_node_volume(const Grid<Dim>& grid, const EndSites<Dim>& rows, double density, std::span<const Vec<Dim>> x_p,
                         std::span<const double> m_p, std::span<double> v_i) {
   std::fill(v_i.begin(), v_i.end(), 0.0);
+  PlaceFinder<Dim> places(grid, rows);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const double v = m_p[p] / density;
-    const Place<Dim> place(grid, rows, x_p[p]);
-    place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { v_i[i] += place.weights(offset) * v; });
+    places.visit(x_p[p], [&](const auto& place, const auto& weights) {
+      place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { v_i[i] += weights(offset) * v; });
+    });
   }
 }
 

@@ -8,16 +8,17 @@
 
 namespace minamo {
 
+/// The nodes of any dual cell.
 template <int Dim>
-struct Place {
+struct Surroundings {
   SupportBox<Dim> support;
-  Weights<Dim> weights;
   /// Rows of the nodes in the table of `rows`; none for a node that is not in it.
   std::array<std::optional<std::uint32_t>, support_size<Dim>> node;
 
-  Place(const Grid<Dim>& grid, const SiteRows<Dim>& rows, const Vec<Dim>& x)
-      : Place(grid, rows, fold<Dim>(grid, x), Folded{}) {}
-
+  Surroundings(const Grid<Dim>& grid, const SiteRows<Dim>& rows, const Index<Dim>& own) : support(grid, own) {
+    for_each_support<Dim>(
+        [&](std::size_t k, const Index<Dim>& offset) { node[k] = rows.find(support.site(grid, offset)); });
+  }
   /// Calls body(row, offset) for the nodes in the table.
   template <class Body>
   void for_each_node(const Body& body) const {
@@ -25,14 +26,58 @@ struct Place {
       if (node[k]) body(std::size_t{*node[k]}, offset);
     });
   }
+};
+
+/// The dual cell of one point after the other: found anew only where a point is not in that of the one before, as few
+/// particles are that have just been sorted and moved.
+template <int Dim>
+class DualCellFinder {
+ public:
+  explicit DualCellFinder(const Grid<Dim>& grid) : grid_(grid) {}
+
+  const Index<Dim>& own() const { return own_; }
+  /// False if it is that of the point before. \param y  is set to where the point is in fold()'s range
+  bool finds_another(const Vec<Dim>& x, Vec<Dim>& y) {
+    y = x;
+    bool same = true;
+    for (int d = 0; d < Dim; ++d) same = same && x[d] >= low_[d] && x[d] <= high_[d];
+    if (same) return false;
+    y = fold<Dim>(grid_, x);
+    own_ = dual_cell<Dim>(grid_, y);
+    const Vec<Dim> centre = grid_.position(own_);
+    for (int d = 0; d < Dim; ++d) {
+      low_[d] = std::max(grid_.low[d], centre[d] - 0.5 * grid_.spacing);
+      high_[d] = std::min(grid_.high[d], centre[d] + 0.5 * grid_.spacing);
+    }
+    return true;
+  }
 
  private:
-  struct Folded {};
-  Place(const Grid<Dim>& grid, const SiteRows<Dim>& rows, const Vec<Dim>& y, Folded)
-      : support(grid, dual_cell<Dim>(grid, y)), weights(support, y) {
-    for_each_support<Dim>(
-        [&](std::size_t k, const Index<Dim>& offset) { node[k] = rows.find(support.site(grid, offset)); });
+  const Grid<Dim>& grid_;
+  Index<Dim> own_{};
+  Vec<Dim> low_ = Vec<Dim>::Constant(1);  ///< of the part of the cell inside the box; none at first
+  Vec<Dim> high_ = Vec<Dim>::Constant(-1);
+};
+
+/// Surroundings of one point after the other.
+template <int Dim>
+class PlaceFinder {
+ public:
+  PlaceFinder(const Grid<Dim>& grid, const SiteRows<Dim>& rows) : grid_(grid), rows_(rows), cell_(grid) {}
+
+  /// Calls body(surroundings, weights) for a point.
+  template <class Body>
+  void visit(const Vec<Dim>& x, const Body& body) {
+    Vec<Dim> y;
+    if (cell_.finds_another(x, y)) found_.emplace(grid_, rows_, cell_.own());
+    body(*found_, Weights<Dim>(found_->support, y));
   }
+
+ private:
+  const Grid<Dim>& grid_;
+  const SiteRows<Dim>& rows_;
+  DualCellFinder<Dim> cell_;
+  std::optional<Surroundings<Dim>> found_;
 };
 
 }  // namespace minamo

@@ -1,6 +1,6 @@
 #include "systems/measure/conservation.hpp"
 
-#include "systems/grid/support.hpp"
+#include "engine/parallel.hpp"
 
 #include <Eigen/Geometry>
 
@@ -33,25 +33,14 @@ Rotation<Dim> affine_spin(const Vec<Dim>& spread, const Mat<Dim>& grad_v) {
   return spin;
 }
 
-/// The diagonal of D_p. [m^2]
+/// The diagonal of D_p: h^2/4, and h^2 s (1 - s) at a distance s h < h/2 from a wall. [m^2]
 template <int Dim>
 Vec<Dim> support_spread(const Grid<Dim>& grid, const Vec<Dim>& x) {
-  const Index<Dim> own = dual_cell<Dim>(grid, x);
-  const Vec<Dim> xi = (x - grid.position(own)) / grid.spacing;
   Vec<Dim> spread;
   for (int d = 0; d < Dim; ++d) {
-    const auto axis = static_cast<std::size_t>(d);
-    const AxisBasis& basis = axis_basis<Dim>(grid, axis, own[axis]);
-    if (&basis == &inner_basis()) {
-      spread[d] = 0.25 * grid.spacing * grid.spacing;
-      continue;
-    }
-    double sum = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double distance = basis.first + static_cast<double>(a) - xi[d];
-      sum += basis.value(a, xi[d]) * distance * distance;
-    }
-    spread[d] = sum * grid.spacing * grid.spacing;
+    const double to_wall = std::max(0.0, std::min(x[d] - grid.low[d], grid.high[d] - x[d]));
+    const bool at_wall = !grid.periodic[static_cast<std::size_t>(d)] && to_wall < 0.5 * grid.spacing;
+    spread[d] = at_wall ? to_wall * (grid.spacing - to_wall) : 0.25 * grid.spacing * grid.spacing;
   }
   return spread;
 }
@@ -122,7 +111,7 @@ void MeasureMomentumAffine<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle:
   *momentum = reduce_rows(
       m_p.size(), measure::Momentum<Dim>{},
       [&](std::size_t p) {
-        const Rotation<Dim> spin = affine_spin<Dim>(support_spread<Dim>(*grid, fold<Dim>(*grid, x_p[p])), grad_v_p[p]);
+        const Rotation<Dim> spin = affine_spin<Dim>(support_spread<Dim>(*grid, x_p[p]), grad_v_p[p]);
         return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * (cross<Dim>(x_p[p] - centre, v_p[p]) + spin)};
       },
       add<Dim>);

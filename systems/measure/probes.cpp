@@ -9,17 +9,19 @@ void MeasureProbesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Read<WetSi
                                                 Read<measure::Probes<Dim>> probes, Read<node::Mass> m_i,
                                                 Read<node::Pressure> p_i, Read<Velocity> v_i,
                                                 Update<measure::Columns> columns) const {
+  PlaceFinder<Dim> places(*grid, *rows);
   for (const auto& probe : probes->probes) {
-    const Place<Dim> place(*grid, *rows, probe.at);
     double wet = 0;
     double p_s = 0;
     Vec<Dim> v_s = Vec<Dim>::Zero();
-    place.for_each_node([&](std::size_t i, const Index<Dim>& offset) {
-      if (m_i[i] == 0) return;
-      const double weight = place.weights(offset);
-      wet += weight;
-      p_s += weight * p_i[i];
-      v_s += weight * v_i[i];
+    places.visit(probe.at, [&](const auto& place, const auto& weights) {
+      place.for_each_node([&](std::size_t i, const Index<Dim>& offset) {
+        if (m_i[i] == 0) return;
+        const double weight = weights(offset);
+        wet += weight;
+        p_s += weight * p_i[i];
+        v_s += weight * v_i[i];
+      });
     });
     if (wet > 0) v_s /= wet;
     columns->set(probe.pressure, p_s);

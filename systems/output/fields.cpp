@@ -66,11 +66,15 @@ template <int Dim>
 void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
                                      Read<particle::Configuration<Dim>> y_p, Read<node::Pressure> p_i,
                                      Write<particle::Pressure> p_p) const {
-  for_each_row(y_p.size(), [&](std::size_t p) {
-    const Place<Dim> place(*grid, *rows, y_p[p]);
-    double sum = 0;
-    place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { sum += place.weights(offset) * p_i[i]; });
-    p_p[p] = sum;
+  for_each_range(y_p.size(), [&](std::size_t begin, std::size_t end) {
+    PlaceFinder<Dim> places(*grid, *rows);
+    for (std::size_t p = begin; p < end; ++p) {
+      double sum = 0;
+      places.visit(y_p[p], [&](const auto& place, const auto& weights) {
+        place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { sum += weights(offset) * p_i[i]; });
+      });
+      p_p[p] = sum;
+    }
   });
 }
 

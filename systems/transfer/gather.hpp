@@ -97,7 +97,7 @@ void gather_with_affine(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, 
   const auto affine = [](const Support<Dim>& support, Weights<Dim> weights, const Vec<Dim>& y) {
     for (std::size_t d = 0; d < Dim; ++d) {
       // In the half cell at a wall w_a (x_a - y)/D is the slope itself, and does not divide by a vanishing D.
-      if (support.basis[d] != &inner_basis()) continue;
+      if (support.basis[d] != &inner_basis) continue;
       const auto axis = static_cast<Eigen::Index>(d);
       const double xi = (y[axis] - support.centre[axis]) * support.per_spacing;
       for (std::size_t a = 0; a < 3; ++a) {

@@ -10,9 +10,9 @@ namespace {
 
 /// g_p of (E52).
 template <int Dim>
-Vec<Dim> slope(const Place<Dim>& place, std::span<const double> e_i) {
+Vec<Dim> slope(const Surroundings<Dim>& place, const Weights<Dim>& weights, std::span<const double> e_i) {
   Vec<Dim> g = Vec<Dim>::Zero();
-  place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { g += e_i[i] * place.weights.gradient(offset); });
+  place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { g += e_i[i] * weights.gradient(offset); });
   return g;
 }
 
@@ -40,16 +40,22 @@ void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read
     r_i[i] = 0;
   });
   // One after the other: particles have left the cells that they are sorted by.
+  PlaceFinder<Dim> places(*grid, *rows);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
-    const Place<Dim> place(*grid, *rows, x_p[p]);
-    const Vec<Dim> g = m_p[p] / fluid->density * slope<Dim>(place, e_i.span());
-    place.for_each_node(
-        [&](std::size_t i, const Index<Dim>& offset) { r_i[i] += place.weights.gradient(offset).dot(g); });
+    places.visit(x_p[p], [&](const auto& place, const auto& weights) {
+      const Vec<Dim> g = m_p[p] / fluid->density * slope<Dim>(place, weights, e_i.span());
+      place.for_each_node(
+          [&](std::size_t i, const Index<Dim>& offset) { r_i[i] += weights.gradient(offset).dot(g); });
+    });
   }
   const double lambda = step_length(e_i.span(), r_i.span());
-  for_each_row(x_p.size(), [&](std::size_t p) {
-    const Place<Dim> place(*grid, *rows, x_p[p]);
-    x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(-lambda * slope<Dim>(place, e_i.span())));
+  for_each_range(x_p.size(), [&](std::size_t begin, std::size_t end) {
+    PlaceFinder<Dim> places_of_range(*grid, *rows);
+    for (std::size_t p = begin; p < end; ++p) {
+      places_of_range.visit(x_p[p], [&](const auto& place, const auto& weights) {
+        x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(-lambda * slope<Dim>(place, weights, e_i.span())));
+      });
+    }
   });
 }
 

@@ -92,11 +92,15 @@ void SolveVolumeBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, 
 template <int Dim>
 void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Shift<Dim>> d_i,
                                      Update<particle::Position<Dim>> x_p) const {
-  for_each_row(x_p.size(), [&](std::size_t p) {
-    const Place<Dim> place(*grid, *rows, x_p[p]);
-    Vec<Dim> shift = Vec<Dim>::Zero();
-    place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { shift += place.weights(offset) * d_i[i]; });
-    x_p[p] = shifted<Dim>(*grid, x_p[p], shift);
+  for_each_range(x_p.size(), [&](std::size_t begin, std::size_t end) {
+    PlaceFinder<Dim> places(*grid, *rows);
+    for (std::size_t p = begin; p < end; ++p) {
+      Vec<Dim> shift = Vec<Dim>::Zero();
+      places.visit(x_p[p], [&](const auto& place, const auto& weights) {
+        place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { shift += weights(offset) * d_i[i]; });
+      });
+      x_p[p] = shifted<Dim>(*grid, x_p[p], shift);
+    }
   });
 }
 
