@@ -29,7 +29,7 @@ class BlockNumbers {
     return one_past - 1;
   }
   std::optional<std::uint32_t> find(std::size_t block) const {
-    if (one_past_[block] == 0) return std::nullopt;
+    if (block >= one_past_.size() || one_past_[block] == 0) return std::nullopt;
     return one_past_[block] - 1;
   }
   std::size_t size() const { return used_.size(); }

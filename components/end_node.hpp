@@ -14,6 +14,12 @@ struct EndNodes {
 /// The rows of EndNodes.
 template <int Dim>
 struct EndSites : SiteRows<Dim> {
+  /// Particles one after the other that lie in the same dual cell, up to those of the next run.
+  struct Run {
+    Index<Dim> node;      ///< in the middle of the cell
+    std::uint32_t begin;  ///< first particle
+  };
+  std::vector<Run> runs;
   static constexpr ComponentInfo info{"end_node.rows", "", "1", Lifetime::scratch};
 };
 

@@ -15,10 +15,11 @@ class SiteRows {
   static constexpr int width_bits = 3;
   static constexpr int width = 1 << width_bits;
 
-  /// Where a site is kept: the sums of what its coordinates add.
+  /// Where a site is kept: the sum of what its coordinates add.
   struct Address {
     std::size_t page = 0;
     std::size_t within = 0;
+    Address operator+(const Address& other) const { return {page + other.page, within + other.within}; }
   };
 
   /// No site has a row.
@@ -31,8 +32,8 @@ class SiteRows {
     numbers_.start(count);
   }
   /// Gives a site a row, by the next number_rows().
-  void add(const Index<Dim>& site) {
-    const Address at = address(site);
+  void add(const Index<Dim>& site) { add(address(site)); }
+  void add(const Address& at) {
     const std::size_t before = numbers_.size();
     const std::uint32_t page = numbers_.number(at.page);
     if (page == before) {
@@ -46,19 +47,12 @@ class SiteRows {
   std::size_t number_rows();
 
   /// The row of a site of the grid, if it has one.
-  std::optional<std::uint32_t> find(const Index<Dim>& site) const { return find(address(site)); }
-  std::optional<std::uint32_t> find(const Address& at) const {
-    const auto page = numbers_.find(at.page);
-    if (!page) return std::nullopt;
-    const std::uint32_t one_past = one_past_[*page][at.within];
-    if (one_past == 0) return std::nullopt;
-    return one_past - 1;
-  }
-  Address moved(Address from, int axis, int coordinate) const {
+  std::optional<std::uint32_t> find(const Index<Dim>& site) const { return Finder(*this)(address(site)); }
+  /// What a coordinate adds to an address.
+  Address part(int axis, int coordinate) const {
     const auto d = static_cast<std::size_t>(axis);
-    from.page += pages_before_[d] * static_cast<std::size_t>(coordinate >> width_bits);
-    from.within += static_cast<std::size_t>(coordinate & (width - 1)) << (d * width_bits);
-    return from;
+    return {pages_before_[d] * static_cast<std::size_t>(coordinate >> width_bits),
+            static_cast<std::size_t>(coordinate & (width - 1)) << (d * width_bits)};
   }
 
   /// Calls body(site, row) for all sites with rows, in no particular order.
@@ -70,9 +64,33 @@ class SiteRows {
  private:
   using Page = std::array<std::uint32_t, power(width, Dim)>;  ///< 1 + row; 0: no row
 
+ public:
+  /// Finds rows of sites near each other, most of them on the page of the one before.
+  class Finder {
+   public:
+    explicit Finder(const SiteRows& rows) : rows_(&rows) { turn_to(0); }
+    std::optional<std::uint32_t> operator()(const Address& at) {
+      if (at.page != page_) turn_to(at.page);
+      const std::uint32_t one_past = sites_ ? (*sites_)[at.within] : 0;
+      if (one_past == 0) return std::nullopt;
+      return one_past - 1;
+    }
+
+   private:
+    void turn_to(std::size_t page) {
+      const auto number = rows_->numbers_.find(page);
+      page_ = page;
+      sites_ = number ? &rows_->one_past_[*number] : nullptr;
+    }
+    const SiteRows* rows_;
+    std::size_t page_ = 0;
+    const Page* sites_ = nullptr;
+  };
+
+ private:
   Address address(const Index<Dim>& site) const {
     Address at;
-    for (int d = 0; d < Dim; ++d) at = moved(at, d, site[static_cast<std::size_t>(d)]);
+    for (int d = 0; d < Dim; ++d) at = at + part(d, site[static_cast<std::size_t>(d)]);
     return at;
   }
   Page& page_of(std::size_t block) { return one_past_[*numbers_.find(block)]; }
@@ -95,31 +113,6 @@ class SiteRows {
   BlockNumbers numbers_;
   std::vector<Page> one_past_;
 };
-
-template <int Dim>
-std::size_t SiteRows<Dim>::number_rows() {
-  numbers_.sort();
-  return number_along<Dim - 1>(numbers_.used(), 0, 0);
-}
-
-template <int Dim>
-template <int Axis>
-std::uint32_t SiteRows<Dim>::number_along(std::span<const std::uint32_t> pages, std::size_t within,
-                                          std::uint32_t count) {
-  for (std::size_t begin = 0, end = 0; begin < pages.size(); begin = end) {
-    while (end < pages.size() && pages[end] / pages_before_[Axis] == pages[begin] / pages_before_[Axis]) ++end;
-    for (std::size_t k = 0; k < width; ++k) {
-      const std::size_t at = within + (k << (Axis * width_bits));
-      if constexpr (Axis == 0) {
-        std::uint32_t& one_past = page_of(pages[begin])[at];
-        if (one_past != 0) one_past = ++count;
-      } else {
-        count = number_along<Axis - 1>(pages.subspan(begin, end - begin), at, count);
-      }
-    }
-  }
-  return count;
-}
 
 template <int Dim>
 template <class Body>

@@ -1,17 +1,10 @@
 #include "systems/grid/number_nodes.hpp"
 
-#include "systems/grid/support.hpp"
+#include "systems/grid/place.hpp"
 
 namespace minamo {
 
 namespace {
-
-/// Calls body(k, site) for the nodes of a dual cell.
-template <int Dim, class Body>
-void for_each_site(const Grid<Dim>& grid, const Index<Dim>& own, const Body& body) {
-  const SupportBox<Dim> support(grid, own);
-  for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { body(k, support.site(grid, offset)); });
-}
 
 /// The components that the walls hold at a site.
 template <int Dim>
@@ -40,8 +33,9 @@ void look_up(const Grid<Dim>& grid, const WetSites<Dim>& rows, OccupiedCells<Dim
   constexpr std::size_t cells_per_task = 64;
   const auto of_cell = [&](std::size_t c) {
     auto& cell = cells.cells[c];
-    for_each_site<Dim>(grid, cell.node,
-                       [&](std::size_t k, const Index<Dim>& site) { cell.rows[k] = *rows.find(site); });
+    typename SiteRows<Dim>::Finder find(rows);
+    for_each_address<Dim>(grid, rows, SupportBox<Dim>(grid, cell.node),
+                          [&](std::size_t k, const auto& address) { cell.rows[k] = *find(address); });
   };
   for_each_row(cells.cells.size(), of_cell, cells_per_task);
 }
@@ -55,7 +49,8 @@ void NumberNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, 
                                   Update<NumberingBuffer> buffer) const {
   rows->start(*grid);
   for (const auto& cell : cells->cells) {
-    for_each_site<Dim>(*grid, cell.node, [&](std::size_t, const Index<Dim>& site) { rows->add(site); });
+    for_each_address<Dim>(*grid, *rows, SupportBox<Dim>(*grid, cell.node),
+                          [&](std::size_t, const auto& address) { rows->add(address); });
   }
   buffer->from.resize(rows->number_rows());
   find_origin<Dim>(*rows, sites.span(), buffer->from);

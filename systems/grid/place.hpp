@@ -8,6 +8,24 @@
 
 namespace minamo {
 
+/// Calls body(k, address) for the nodes of a dual cell.
+template <int Dim, class Body>
+void for_each_address(const Grid<Dim>& grid, const SiteRows<Dim>& rows, const SupportBox<Dim>& support,
+                      const Body& body) {
+  std::array<std::array<typename SiteRows<Dim>::Address, 3>, static_cast<std::size_t>(Dim)> part;
+  for (int d = 0; d < Dim; ++d) {
+    for (int a = 0; a < 3; ++a) {
+      const auto axis = static_cast<std::size_t>(d);
+      part[axis][static_cast<std::size_t>(a)] = rows.part(d, grid.wrapped(d, support.first[axis] + a));
+    }
+  }
+  for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
+    typename SiteRows<Dim>::Address at;
+    for (std::size_t d = 0; d < Dim; ++d) at = at + part[d][static_cast<std::size_t>(offset[d])];
+    body(k, at);
+  });
+}
+
 /// The nodes of any dual cell.
 template <int Dim>
 struct Surroundings {
@@ -16,8 +34,8 @@ struct Surroundings {
   std::array<std::optional<std::uint32_t>, support_size<Dim>> node;
 
   Surroundings(const Grid<Dim>& grid, const SiteRows<Dim>& rows, const Index<Dim>& own) : support(grid, own) {
-    for_each_support<Dim>(
-        [&](std::size_t k, const Index<Dim>& offset) { node[k] = rows.find(support.site(grid, offset)); });
+    typename SiteRows<Dim>::Finder find(rows);
+    for_each_address<Dim>(grid, rows, support, [&](std::size_t k, const auto& address) { node[k] = find(address); });
   }
   /// Calls body(row, offset) for the nodes in the table.
   template <class Body>

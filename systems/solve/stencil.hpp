@@ -4,6 +4,7 @@
 
 #include "components/sites.hpp"
 
+#include <algorithm>
 #include <span>
 
 namespace minamo {
@@ -19,33 +20,53 @@ class Stencil {
   /// across the ends of periodic axes.
   template <class Body>
   void for_each_neighbour(std::uint32_t node, const Body& body) const {
-    visit<Dim - 1>(sites_[node], 0, {}, body);
+    typename SiteRows<Dim>::Finder find(rows_);
+    visit<Dim - 1>(window(node), 0, {}, find, body);
   }
 
   /// Neighbours inside the grid, whether in the table or not.
   std::size_t places_inside(std::uint32_t node) const {
+    const Window around = window(node);
     std::size_t count = 1;
-    for (int d = 0; d < Dim; ++d) {
-      const int at = sites_[node][static_cast<std::size_t>(d)];
-      const bool periodic = grid_.periodic[static_cast<std::size_t>(d)];
-      count *= static_cast<std::size_t>(periodic ? 5 : std::min(at, 2) + 1 + std::min(grid_.nodes(d) - 1 - at, 2));
-    }
+    for (std::size_t d = 0; d < Dim; ++d) count *= around.end[d] - around.begin[d];
     return count;
   }
 
  private:
+  using Address = typename SiteRows<Dim>::Address;
+  using Finder = typename SiteRows<Dim>::Finder;
+
+  /// The steps along every axis, 0 ... 4 for -2 ... 2, that stay inside the grid, and what they add to an address.
+  struct Window {
+    std::array<std::array<Address, 5>, static_cast<std::size_t>(Dim)> part;
+    std::array<std::size_t, static_cast<std::size_t>(Dim)> begin;
+    std::array<std::size_t, static_cast<std::size_t>(Dim)> end;
+  };
+
+  Window window(std::uint32_t node) const {
+    Window around;
+    for (int d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<std::size_t>(d);
+      const int at = sites_[node][axis];
+      const bool periodic = grid_.periodic[axis];
+      around.begin[axis] = static_cast<std::size_t>(periodic ? 0 : std::max(0, 2 - at));
+      around.end[axis] = static_cast<std::size_t>(periodic ? 5 : std::min(5, grid_.nodes(d) + 2 - at));
+      for (std::size_t step = around.begin[axis]; step < around.end[axis]; ++step) {
+        around.part[axis][step] = rows_.part(d, grid_.wrapped(d, at + static_cast<int>(step) - 2));
+      }
+    }
+    return around;
+  }
+
   template <int Axis, class Body>
-  void visit(const Index<Dim>& at, std::size_t place, const typename SiteRows<Dim>::Address& address,
-             const Body& body) const {
-    for (int step = -2; step <= 2; ++step) {
-      const int there = grid_.wrapped(Axis, at[static_cast<std::size_t>(Axis)] + step);
-      if (there < 0 || there >= grid_.nodes(Axis)) continue;
-      const std::size_t next_place = 5 * place + static_cast<std::size_t>(step + 2);
-      const auto next_address = rows_.moved(address, Axis, there);
+  void visit(const Window& around, std::size_t place, const Address& from, Finder& find, const Body& body) const {
+    constexpr auto axis = static_cast<std::size_t>(Axis);
+    for (std::size_t step = around.begin[axis]; step < around.end[axis]; ++step) {
+      const Address at = from + around.part[axis][step];
       if constexpr (Axis == 0) {
-        if (const auto row = rows_.find(next_address)) body(next_place, *row);
+        if (const auto row = find(at)) body(5 * place + step, *row);
       } else {
-        visit<Axis - 1>(at, next_place, next_address, body);
+        visit<Axis - 1>(around, 5 * place + step, at, find, body);
       }
     }
   }

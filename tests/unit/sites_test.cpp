@@ -106,6 +106,7 @@ TEST_CASE("a block has its number until the numbers start anew", "[unit]") {
   CHECK(std::vector<std::uint32_t>(blocks.used().begin(), blocks.used().end()) == std::vector<std::uint32_t>{2, 7});
   CHECK(blocks.find(7) == 0U);
   CHECK_FALSE(blocks.find(3));
+  CHECK_FALSE(blocks.find(10));
   blocks.start(12);
   CHECK_FALSE(blocks.find(7));
   CHECK(blocks.size() == 0);
