@@ -18,6 +18,7 @@ struct EndSites : SiteRows<Dim> {
   struct Run {
     Index<Dim> node;      ///< in the middle of the cell
     std::uint32_t begin;  ///< first particle
+    std::array<double, support_size<Dim>> volume;  ///< that its particles give to its nodes [m^3; m^2 in 2-D]
   };
   std::vector<Run> runs;
   static constexpr ComponentInfo info{"end_node.rows", "", "1", Lifetime::scratch};

@@ -31,7 +31,7 @@ void number_end_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resi
   Vec<Dim> y;
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     if (!cell.finds_another(x_p[p], y)) continue;
-    rows.runs.push_back({cell.own(), static_cast<std::uint32_t>(p)});
+    rows.runs.push_back({cell.own(), static_cast<std::uint32_t>(p), {}});
     for_each_address<Dim>(grid, rows, SupportBox<Dim>(grid, cell.own()),
                           [&](std::size_t, const auto& address) { rows.add(address); });
   }
@@ -39,24 +39,29 @@ void number_end_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resi
   rows.for_each([&](const Index<Dim>& site, std::uint32_t i) { sites[i] = site; });
 }
 
-/// (E35)  V~_I = sum_p S_I(x_p) V_p. One after the other: particles may have left the cells that they are sorted by.
+/// (E35)  V~_I = sum_p S_I(x_p) V_p: first in every run, then one run after the other.
 /// \pre the rows are those of these particles.
 template <int Dim>
-void gather_node_volume(const Grid<Dim>& grid, const EndSites<Dim>& rows, double density, std::span<const Vec<Dim>> x_p,
+void gather_node_volume(const Grid<Dim>& grid, EndSites<Dim>& rows, double density, std::span<const Vec<Dim>> x_p,
                         std::span<const double> m_p, std::span<double> v_i) {
+  constexpr std::size_t runs_per_task = 64;
+  const auto add_up = [&](std::size_t r) {
+    auto& run = rows.runs[r];
+    run.volume.fill(0);
+    const std::size_t end = r + 1 < rows.runs.size() ? rows.runs[r + 1].begin : x_p.size();
+    const SupportBox<Dim> support(grid, run.node);
+    for (std::size_t p = run.begin; p < end; ++p) {
+      const Weights<Dim> weights(support, fold<Dim>(grid, x_p[p]));
+      const double v = m_p[p] / density;
+      for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { run.volume[k] += weights(offset) * v; });
+    }
+  };
+  for_each_row(rows.runs.size(), add_up, runs_per_task);
   std::fill(v_i.begin(), v_i.end(), 0.0);
   typename SiteRows<Dim>::Finder find(rows);
-  for (std::size_t r = 0; r < rows.runs.size(); ++r) {
-    const std::size_t end = r + 1 < rows.runs.size() ? rows.runs[r + 1].begin : x_p.size();
-    const SupportBox<Dim> support(grid, rows.runs[r].node);
-    std::array<double*, support_size<Dim>> v;
-    for_each_address<Dim>(grid, rows, support,
-                          [&](std::size_t k, const auto& address) { v[k] = &v_i[*find(address)]; });
-    for (std::size_t p = rows.runs[r].begin; p < end; ++p) {
-      const Weights<Dim> weights(support, fold<Dim>(grid, x_p[p]));
-      const double v_p = m_p[p] / density;
-      for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { *v[k] += weights(offset) * v_p; });
-    }
+  for (const auto& run : rows.runs) {
+    for_each_address<Dim>(grid, rows, SupportBox<Dim>(grid, run.node),
+                          [&](std::size_t k, const auto& address) { v_i[*find(address)] += run.volume[k]; });
   }
 }
 

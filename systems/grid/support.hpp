@@ -9,7 +9,6 @@
 #include "systems/grid/basis.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace minamo {
 
@@ -115,19 +114,20 @@ Index<Dim> dual_cell(const Grid<Dim>& grid, const Vec<Dim>& y) {
   return node;
 }
 
+/// fold() of a point that may lie outside the box.
+template <int Dim>
+Vec<Dim> fold_back(const Grid<Dim>& grid, Vec<Dim> y);
+
 /// The image of a point whose dual cell has its own node at the right place: low - h/2 <= y < high - h/2 along periodic
 /// axes; inside the box along the others.
 template <int Dim>
-Vec<Dim> fold(const Grid<Dim>& grid, Vec<Dim> y) {
+inline Vec<Dim> fold(const Grid<Dim>& grid, const Vec<Dim>& y) {
+  bool stays = true;
   for (int d = 0; d < Dim; ++d) {
-    if (grid.periodic[static_cast<std::size_t>(d)]) {
-      const double length = grid.high[d] - grid.low[d];
-      y[d] -= length * std::floor((y[d] - grid.low[d]) / length + 0.5 * grid.spacing / length);
-    } else {
-      y[d] = std::clamp(y[d], grid.low[d], grid.high[d]);
-    }
+    const double end = grid.high[d] - (grid.periodic[static_cast<std::size_t>(d)] ? grid.spacing : 0);
+    stays = stays && y[d] >= grid.low[d] && y[d] <= end;
   }
-  return y;
+  return stays ? y : fold_back<Dim>(grid, y);
 }
 
 /// Calls body(place in cells.cells, cell), side by side. For kernels that write rows of their particles or cells only.
