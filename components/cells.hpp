@@ -24,7 +24,7 @@ struct OccupiedCells {
     Index<Dim> node;                                    ///< the node in its middle
     std::uint32_t begin;                                ///< first particle
     std::uint32_t end;                                  ///< past the last particle
-    std::array<std::uint32_t, support_size<Dim>> rows;  ///< of its 3^d nodes in the node tables, x fastest
+    std::array<std::uint32_t, support_size<Dim>> rows;  ///< of its 3^d nodes, x fastest; from the system number_nodes
   };
   struct Block {
     std::uint32_t begin;  ///< first cell
