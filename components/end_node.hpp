@@ -16,8 +16,8 @@ template <int Dim>
 struct EndSites : SiteRows<Dim> {
   /// Particles one after the other that lie in the same dual cell, up to those of the next run.
   struct Run {
-    Index<Dim> node;      ///< in the middle of the cell
-    std::uint32_t begin;  ///< first particle
+    Index<Dim> node;                               ///< in the middle of the cell
+    std::uint32_t begin;                           ///< first particle
     std::array<double, support_size<Dim>> volume;  ///< that its particles give to its nodes [m^3; m^2 in 2-D]
   };
   std::vector<Run> runs;

@@ -20,7 +20,7 @@ constexpr std::array<double, product_powers> product(const std::array<double, N>
 /// Puts the product of polynomials where pair `place` has its coefficients.
 template <std::size_t N, std::size_t M>
 constexpr void set_product(const std::array<double, N>& x, const std::array<double, M>& y, std::size_t place,
-                 AxisBasis::PairProducts& pairs) {
+                           AxisBasis::PairProducts& pairs) {
   const auto xy = product(x, y);
   for (std::size_t k = 0; k < xy.size(); ++k) pairs[k][place] = xy[k];
 }

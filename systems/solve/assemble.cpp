@@ -41,7 +41,7 @@ void AssembleLaplacian<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells
 
 template <int Dim>
 void LaplacianFromViscosity<Dim>::operator()(Read<Fluid> fluid, Read<matrix::Viscosity<Dim>> viscosity,
-                                           Write<matrix::Laplacian<Dim>> laplacian) const {
+                                             Write<matrix::Laplacian<Dim>> laplacian) const {
   const double per_trace = 1 / ((Dim + 1) * fluid->viscosity);
   for_each_row(
       laplacian.span().size(),
@@ -86,17 +86,16 @@ void AssembleViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells
     const Support<Dim> support(*grid, cell);
     const double scale = fluid->viscosity * support.per_spacing * support.per_spacing;
     const SlopeProducts<Dim> products(support, moments->of_cell[c]);
-    for_each_pair<Dim>(
-        support, row.span(), Dim * Dim, rows, [&](std::size_t pair, std::size_t back, double* entries) {
-          double laplacian = 0;
-          for (std::size_t d = 0; d < Dim; ++d) laplacian += products(d, d, pair, back);
-          for (std::size_t i = 0; i < Dim; ++i) {
-            for (std::size_t j = 0; j < Dim; ++j) {
-              const double own = i == j ? laplacian : 0;
-              entries[Dim * i + j] += scale * (products(j, i, pair, back) + own);
-            }
-          }
-        });
+    for_each_pair<Dim>(support, row.span(), Dim * Dim, rows, [&](std::size_t pair, std::size_t back, double* entries) {
+      double laplacian = 0;
+      for (std::size_t d = 0; d < Dim; ++d) laplacian += products(d, d, pair, back);
+      for (std::size_t i = 0; i < Dim; ++i) {
+        for (std::size_t j = 0; j < Dim; ++j) {
+          const double own = i == j ? laplacian : 0;
+          entries[Dim * i + j] += scale * (products(j, i, pair, back) + own);
+        }
+      }
+    });
   });
 }
 

@@ -42,8 +42,8 @@ constexpr int most_passes = 60;
 template <int Dim>
 using Impl = typename BlockFactors<Dim>::Impl;
 
-/// Solves s S p = g, s the scale of a residual, and sets u = A^-1 (f + D^T p), with A as the velocity block solves with.
-/// \param target  for the residual
+/// Solves s S p = g, s the scale of a residual, and sets u = A^-1 (f + D^T p), with A as the velocity block solves
+/// with. \param target  for the residual
 template <int Dim>
 Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double target, Gmres::Start start, Values& u,
                         Values& p) {
@@ -113,7 +113,7 @@ void prepare(Impl<Dim>& s, const EquationTerms<Dim>& terms, const Grid<Dim>& gri
              const matrix::StabilizationScale& scale, const Rates& rates) {
   s.schur.assemble(terms, grid, fluid, laplacian_factor(rates, fluid, scale));
   s.velocity_block.prepare(terms, s.schur);
-  s.preconditioner.prepare(s.schur, terms, grid, viscous_part<Dim>(terms, grid, fluid, scale));
+  s.preconditioner.prepare(s.schur, terms, viscous_part<Dim>(terms, grid, fluid, scale));
   const std::size_t n = s.schur.rows();
   for (Values* v : {&s.mass, &s.pressure, &s.more_pressure, &s.g, &s.zero, &s.unscaled}) v->resize(n);
   std::fill(s.zero.begin(), s.zero.end(), 0.0);

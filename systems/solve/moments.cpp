@@ -47,8 +47,9 @@ void contract_pairs(std::size_t groups, const AxisBasis::PairProducts& factor, c
   for (std::size_t g = 0; g < groups; ++g, in += product_powers, out += padded_pairs) {
     for (std::size_t q = 0; q < padded_pairs; q += 4) {
       const auto of_power = [&](std::size_t k) { return Eigen::Map<const Pairs>(factor[k].data() + q); };
-      Eigen::Map<Pairs>{out + q} = ((of_power(0) * in[0] + of_power(1) * in[1]) +
-                                    (of_power(2) * in[2] + of_power(3) * in[3])) + of_power(4) * in[4];
+      Eigen::Map<Pairs>{out + q} =
+          ((of_power(0) * in[0] + of_power(1) * in[1]) + (of_power(2) * in[2] + of_power(3) * in[3])) +
+          of_power(4) * in[4];
     }
   }
 }
@@ -90,8 +91,7 @@ template <int Dim>
 CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors) {
   CellMatrix<Dim> done;
   contract_all<Dim, 9>(
-      moments,
-      [&](std::size_t d) { return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[k][q]; }; },
+      moments, [&](std::size_t d) { return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[k][q]; }; },
       [&](std::size_t groups, const double* in) { contract_pairs(groups, *factors[0], in, done.data()); });
   return done;
 }

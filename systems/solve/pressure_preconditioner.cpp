@@ -49,7 +49,7 @@ double viscous_part(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Fl
 
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
-void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t, const Grid<Dim>&) {
+void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
   std::array<std::array<int, 2>, Dim> range;
   range.fill({std::numeric_limits<int>::max(), -1});
   std::vector<Index<Dim>> at(t.node.size());
@@ -130,8 +130,8 @@ bool PressurePreconditioner<Dim>::factorize_pressure(const PressureSchur<Dim>& s
 
 template <int Dim>
 void PressurePreconditioner<Dim>::prepare(const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms,
-                                          const Grid<Dim>& grid, double viscous_part) {
-  find_order(terms, grid);
+                                          double viscous_part) {
+  find_order(terms);
   find_envelope(schur);
   ordered_.resize(order_.size());
   narrow_ = EnvelopeLu::cost(first_) < widest && factorize_envelope(schur);

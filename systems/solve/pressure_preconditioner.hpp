@@ -25,13 +25,12 @@ template <int Dim>
 class PressurePreconditioner {
  public:
   /// \throws std::runtime_error if the matrix cannot be factorized.
-  void prepare(const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms, const Grid<Dim>& grid,
-               double viscous_part);
+  void prepare(const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms, double viscous_part);
   /// out = about S^-1 r.
   void solve(const Values& r, Values& out);
 
  private:
-  void find_order(const EquationTerms<Dim>& terms, const Grid<Dim>& grid);
+  void find_order(const EquationTerms<Dim>& terms);
   void find_envelope(const PressureSchur<Dim>& schur);
   bool factorize_envelope(const PressureSchur<Dim>& schur);
   bool factorize_symmetric(const PressureSchur<Dim>& schur);

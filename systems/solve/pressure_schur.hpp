@@ -4,10 +4,10 @@
 ///
 /// (E55)  S = B A^-1 D^T + T + e, B = c_v D + c_a G: what (E25), (E26) leave when the displacement is eliminated, A the
 /// velocity block.
-/// (E56)  P = (1 + (c_v - c_a g)/(c_a rho tau)) T + e + c_v N (c_a m)^-1 D^T, N_IJ = D_IJ + D_JI, within the stencil of
-/// 5^d nodes, and beyond it between nodes less than half full: a compact matrix near S. Inside the liquid N is zero and
-/// D m^-1 D^T is nearly L/rho = T/(rho tau); G = g D_JI, g = tau rho with PSPG, where the first factor is 1, g = 0 with
-/// OSS. At free surfaces N has the condition p = 0, without which pressures would hang on e alone.
+/// (E56)  P = (1 + (c_v - c_a g)/(c_a rho tau)) T + e + c_v N (c_a m)^-1 D^T, N_IJ = D_IJ + D_JI: a matrix near S,
+/// within the stencil of 5^d nodes in the rows of full nodes, with all its 9^d entries in the others. Inside the liquid
+/// N is zero and D m^-1 D^T is nearly L/rho = T/(rho tau); G = g D_JI, g = tau rho with PSPG, where the first factor is
+/// 1, g = 0 with OSS. At free surfaces N has the condition p = 0, without which pressures would hang on e alone.
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
@@ -62,8 +62,8 @@ class PressureSchur {
   void for_each_pressure(std::size_t row, const Body& body) const {
     for_each_entry(spread_, Dim + 1, Dim, row, body);
   }
-  /// What of (E56) lies beyond the stencil, between nodes less than half full: in spray the pressures of several nodes
-  /// hang on few particles, and a cut matrix would tie down what S leaves free.
+  /// What of (E56) lies beyond the stencil: in spray the pressures of several nodes hang on few particles, and a cut
+  /// row would tie down what S leaves free.
   const std::vector<Entry>& beyond(std::size_t row) const { return beyond_[row]; }
 
  private:
@@ -99,7 +99,7 @@ class PressureSchur {
   BlockEntries<Dim> spread_;   ///< B_IJ at [(Dim + 1) k + d], T_IJ + e at [(Dim + 1) k + Dim]
   BlockEntries<Dim> compact_;  ///< (E56) within the stencil
   std::vector<std::vector<Entry>> beyond_;
-  std::vector<char> thin_;
+  std::vector<char> thin_;  ///< whether a row has entries beyond the stencil
   Values scale_, mobility_;
   // Per slot: pressure; displacement and mobility, one direction after the other; c_v/(c_a m), 0 towards walls.
   Values pressure_, velocity_, slot_mobility_, per_mass_;

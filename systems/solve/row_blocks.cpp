@@ -17,7 +17,8 @@ template <int Dim>
 std::size_t line_of(const Grid<Dim>& grid, const Index<Dim>& node) {
   std::size_t number = 0;
   for (int d = Dim - 1; d > 0; --d) {
-    number = number * static_cast<std::size_t>(grid.nodes(d)) + static_cast<std::size_t>(node[static_cast<std::size_t>(d)]);
+    number =
+        number * static_cast<std::size_t>(grid.nodes(d)) + static_cast<std::size_t>(node[static_cast<std::size_t>(d)]);
   }
   return number;
 }
@@ -38,7 +39,8 @@ void RowBlocks<Dim>::cover(int block) {
 }
 
 template <int Dim>
-void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node) {
+void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>> site,
+                               std::span<const std::uint32_t> node) {
   // The first run stands for what is beyond the water.
   runs_.assign(1, {0, 3 * width});
   first_block_.assign(1, 0);
@@ -58,7 +60,8 @@ void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>
       if (x_of(r) < 2) cover(block_at<Dim>(x_of(r) + nodes));
     }
   }
-  lines_.push_back({~std::size_t{0}, static_cast<std::uint32_t>(node.size()), static_cast<std::uint32_t>(runs_.size())});
+  lines_.push_back(
+      {~std::size_t{0}, static_cast<std::uint32_t>(node.size()), static_cast<std::uint32_t>(runs_.size())});
 }
 
 /// The places in lines_ of the lines that a stencil sees, -1 where there is none.
@@ -131,7 +134,8 @@ void RowBlocks<Dim>::find_blocks(const Grid<Dim>& grid) {
 }
 
 template <int Dim>
-void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node) {
+void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> site,
+                           std::span<const std::uint32_t> node) {
   find_runs(grid, site, node);
   // A margin for those who look beside the last block.
   const std::size_t slots = runs_.back().begin + runs_.back().length + width;
@@ -143,7 +147,8 @@ void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> si
   margins_.clear();
   for (std::uint32_t at = 0; at < 3 * width; at += width) margins_.push_back(at);
   run_of_block_.clear();
-  for (std::uint32_t r = 0; r < runs_.size(); ++r) run_of_block_.insert(run_of_block_.end(), runs_[r].length / width, r);
+  for (std::uint32_t r = 0; r < runs_.size(); ++r)
+    run_of_block_.insert(run_of_block_.end(), runs_[r].length / width, r);
   const int nodes = grid.nodes(0);
   for (std::size_t l = 0; l + 1 < lines_.size(); ++l) {
     const auto slot_at = [&](int x) {

@@ -31,10 +31,10 @@ class RowBlocks {
   /// Lines that a stencil sees.
   static constexpr std::size_t lines = power(5, Dim - 1);
   struct Block {
-    std::uint32_t slot;                          ///< the first
-    std::array<std::uint32_t, lines> beside;     ///< slot with the same x in a line of the stencil, y fastest
-    std::array<std::int32_t, width> row;         ///< -1 where there is none
-    std::size_t at(std::size_t place) const {    ///< where the neighbour at a place of the stencil begins
+    std::uint32_t slot;                        ///< the first
+    std::array<std::uint32_t, lines> beside;   ///< slot with the same x in a line of the stencil, y fastest
+    std::array<std::int32_t, width> row;       ///< -1 where there is none
+    std::size_t at(std::size_t place) const {  ///< where the neighbour at a place of the stencil begins
       return beside[place / 5] + place % 5 - 2;
     }
   };

@@ -44,8 +44,7 @@ void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     places.visit(x_p[p], [&](const auto& place, const auto& weights) {
       const Vec<Dim> g = m_p[p] / fluid->density * slope<Dim>(place, weights, e_i.span());
-      place.for_each_node(
-          [&](std::size_t i, const Index<Dim>& offset) { r_i[i] += weights.gradient(offset).dot(g); });
+      place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { r_i[i] += weights.gradient(offset).dot(g); });
     });
   }
   const double lambda = step_length(e_i.span(), r_i.span());
