@@ -22,6 +22,13 @@ struct Node : Column<ActiveNodes, std::uint32_t> {
   static constexpr ComponentInfo info{"matrix.node", "I", "1", Lifetime::scratch};
 };
 
+/// The node at every place of the stencil, or none. [1]
+template <int Dim>
+struct Neighbour : Column<ActiveNodes, std::array<std::int32_t, stencil_size<Dim>>> {
+  static constexpr std::int32_t none = -1;
+  static constexpr ComponentInfo info{"matrix.neighbour", "J", "1", Lifetime::scratch};
+};
+
 /// D_IJ = sum_p V_p S_I grad S_J, at [Dim k + d]; its transpose is the pressure gradient. [m^(d-1)]
 template <int Dim>
 struct Divergence : Column<ActiveNodes, std::array<double, stencil_size<Dim> * Dim>> {

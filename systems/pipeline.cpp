@@ -119,7 +119,8 @@ std::vector<Slot> step_slots(const Needs& needs) {
       {"configure", {needs.newmark ? "configure_at_start" : "configure_at_middle"}},
       {"bin", {"bin", "number_nodes"}},
       {"p2g", with({"p2g_mass", transfer.p2g_velocity}, needs.newmark, transfer.p2g_acceleration)},
-      {"walls", with({"activate", "hold_velocity_at_walls"}, needs.newmark, "hold_acceleration_at_walls")},
+      {"walls",
+       with({"activate", "find_neighbours", "hold_velocity_at_walls"}, needs.newmark, "hold_acceleration_at_walls")},
       {"predict", with({needs.newmark ? "predict_newmark" : "predict_midpoint"}, needs.ode, "integrate_ode")},
       {"force", force_systems(needs)},
       {"assemble", assemble_systems(needs)},
@@ -141,6 +142,7 @@ std::vector<std::string> standing_step(const Needs& needs, const std::string& co
                                    "p2g_mass",
                                    needs.transfer.p2g_velocity,
                                    "activate",
+                                   "find_neighbours",
                                    "hold_velocity_at_walls",
                                    "predict_backward_euler"};
   for (const auto& part : {force_systems(needs), assemble_systems(needs), solve_systems(needs)}) {

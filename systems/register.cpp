@@ -19,6 +19,7 @@
 #include "systems/solve/block.hpp"
 #include "systems/solve/inertia.hpp"
 #include "systems/solve/monolithic.hpp"
+#include "systems/solve/neighbours.hpp"
 #include "systems/solve/right_hand_side.hpp"
 #include "systems/solve/stabilization.hpp"
 #include "systems/solve/umfpack.hpp"
@@ -49,6 +50,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<P2GAccelerationTpic>("p2g_acceleration_tpic");
 
   registry.add<Activate>("activate");
+  registry.add<FindNeighbours>("find_neighbours");
   registry.add<HoldVelocityAtWalls>("hold_velocity_at_walls");
   registry.add<HoldAccelerationAtWalls>("hold_acceleration_at_walls");
 

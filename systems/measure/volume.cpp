@@ -1,22 +1,21 @@
 #include "systems/measure/volume.hpp"
 
 #include "systems/grid/node_volume.hpp"
-#include "systems/solve/stencil.hpp"
+#include "systems/solve/neighbours.hpp"
 
 #include <cmath>
 
 namespace minamo {
 
 template <int Dim>
-void MeasureDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
-                                        Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node,
+void MeasureDivergence<Dim>::operator()(Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node,
+                                        Read<matrix::Neighbour<Dim>> neighbour,
                                         Read<matrix::Divergence<Dim>> divergence, Read<node::Mass> m_i,
                                         Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
                                         Write<measure::MaxDivergence> largest) const {
-  const Stencil<Dim> stencil(*grid, *rows, sites.span());
   const auto of_row = [&](std::size_t r) {
     double sum = 0;
-    stencil.for_each_neighbour(node[r], [&](std::size_t k, std::uint32_t j) {
+    for_each_neighbour<Dim>(neighbour[r], [&](std::size_t k, std::uint32_t j) {
       const Vec<Dim> v = rates->velocity * u_i[j] + v_known[j];
       for (std::size_t d = 0; d < Dim; ++d) sum += divergence[r][Dim * k + d] * v[static_cast<Eigen::Index>(d)];
     });

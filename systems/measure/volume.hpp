@@ -19,9 +19,9 @@ namespace minamo {
 template <int Dim>
 struct MeasureDivergence {
   static constexpr std::string_view doc = "(E31) largest divergence";
-  void operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites, Read<Fluid> fluid,
-                  Read<Rates> rates, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<node::Mass> m_i, Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
+  void operator()(Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
+                  Read<matrix::Divergence<Dim>> divergence, Read<node::Mass> m_i,
+                  Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
                   Write<measure::MaxDivergence> largest) const;
 };
 

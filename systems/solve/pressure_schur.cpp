@@ -58,19 +58,38 @@ Index<Dim> offset_of(std::size_t place, int size) {
   return offset;
 }
 
-/// The row of the node at an offset from another, -1 if there is none.
+/// Finds rows of nodes up to four nodes away from one.
 template <int Dim>
-std::int32_t row_at(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Index<Dim>& node,
-                    const Index<Dim>& offset) {
-  Index<Dim> there;
-  for (int d = 0; d < Dim; ++d) {
-    const auto axis = static_cast<std::size_t>(d);
-    there[axis] = grid.wrapped(d, node[axis] + offset[axis]);
-    if (there[axis] < 0 || there[axis] >= grid.nodes(d)) return -1;
+class WideStencil {
+ public:
+  WideStencil(const EquationTerms<Dim>& t, const Grid<Dim>& grid, std::size_t row) : t_(t), find_(*t.rows_of_sites) {
+    const Index<Dim>& own = t.site[t.node[row]];
+    for (int d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<std::size_t>(d);
+      for (int step = -4; step <= 4; ++step) {
+        const int at = grid.wrapped(d, own[axis] + step);
+        if (at >= 0 && at < grid.nodes(d))
+          part_[axis][static_cast<std::size_t>(step + 4)] = t.rows_of_sites->part(d, at);
+      }
+    }
   }
-  const auto i = t.rows_of_sites->find(there);
-  return i ? t.row[*i] : -1;
-}
+  /// The row at an offset, -1 if there is none.
+  std::int32_t row(const Index<Dim>& offset) {
+    typename SiteRows<Dim>::Address at;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto& part = part_[d][static_cast<std::size_t>(offset[d] + 4)];
+      if (!part) return -1;
+      at = at + *part;
+    }
+    const auto i = find_(at);
+    return i ? t_.row[*i] : -1;
+  }
+
+ private:
+  const EquationTerms<Dim>& t_;
+  typename SiteRows<Dim>::Finder find_;
+  std::array<std::array<std::optional<typename SiteRows<Dim>::Address>, 9>, Dim> part_;  ///< none outside the grid
+};
 
 }  // namespace
 
@@ -200,13 +219,13 @@ void PressureSchur<Dim>::fill_beyond(const EquationTerms<Dim>& t, const Grid<Dim
   for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
     if (block.row[lane] < 0 || !thin_[static_cast<std::size_t>(block.row[lane])]) continue;
     auto& beyond = beyond_[static_cast<std::size_t>(block.row[lane])];
-    const Index<Dim> node = t.site[t.node[static_cast<std::size_t>(block.row[lane])]];
+    WideStencil<Dim> stencil(t, grid, static_cast<std::size_t>(block.row[lane]));
     for (std::size_t k = 0; k < power(std::size_t{9}, Dim); ++k) {
       const double value = wide[k][static_cast<Eigen::Index>(lane)];
       if (value == 0) continue;
       const Index<Dim> offset = offset_of<Dim>(k, 9);
       if (std::all_of(offset.begin(), offset.end(), [](int o) { return std::abs(o) <= 2; })) continue;
-      const std::int32_t there = row_at<Dim>(t, grid, node, offset);
+      const std::int32_t there = stencil.row(offset);
       if (there < 0) continue;
       beyond.push_back({static_cast<std::uint32_t>(there), value});
     }

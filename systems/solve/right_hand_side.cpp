@@ -2,7 +2,7 @@
 
 #include "engine/parallel.hpp"
 #include "systems/solve/equations.hpp"
-#include "systems/solve/stencil.hpp"
+#include "systems/solve/neighbours.hpp"
 
 namespace minamo {
 
@@ -18,6 +18,7 @@ struct KnownTerms {
   std::span<const Vec<Dim>> a_known;
   std::span<const Vec<Dim>> u_i;
   std::span<const std::uint32_t> node;
+  std::span<const typename matrix::Neighbour<Dim>::value_type> neighbour;
   std::span<const typename matrix::Divergence<Dim>::value_type> divergence;
   std::span<const double> source;
   std::span<const typename matrix::Viscosity<Dim>::value_type> viscosity;  ///< empty if inviscid
@@ -25,11 +26,11 @@ struct KnownTerms {
 
 /// Right-hand sides of (E25) and (E26) for one row.
 template <int Dim>
-void fill_row(const KnownTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r, double* out) {
+void fill_row(const KnownTerms<Dim>& t, std::size_t r, double* out) {
   const std::uint32_t i = t.node[r];
   Vec<Dim> momentum = t.m_i[i] * (t.b_i[i] - t.a_known[i]);
   double mass = t.source[r];
-  stencil.for_each_neighbour(i, [&](std::size_t to_j, std::uint32_t j) {
+  for_each_neighbour<Dim>(t.neighbour[r], [&](std::size_t to_j, std::uint32_t j) {
     const Vec<Dim> v = t.v_known[j] + t.c_v * t.u_i[j];
     if (v.isZero(0)) return;
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -48,23 +49,23 @@ void fill_row(const KnownTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t
 }
 
 template <int Dim>
-void fill(const KnownTerms<Dim>& terms, const Stencil<Dim>& stencil, std::vector<double>& right_hand_side) {
+void fill(const KnownTerms<Dim>& terms, std::vector<double>& right_hand_side) {
   right_hand_side.resize(unknowns_per_row(Dim) * terms.node.size());
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
       terms.node.size(),
-      [&](std::size_t r) { fill_row<Dim>(terms, stencil, r, right_hand_side.data() + unknowns_per_row(Dim) * r); },
+      [&](std::size_t r) { fill_row<Dim>(terms, r, right_hand_side.data() + unknowns_per_row(Dim) * r); },
       rows_per_task);
 }
 
 }  // namespace
 
 template <int Dim>
-void FillRightHandSide<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
-                                        Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                                         Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
                                         Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
-                                        Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                                        Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
+                                        Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::StabilizationSource> source,
                                         Write<matrix::RightHandSide> right_hand_side) const {
   fill<Dim>({rates->velocity,
@@ -75,23 +76,23 @@ void FillRightHandSide<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>
              a_known.span(),
              u_i.span(),
              node.span(),
+             neighbour.span(),
              divergence.span(),
              source.span(),
              {}},
-            {*grid, *rows, sites.span()}, right_hand_side->values);
+            right_hand_side->values);
 }
 
 template <int Dim>
 void FillRightHandSideViscous<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites, Read<Rates> rates,
-    Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+    Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
     Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
-    Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-    Read<matrix::StabilizationSource> source, Read<matrix::Viscosity<Dim>> viscosity,
-    Write<matrix::RightHandSide> right_hand_side) const {
+    Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
+    Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
+    Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::RightHandSide> right_hand_side) const {
   fill<Dim>({rates->velocity, fixed.span(), m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(),
-             node.span(), divergence.span(), source.span(), viscosity.span()},
-            {*grid, *rows, sites.span()}, right_hand_side->values);
+             node.span(), neighbour.span(), divergence.span(), source.span(), viscosity.span()},
+            right_hand_side->values);
 }
 
 template struct FillRightHandSide<2>;

@@ -1,7 +1,7 @@
 #include "systems/solve/stabilization.hpp"
 
 #include "systems/grid/node_volume.hpp"
-#include "systems/solve/stencil.hpp"
+#include "systems/solve/neighbours.hpp"
 #include "systems/transfer/gather.hpp"
 #include "systems/transfer/scatter.hpp"
 
@@ -27,19 +27,19 @@ double dot(const typename matrix::Divergence<Dim>::value_type& row, std::size_t 
 /// Starts every row with tau L_IJ and no source, and calls add(r, k, j, row_j) for its active neighbours J: k their
 /// place in the stencil of row r, row_j their row of D.
 template <int Dim, class Add>
-void fill_rows(const Stencil<Dim>& stencil, double tau, std::span<const std::int32_t> row,
-               std::span<const std::uint32_t> node,
+void fill_rows(double tau, std::span<const std::int32_t> row,
+               std::span<const typename matrix::Neighbour<Dim>::value_type> neighbour,
                std::span<const typename matrix::Divergence<Dim>::value_type> divergence,
                std::span<const typename matrix::Laplacian<Dim>::value_type> laplacian,
                std::span<typename matrix::Stabilization<Dim>::value_type> stabilization, std::span<double> source,
                const Add& add) {
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
-      node.size(),
+      neighbour.size(),
       [&](std::size_t r) {
         stabilization[r].fill(0);
         source[r] = 0;
-        stencil.for_each_neighbour(node[r], [&](std::size_t k, std::uint32_t j) {
+        for_each_neighbour<Dim>(neighbour[r], [&](std::size_t k, std::uint32_t j) {
           stabilization[r][(Dim + 1) * k + Dim] = tau * laplacian[r][k];
           if (row[j] >= 0) add(r, k, j, divergence[static_cast<std::size_t>(row[j])]);
         });
@@ -50,10 +50,9 @@ void fill_rows(const Stencil<Dim>& stencil, double tau, std::span<const std::int
 }  // namespace
 
 template <int Dim>
-void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
-                                    Read<node::Site<Dim>> sites, Read<Fluid> fluid, Read<node::Row> row,
+void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
                                     Read<node::BodyForce<Dim>> b_i, Read<node::KnownAcceleration<Dim>> a_known,
-                                    Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                                    Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
                                     Read<matrix::Laplacian<Dim>> laplacian,
                                     Write<matrix::Stabilization<Dim>> stabilization,
                                     Write<matrix::StabilizationSource> source,
@@ -61,9 +60,8 @@ void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   const double tau_rho = tau * fluid->density;
   *scale = {.pressure = tau, .acceleration = tau_rho};
-  fill_rows<Dim>({*grid, *rows, sites.span()}, tau, row.span(), node.span(), divergence.span(), laplacian.span(),
-                 stabilization.span(), source.span(),
-                 [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
+  fill_rows<Dim>(tau, row.span(), neighbour.span(), divergence.span(), laplacian.span(), stabilization.span(),
+                 source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
                    const std::size_t back = stencil_size<Dim> - 1 - k;
                    for (std::size_t d = 0; d < Dim; ++d) {
                      stabilization[r][(Dim + 1) * k + d] = tau_rho * row_j[Dim * back + d];
@@ -73,20 +71,19 @@ void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
 }
 
 template <int Dim>
-void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
-                                   Read<node::Site<Dim>> sites, Read<Fluid> fluid, Read<node::Row> row,
-                                   Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                                   Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
-                                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
+void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<node::Site<Dim>> sites,
+                                   Read<Fluid> fluid, Read<node::Row> row, Read<node::Mass> m_i,
+                                   Read<node::BodyForce<Dim>> b_i, Read<node::PressureGradient<Dim>> g_i,
+                                   Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
+                                   Read<matrix::Laplacian<Dim>> laplacian,
                                    Write<matrix::Stabilization<Dim>> stabilization,
                                    Write<matrix::StabilizationSource> source,
                                    Write<matrix::StabilizationScale> scale) const {
   const double tau = stabilization_time(clock->step, grid->spacing, *fluid);
   *scale = {.pressure = tau, .acceleration = 0};
   constexpr double full_enough = 0.6;  // without this guard the dam break blows up at its surface
-  fill_rows<Dim>({*grid, *rows, sites.span()}, tau, row.span(), node.span(), divergence.span(), laplacian.span(),
-                 stabilization.span(), source.span(),
-                 [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
+  fill_rows<Dim>(tau, row.span(), neighbour.span(), divergence.span(), laplacian.span(), stabilization.span(),
+                 source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
                    const bool full = m_i[j] > full_enough * fluid->density * full_volume<Dim>(*grid, sites[j]);
                    const Vec<Dim> g = full ? g_i[j] : Vec<Dim>(fluid->density * b_i[j]);
                    source[r] += tau * dot<Dim>(row_j, stencil_size<Dim> - 1 - k, g);

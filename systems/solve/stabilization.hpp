@@ -23,12 +23,11 @@ namespace minamo {
 template <int Dim>
 struct StabilizePspg {
   static constexpr std::string_view doc = "(E24) PSPG";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
-                  Read<Fluid> fluid, Read<node::Row> row, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::KnownAcceleration<Dim>> a_known, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
-                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source,
-                  Write<matrix::StabilizationScale> scale) const;
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
+                  Read<node::BodyForce<Dim>> b_i, Read<node::KnownAcceleration<Dim>> a_known,
+                  Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Laplacian<Dim>> laplacian, Write<matrix::Stabilization<Dim>> stabilization,
+                  Write<matrix::StabilizationSource> source, Write<matrix::StabilizationScale> scale) const;
 };
 
 /// (E48)  OSS, orthogonal subscales: sum_p tau V_p grad S_I . (grad p_p - g_p), tau of (E24), g the lumped projection
@@ -37,9 +36,9 @@ struct StabilizePspg {
 template <int Dim>
 struct StabilizeOss {
   static constexpr std::string_view doc = "(E48) orthogonal subscales";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
-                  Read<Fluid> fluid, Read<node::Row> row, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::PressureGradient<Dim>> g_i, Read<matrix::Node> node,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<node::Site<Dim>> sites, Read<Fluid> fluid,
+                  Read<node::Row> row, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
+                  Read<node::PressureGradient<Dim>> g_i, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,
                   Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source,
                   Write<matrix::StabilizationScale> scale) const;
