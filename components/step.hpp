@@ -4,6 +4,8 @@
 
 #include "engine/component.hpp"
 
+#include <vector>
+
 namespace minamo {
 
 /// How velocity and acceleration in the balances follow from the displacement: v = c_v u + v^, a = c_a u + a^.
@@ -37,6 +39,13 @@ struct XpicOrder {
 struct VolumeRate {
   double rate = 0.1;
   static constexpr ComponentInfo info{"volume.rate", "r", "1", Lifetime::constant};
+};
+
+/// Right-hand side and solution of (E37), kept so that a step does not allocate.
+struct VolumeEquations {
+  std::vector<double> right_hand_side;
+  std::vector<double> solution;
+  static constexpr ComponentInfo info{"volume.equations", "", "", Lifetime::cache};
 };
 
 /// Where an iterative solver stops: residual over right-hand side. [1]

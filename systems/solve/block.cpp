@@ -1,5 +1,6 @@
 #include "systems/solve/block.hpp"
 
+#include "systems/solve/compact_pressure.hpp"
 #include "systems/solve/equations.hpp"
 #include "systems/solve/monolithic.hpp"
 #include "systems/solve/pressure_preconditioner.hpp"
@@ -13,6 +14,7 @@ template <int Dim>
 struct BlockFactors<Dim>::Impl {
   EquationTerms<Dim> terms{};
   PressureSchur<Dim> schur;
+  CompactPressure<Dim> compact;
   VelocityBlock<Dim> velocity_block;
   PressurePreconditioner<Dim> preconditioner;
   Gmres gmres;
@@ -56,10 +58,10 @@ Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double t
       s.velocity_block.solve(s.of_velocity);
       schur.spread(s.of_velocity, x, out);
     }
-    for_each_row(out.size(), [&](std::size_t r) { out[r] *= schur.scale()[r]; });
+    for_each_row(out.size(), [&](std::size_t r) { out[r] *= s.compact.scale()[r]; });
   };
   const auto precondition = [&](const Values& r, Values& out) {
-    for_each_row(r.size(), [&](std::size_t i) { s.unscaled[i] = r[i] / schur.scale()[i]; });
+    for_each_row(r.size(), [&](std::size_t i) { s.unscaled[i] = r[i] / s.compact.scale()[i]; });
     s.preconditioner.solve(s.unscaled, out);
   };
   const auto report = s.gmres.solve(apply, precondition, g, target, most_iterations, start, p);
@@ -76,7 +78,7 @@ void reduce(Impl<Dim>& s, const Values& f, const Values& u, const Values& p, Val
   s.velocity_block.solve(s.of_velocity);
   add_scaled(1, u, s.of_velocity);
   s.schur.spread(s.of_velocity, p, g);
-  for_each_row(g.size(), [&](std::size_t r) { g[r] = s.schur.scale()[r] * (s.mass[r] - g[r]); });
+  for_each_row(g.size(), [&](std::size_t r) { g[r] = s.compact.scale()[r] * (s.mass[r] - g[r]); });
 }
 
 /// Solves for displacement and pressure from the right-hand sides in momentum and mass. A diagonal velocity block is
@@ -111,9 +113,10 @@ Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
 template <int Dim>
 void prepare(Impl<Dim>& s, const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
              const matrix::StabilizationScale& scale, const Rates& rates) {
-  s.schur.assemble(terms, grid, fluid, laplacian_factor(rates, fluid, scale));
+  s.schur.assemble(terms, grid);
+  s.compact.assemble(terms, grid, fluid, laplacian_factor(rates, fluid, scale), s.schur);
   s.velocity_block.prepare(terms, s.schur);
-  s.preconditioner.prepare(s.schur, terms, viscous_part<Dim>(terms, grid, fluid, scale));
+  s.preconditioner.prepare(s.compact, s.schur, terms, viscous_part<Dim>(terms, grid, fluid, scale));
   const std::size_t n = s.schur.rows();
   for (Values* v : {&s.mass, &s.pressure, &s.more_pressure, &s.g, &s.zero, &s.unscaled}) v->resize(n);
   std::fill(s.zero.begin(), s.zero.end(), 0.0);
@@ -171,17 +174,15 @@ SolveReport solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid,
 }  // namespace
 
 template <int Dim>
-std::vector<double> solve_again(BlockFactors<Dim>& factors, const std::vector<double>& right_hand_side,
-                                const Clock& clock, const Grid<Dim>& grid, double tolerance) {
+void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const Clock& clock, const Grid<Dim>& grid,
+                 double tolerance, std::vector<double>& x) {
   Impl<Dim>& s = *factors.impl;
-  take_right_hand_side<Dim>(s, right_hand_side);
-  std::vector<double> x;
+  take_right_hand_side<Dim>(s, b);
   if (is_solved(solve_blocks<Dim>(s, tolerance, Gmres::Start::zero))) {
     give_solution<Dim>(s, x);
   } else {
-    solve_directly<Dim>(clock, grid, s.terms, right_hand_side, s, x);
+    solve_directly<Dim>(clock, grid, s.terms, b, s, x);
   }
-  return x;
 }
 
 template <int Dim>
@@ -241,9 +242,9 @@ template struct SolveBlock<2>;
 template struct SolveBlock<3>;
 template struct SolveBlockViscous<2>;
 template struct SolveBlockViscous<3>;
-template std::vector<double> solve_again(BlockFactors<2>&, const std::vector<double>&, const Clock&, const Grid<2>&,
-                                         double);
-template std::vector<double> solve_again(BlockFactors<3>&, const std::vector<double>&, const Clock&, const Grid<3>&,
-                                         double);
+template void solve_again(BlockFactors<2>&, const std::vector<double>&, const Clock&, const Grid<2>&, double,
+                          std::vector<double>&);
+template void solve_again(BlockFactors<3>&, const std::vector<double>&, const Clock&, const Grid<3>&, double,
+                          std::vector<double>&);
 
 }  // namespace minamo

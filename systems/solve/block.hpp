@@ -30,11 +30,11 @@ struct BlockFactors {
   static constexpr ComponentInfo info{"solve.block_factors", "", "", Lifetime::cache};
 };
 
-/// The solution for another right-hand side, with the operators and factors of the last solve, in the same step.
-/// \throws std::runtime_error as SolveBlock.
+/// Sets x to the solution for another right-hand side b, with the operators and factors of the last solve, in the same
+/// step. \throws std::runtime_error as SolveBlock.
 template <int Dim>
-std::vector<double> solve_again(BlockFactors<Dim>& factors, const std::vector<double>& right_hand_side,
-                                const Clock& clock, const Grid<Dim>& grid, double tolerance);
+void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const Clock& clock, const Grid<Dim>& grid,
+                 double tolerance, std::vector<double>& x);
 
 template <int Dim>
 struct SolveBlock {

@@ -52,11 +52,11 @@ template <int Dim>
 void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
   std::array<std::array<int, 2>, Dim> range;
   range.fill({std::numeric_limits<int>::max(), -1});
-  std::vector<Index<Dim>> at(t.node.size());
+  site_.resize(t.node.size());
   for (std::size_t r = 0; r < t.node.size(); ++r) {
-    at[r] = t.site[t.node[r]];
+    site_[r] = t.site[t.node[r]];
     for (std::size_t d = 0; d < Dim; ++d) {
-      range[d] = {std::min(range[d][0], at[r][d]), std::max(range[d][1], at[r][d])};
+      range[d] = {std::min(range[d][0], site_[r][d]), std::max(range[d][1], site_[r][d])};
     }
   }
   std::array<std::size_t, Dim> axes;
@@ -67,7 +67,7 @@ void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
   std::iota(order_.begin(), order_.end(), 0U);
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
     for (const std::size_t axis : axes) {
-      if (at[a][axis] != at[b][axis]) return at[a][axis] < at[b][axis];
+      if (site_[a][axis] != site_[b][axis]) return site_[a][axis] < site_[b][axis];
     }
     return false;
   });
@@ -76,7 +76,7 @@ void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
 }
 
 template <int Dim>
-void PressurePreconditioner<Dim>::find_envelope(const PressureSchur<Dim>& schur) {
+void PressurePreconditioner<Dim>::find_envelope(const CompactPressure<Dim>& compact) {
   first_.resize(order_.size());
   std::iota(first_.begin(), first_.end(), 0U);
   for (std::size_t r = 0; r < order_.size(); ++r) {
@@ -84,32 +84,32 @@ void PressurePreconditioner<Dim>::find_envelope(const PressureSchur<Dim>& schur)
       const auto [low, high] = std::minmax(place_[r], place_[r_j]);
       first_[high] = std::min(first_[high], low);
     };
-    schur.for_each_compact(r, include);
-    for (const auto& entry : schur.beyond(r)) include(entry.row, entry.value);
+    compact.for_each_near(r, include);
+    for (const auto& entry : compact.beyond(r)) include(entry.row, entry.value);
   }
 }
 
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_envelope(const PressureSchur<Dim>& schur) {
+bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>& compact) {
   envelope_.start(first_);
   for (std::size_t r = 0; r < order_.size(); ++r) {
     const auto add = [&](std::size_t r_j, double value) { envelope_.at(place_[r], place_[r_j]) += value; };
-    schur.for_each_compact(r, add);
-    for (const auto& entry : schur.beyond(r)) add(entry.row, entry.value);
+    compact.for_each_near(r, add);
+    for (const auto& entry : compact.beyond(r)) add(entry.row, entry.value);
   }
   return envelope_.factorize();
 }
 
 /// The symmetric part of the compact matrix.
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_symmetric(const PressureSchur<Dim>& schur) {
+bool PressurePreconditioner<Dim>::factorize_symmetric(const CompactPressure<Dim>& compact) {
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    schur.for_each_compact_pair(r, [&](std::size_t r_j, double value, double back) {
+    compact.for_each_near_pair(r, [&](std::size_t r_j, double value, double back) {
       if (r_j <= r) sparse_.add(r, r_j, (value + back) / 2);
     });
-    for (const auto& entry : schur.beyond(r)) {
-      if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(schur.beyond(entry.row), r)) / 2);
+    for (const auto& entry : compact.beyond(r)) {
+      if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(compact.beyond(entry.row), r)) / 2);
     }
   }
   return sparse_.factorize(kind_for<Dim>(order_.size()));
@@ -117,26 +117,27 @@ bool PressurePreconditioner<Dim>::factorize_symmetric(const PressureSchur<Dim>& 
 
 /// T + e, with something of the diagonal: never indefinite.
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_pressure(const PressureSchur<Dim>& schur) {
+bool PressurePreconditioner<Dim>::factorize_pressure(const CompactPressure<Dim>& compact,
+                                                     const PressureSchur<Dim>& schur) {
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    const double more = 1e-3 / (schur.scale()[r] * schur.scale()[r]);
-    schur.for_each_pressure(r, [&](std::size_t r_j, double value) {
-      if (r_j <= r) sparse_.add(r, r_j, value + (r_j == r ? more : 0));
+    const double more = 1e-3 / (compact.scale()[r] * compact.scale()[r]);
+    schur.spread_entries().for_each_neighbour(r, Dim, Dim + 1, [&](std::size_t, std::size_t r_j, double value) {
+      if (r_j <= r && value != 0) sparse_.add(r, r_j, value + (r_j == r ? more : 0));
     });
   }
   return sparse_.factorize(kind_for<Dim>(order_.size()));
 }
 
 template <int Dim>
-void PressurePreconditioner<Dim>::prepare(const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms,
-                                          double viscous_part) {
+void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur,
+                                          const EquationTerms<Dim>& terms, double viscous_part) {
   find_order(terms);
-  find_envelope(schur);
+  find_envelope(compact);
   ordered_.resize(order_.size());
-  narrow_ = EnvelopeLu::cost(first_) < widest && factorize_envelope(schur);
+  narrow_ = EnvelopeLu::cost(first_) < widest && factorize_envelope(compact);
   // The symmetric part can be indefinite in spray.
-  if (!narrow_ && !factorize_symmetric(schur) && !factorize_pressure(schur)) {
+  if (!narrow_ && !factorize_symmetric(compact) && !factorize_pressure(compact, schur)) {
     throw std::runtime_error("solve: the pressure matrix is not positive definite");
   }
   of_mass_.clear();

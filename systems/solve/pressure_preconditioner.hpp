@@ -7,8 +7,8 @@
 #include "components/fluid.hpp"
 #include "components/step.hpp"
 #include "systems/solve/cholesky.hpp"
+#include "systems/solve/compact_pressure.hpp"
 #include "systems/solve/envelope_lu.hpp"
-#include "systems/solve/pressure_schur.hpp"
 
 namespace minamo {
 
@@ -25,17 +25,19 @@ template <int Dim>
 class PressurePreconditioner {
  public:
   /// \throws std::runtime_error if the matrix cannot be factorized.
-  void prepare(const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms, double viscous_part);
+  void prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms,
+               double viscous_part);
   /// out = about S^-1 r.
   void solve(const Values& r, Values& out);
 
  private:
   void find_order(const EquationTerms<Dim>& terms);
-  void find_envelope(const PressureSchur<Dim>& schur);
-  bool factorize_envelope(const PressureSchur<Dim>& schur);
-  bool factorize_symmetric(const PressureSchur<Dim>& schur);
-  bool factorize_pressure(const PressureSchur<Dim>& schur);
+  void find_envelope(const CompactPressure<Dim>& compact);
+  bool factorize_envelope(const CompactPressure<Dim>& compact);
+  bool factorize_symmetric(const CompactPressure<Dim>& compact);
+  bool factorize_pressure(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
 
+  std::vector<Index<Dim>> site_;      ///< of the rows
   std::vector<std::uint32_t> order_;  ///< the rows, as the envelope has them
   std::vector<std::uint32_t> place_;  ///< where the envelope has a row
   std::vector<std::uint32_t> first_;

@@ -125,6 +125,19 @@ class BlockEntries {
   std::size_t stride(std::size_t base) const { return blocks_->run(base).length; }
   double* at(std::size_t slot) { return at(slot, slot); }
   const double* at(std::size_t slot) const { return at(slot, slot); }
+  double of(std::size_t row, std::size_t entry) const {
+    const std::size_t slot = blocks_->slot(row);
+    return at(slot)[entry * stride(slot)];
+  }
+  /// Calls body(place in the stencil, row of the neighbour, entry) for the neighbours of a row, whose entries are every
+  /// `step`-th from the first.
+  template <class Body>
+  void for_each_neighbour(std::size_t row, std::size_t first, std::size_t step, const Body& body) const {
+    const std::size_t slot = blocks_->slot(row);
+    const double* entry = at(slot) + first * stride(slot);
+    const std::size_t next = step * stride(slot);
+    blocks_->for_each_neighbour(row, [&](std::size_t k, std::size_t other) { body(k, other, entry[k * next]); });
+  }
 
  private:
   std::size_t place(std::size_t slot, std::size_t base) const {

@@ -61,13 +61,12 @@ void SolveUmfpack<Dim>::operator()(Read<Clock> clock, Read<matrix::Pattern> patt
   *report = solve_monolithic(*factors, *clock, *pattern, values->values, right_hand_side->values, solution->values);
 }
 
-std::vector<double> solve_again(UmfpackFactors& factors, const std::vector<double>& right_hand_side) {
-  std::vector<double> solution(right_hand_side.size());
-  const auto size = static_cast<Eigen::Index>(solution.size());
-  Eigen::Map<Eigen::VectorXd> x(solution.data(), size);
-  x = factors.impl->backend.solve(Eigen::Map<const Eigen::VectorXd>(right_hand_side.data(), size));
-  if (!x.allFinite()) throw std::runtime_error("solve: the second solution of the step is not finite");
-  return solution;
+void solve_again(UmfpackFactors& factors, const std::vector<double>& b, std::vector<double>& x) {
+  x.resize(b.size());
+  const auto size = static_cast<Eigen::Index>(b.size());
+  Eigen::Map<Eigen::VectorXd> solution(x.data(), size);
+  solution = factors.impl->backend.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), size));
+  if (!solution.allFinite()) throw std::runtime_error("solve: the second solution of the step is not finite");
 }
 
 template <int Dim>

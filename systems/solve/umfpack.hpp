@@ -30,9 +30,9 @@ SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const 
                              const std::vector<double>& values, const std::vector<double>& right_hand_side,
                              std::vector<double>& solution);
 
-/// The solution for another right-hand side, by the factors of the last factorization.
+/// Sets x to the solution for another right-hand side b, by the factors of the last factorization.
 /// \throws std::runtime_error if it is not finite.
-std::vector<double> solve_again(UmfpackFactors& factors, const std::vector<double>& right_hand_side);
+void solve_again(UmfpackFactors& factors, const std::vector<double>& b, std::vector<double>& x);
 
 template <int Dim>
 struct SolveUmfpack {

@@ -32,6 +32,25 @@ VelocityBlock<Dim>::VelocityBlock() : factors_(std::make_unique<Factors>()) {}
 template <int Dim>
 VelocityBlock<Dim>::~VelocityBlock() = default;
 
+/// The lower triangle of a row of A for component e; that of a held component is a row of the identity.
+template <int Dim>
+void VelocityBlock<Dim>::add_row(std::size_t r, std::size_t e) {
+  const auto held = [&](std::size_t row, std::size_t d) { return schur_->mobility()[Dim * row + d] == 0; };
+  schur_->blocks().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
+    if (r_j > r) return;
+    for (std::size_t d = 0; d < (r_j == r ? e + 1 : Dim); ++d) {
+      const bool diagonal = r_j == r && d == e;
+      if (held(r, e) || held(r_j, d)) {
+        if (diagonal) factors_->add(Dim * r + e, Dim * r + e, 1);
+        continue;
+      }
+      const double friction = terms_.c_v * terms_.viscosity[r][Dim * (Dim * k + e) + d];
+      const double inertia = diagonal ? terms_.c_a * terms_.m_i[terms_.node[r]] : 0;
+      if (diagonal || friction != 0) factors_->add(Dim * r + e, Dim * r_j + d, inertia + friction);
+    }
+  });
+}
+
 template <int Dim>
 void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchur<Dim>& schur) {
   terms_ = t;
@@ -43,25 +62,7 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
   if (!factorized_) return;
   factors_->start(Dim * t.node.size());
   for (std::size_t r = 0; r < t.node.size(); ++r) {
-    const std::uint32_t i = t.node[r];
-    for (std::size_t e = 0; e < Dim; ++e) {
-      const bool held = t.fixed[i] >> e & 1;
-      schur.blocks().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
-        if (r_j > r) return;
-        const bool own = r_j == r;
-        for (std::size_t d = 0; d < Dim; ++d) {
-          if (own && d > e) continue;
-          const bool diagonal = own && d == e;
-          if (held || (t.fixed[t.node[r_j]] >> d & 1)) {
-            if (diagonal) factors_->add(Dim * r + e, Dim * r_j + d, 1);
-            continue;
-          }
-          const double inertia = diagonal ? t.c_a * t.m_i[i] : 0;
-          const double entry = t.c_v * t.viscosity[r][Dim * (Dim * k + e) + d];
-          if (diagonal || entry != 0) factors_->add(Dim * r + e, Dim * r_j + d, inertia + entry);
-        }
-      });
-    }
+    for (std::size_t e = 0; e < Dim; ++e) add_row(r, e);
   }
   if (!factors_->factorize()) throw std::runtime_error("solve: the velocity block is not positive definite");
 }
@@ -72,12 +73,9 @@ void VelocityBlock<Dim>::solve(Values& v) const {
     for_each_row(v.size(), [&](std::size_t i) { v[i] *= schur_->mobility()[i]; });
     return;
   }
-  const auto hold = [&] {
-    for_each_row(v.size(), [&](std::size_t i) {
-      if (schur_->mobility()[i] == 0) v[i] = 0;
-    });
-  };
-  hold();
+  for_each_row(v.size(), [&](std::size_t i) {
+    if (schur_->mobility()[i] == 0) v[i] = 0;
+  });
   factors_->solve(v);
 }
 

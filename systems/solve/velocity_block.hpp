@@ -28,6 +28,8 @@ class VelocityBlock {
   void find_rest(const Values& u, Values& out) const;
 
  private:
+  void add_row(std::size_t r, std::size_t e);
+
   struct Factors;
   std::unique_ptr<Factors> factors_;
   const PressureSchur<Dim>* schur_ = nullptr;

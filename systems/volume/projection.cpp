@@ -41,15 +41,14 @@ namespace {
 
 /// (0; c_v r E_I), I a node of the step, which no particle may touch any more.
 template <int Dim>
-std::vector<double> volume_source(double scale, std::span<const std::uint32_t> node, std::span<const Index<Dim>> sites,
-                                  const EndSites<Dim>& end_rows, std::span<const double> e_i) {
+void fill_source(double scale, std::span<const std::uint32_t> node, std::span<const Index<Dim>> sites,
+                 const EndSites<Dim>& end_rows, std::span<const double> e_i, std::vector<double>& b) {
   constexpr std::size_t width = unknowns_per_row(Dim);
-  std::vector<double> b(width * node.size(), 0.0);
+  b.assign(width * node.size(), 0.0);
   for (std::size_t r = 0; r < node.size(); ++r) {
     const auto i = end_rows.find(sites[node[r]]);
     b[width * r + width - 1] = scale * (i ? e_i[*i] : 0);
   }
-  return b;
 }
 
 template <int Dim>
@@ -72,9 +71,12 @@ void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rat
                                          Read<matrix::Node> node, Read<node::Site<Dim>> sites,
                                          Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
                                          Read<matrix::Values>,  // the backend refines its solution with them
-                                         Update<UmfpackFactors> factors, Write<node::Shift<Dim>> d_i) const {
-  const auto b = volume_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span());
-  take_shift<Dim>(solve_again(*factors, b), row.span(), d_i.span());
+                                         Update<UmfpackFactors> factors, Update<VolumeEquations> equations,
+                                         Write<node::Shift<Dim>> d_i) const {
+  auto& [b, x] = *equations;
+  fill_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span(), b);
+  solve_again(*factors, b, x);
+  take_shift<Dim>(x, row.span(), d_i.span());
 }
 
 template <int Dim>
@@ -84,9 +86,12 @@ void SolveVolumeBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, 
                                        Read<node::Site<Dim>> sites, Read<matrix::Node> node,
                                        Read<matrix::Divergence<Dim>>, Read<matrix::Stabilization<Dim>>,
                                        Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
-                                       Update<BlockFactors<Dim>> factors, Write<node::Shift<Dim>> d_i) const {
-  const auto b = volume_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span());
-  take_shift<Dim>(solve_again<Dim>(*factors, b, *clock, *grid, shift_tolerance(*tolerance)), row.span(), d_i.span());
+                                       Update<BlockFactors<Dim>> factors, Update<VolumeEquations> equations,
+                                       Write<node::Shift<Dim>> d_i) const {
+  auto& [b, x] = *equations;
+  fill_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span(), b);
+  solve_again<Dim>(*factors, b, *clock, *grid, shift_tolerance(*tolerance), x);
+  take_shift<Dim>(x, row.span(), d_i.span());
 }
 
 template <int Dim>

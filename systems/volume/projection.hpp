@@ -44,7 +44,8 @@ struct SolveVolumeUmfpack {
   static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
   void operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row, Read<matrix::Node> node,
                   Read<node::Site<Dim>> sites, Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
-                  Read<matrix::Values> values, Update<UmfpackFactors> factors, Write<node::Shift<Dim>> d_i) const;
+                  Read<matrix::Values> values, Update<UmfpackFactors> factors, Update<VolumeEquations> equations,
+                  Write<node::Shift<Dim>> d_i) const;
 };
 
 template <int Dim>
@@ -57,7 +58,7 @@ struct SolveVolumeBlock {
                   Read<WetSites<Dim>>, Read<node::Site<Dim>> sites, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>>, Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows,
                   Read<end_node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
-                  Write<node::Shift<Dim>> d_i) const;
+                  Update<VolumeEquations> equations, Write<node::Shift<Dim>> d_i) const;
 };
 
 /// (E38)  x_p += sum_I S_I(x_p) d_I, at most 0.1 h.
