@@ -61,8 +61,9 @@ void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
   }
   std::array<std::size_t, Dim> axes;
   std::iota(axes.begin(), axes.end(), std::size_t{0});
-  std::stable_sort(axes.begin(), axes.end(),
-                   [&](std::size_t a, std::size_t b) { return range[a][1] - range[a][0] > range[b][1] - range[b][0]; });
+  const auto extent = [&](std::size_t axis) { return range[axis][1] - range[axis][0]; };
+  std::sort(axes.begin(), axes.end(),
+            [&](std::size_t a, std::size_t b) { return std::pair(extent(b), a) < std::pair(extent(a), b); });
   order_.resize(t.node.size());
   std::iota(order_.begin(), order_.end(), 0U);
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {

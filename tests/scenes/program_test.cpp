@@ -73,6 +73,15 @@ TEST_CASE("a run writes a history of its start and every step", "[scene]") {
   CHECK(lines[4].starts_with("3,0.003,0.001,"));
 }
 
+TEST_CASE("peak memory is that of the run, however large the program that started it", "[scene]") {
+  const Folder folder;
+  constexpr std::int64_t held = 400'000'000;
+  const std::vector<char> hold(held, 'x');
+  REQUIRE(run_program(dam_break(folder / "out", {"--steps", "1"})).code == 0);
+  CHECK(json_of(folder / "out/summary.json")["peak_memory_bytes"].get<std::int64_t>() < held / 2);
+  CHECK(hold.back() == 'x');
+}
+
 TEST_CASE("a summary has the keys of the interface", "[scene]") {
   const Folder folder;
   REQUIRE(run_program(dam_break(folder / "out", {"--steps", "3"})).code == 0);
