@@ -38,7 +38,6 @@ void fill(World& world) {
   grid.low = Vec<Dim>::Zero();
   grid.high = Vec<Dim>::Ones();
   world.resource<Fluid>() = {.density = 1, .viscosity = 1};
-  world.resize<Nodes>(grid.node_count());
   world.resize<Particles>(per_cell * power(static_cast<std::size_t>(cells), Dim));
   kernels::Random random(1);
   for (Vec<Dim>& y : world.column<particle::Configuration<Dim>>()) y = random.vector<Dim>(0, 1);
@@ -46,9 +45,11 @@ void fill(World& world) {
   for (Mat<Dim>& gradient : world.column<particle::VelocityGradient<Dim>>()) gradient = random.matrix<Dim>(-1, 1);
   for (double& m : world.column<particle::Mass>()) m = 1;
   kernels::run<Bin<Dim>>(world);
+  kernels::run<NumberNodes<Dim>>(world);
   kernels::run<P2GMass<Dim>>(world);
   kernels::run<Activate<Dim>>(world);
   kernels::run<GatherMoments<Dim>>(world);
+  REQUIRE(world.rows<ActiveNodes>() == grid.node_count());
 }
 
 template <int Dim>
