@@ -59,14 +59,11 @@ class Gmres {
       if (report.converged || report.iterations >= most_iterations || !std::isfinite(report.residual)) return report;
       const std::size_t size = cycle(apply, precondition, target, most_iterations, report);
       add_correction(size, x);
-      // After few iterations the estimate that ends a cycle is the residual to rounding. Later it can drift away.
-      if (report.converged && report.iterations <= few_iterations) return report;
     }
   }
 
  private:
   static constexpr std::size_t restart = 50;
-  static constexpr std::int64_t few_iterations = 15;
 
   void resize(std::size_t rows) {
     if (product_.size() == rows) return;
