@@ -91,6 +91,15 @@ class WideStencil {
   std::array<std::array<std::optional<typename SiteRows<Dim>::Address>, 9>, Dim> part_;  ///< none outside the grid
 };
 
+/// Whether the wide stencil does not meet itself around a short periodic axis.
+template <int Dim>
+bool wide_stencil_fits(const Grid<Dim>& grid) {
+  for (int d = 0; d < Dim; ++d) {
+    if (grid.periodic[static_cast<std::size_t>(d)] && grid.nodes(d) < 9) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 /// Adds c_v N (c_a m)^-1 D^T to the rows of a block, J at its place in a stencil of (2 Reach + 1)^d.
@@ -174,10 +183,11 @@ template <int Dim>
 void CompactPressure<Dim>::fill_rows(const From& from, const Fluid& fluid) {
   const EquationTerms<Dim>& t = from.terms;
   const RowBlocks<Dim>& blocks = from.schur.blocks();
+  const bool may_be_whole = wide_stencil_fits(from.grid);
   per_mass_.assign(Dim * blocks.slots(), 0.0);
   for_each_row(blocks.rows(), [&](std::size_t r) {
     const std::uint32_t i = t.node[r];
-    thin_[r] = t.m_i[i] < full * fluid.density * full_volume<Dim>(from.grid, t.site[i]);
+    thin_[r] = may_be_whole && t.m_i[i] < full * fluid.density * full_volume<Dim>(from.grid, t.site[i]);
     beyond_[r].clear();
     for (std::size_t d = 0; d < Dim; ++d) {
       const bool held = t.fixed[i] >> d & 1;

@@ -156,6 +156,21 @@ TEST_CASE("a closed full box has no pressure of its own and the block solver sti
   CHECK(run.world().resource<SolveReport>().iterations < 30);
 }
 
+TEST_CASE("the block solver gives the steps of UMFPACK around a short periodic axis", "[property]") {
+  const int cells = GENERATE(5, 8, 9);
+  CAPTURE(cells);
+  Json scene = lump_and_drop<2>(3.0);
+  scene["walls"] = {{"x", "periodic"}, {"y", "slip"}};
+  scene["grid"] = {{"low", {0, 0}}, {"high", {0.1 * cells, 0.8}}, {"cells", {cells, 8}}};
+  scene["particles"][0]["shape"]["box"]["high"][0] = 0.3;
+  scene["particles"].erase(1);
+  SceneRun block(with(scene, {R"(/solver={"scheme": "block", "tolerance": 1e-11})"}));
+  SceneRun umfpack(with(scene, {R"(/solver={"scheme": "umfpack"})"}));
+  block.step(3);
+  umfpack.step(3);
+  CHECK(distance<2>(block, umfpack) < 1e-7);
+}
+
 TEST_CASE("the block solver takes few iterations, whatever the resolution", "[property]") {
   const int cells = GENERATE(20, 40, 80);
   CAPTURE(cells);
