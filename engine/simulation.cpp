@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <new>
+#include <sstream>
 
 namespace minamo {
 
@@ -10,69 +13,191 @@ namespace {
 /// Multiples of an interval, met one after the other.
 class Recurrence {
  public:
-  explicit Recurrence(std::optional<double> interval) : interval_(interval) {}
+  /// The first is the one after `time`, where a step of that length ended.
+  Recurrence(std::optional<double> interval, double time, double step) : interval_(interval) { due(time, step); }
   /// Whether the next time is reached; if so it moves on.
   bool due(double time, double step) {
-    if (!interval_ || time < next() - tolerance(step)) return false;
-    while (next() <= time + tolerance(step)) ++count_;
+    // Times add up rounding; a thousandth of a step is far above that and far below a step.
+    const double reached = time + 1e-3 * step;
+    if (!interval_ || reached < next()) return false;
+    multiple_ = std::floor(reached / *interval_) + 1;
     return true;
   }
-  double next() const { return static_cast<double>(count_) * *interval_; }
+  double next() const { return multiple_ * *interval_; }
 
  private:
-  // Times add up rounding; a thousandth of a step is far above that and far below a step.
-  static double tolerance(double step) { return 1e-3 * step; }
   std::optional<double> interval_;
-  std::int64_t count_ = 1;
+  double multiple_ = 1;
 };
 
-/// Sets the length and the end of the next step.
-void plan_step(const TimePlan& plan, double next_frame, World& world, Clock& clock) {
-  const double wanted = plan.step ? *plan.step : plan.choose_step(world);
-  double target = clock.time + wanted;
-  // Multiples of the step carry no sum of rounding errors.
-  if (plan.step) target = static_cast<double>(clock.index + 1) * *plan.step;
-  if (!plan.step) target = std::min(target, std::max(next_frame, clock.time + 1e-3 * wanted));
-  if (target > plan.end - 1e-6 * wanted) target = plan.end;
-  clock.step = plan.step && target != plan.end ? wanted : target - clock.time;
-  clock.end_of_step = target;
+/// Lengths of steps, and where they end.
+class Stepper {
+ public:
+  Stepper(const TimePlan& plan, World& world)
+      : plan_(plan), world_(world), clock_(world.resource<Clock>()), control_(world.resource<StepControl>()) {}
+
+  double wanted() const { return plan_.step ? *plan_.step : plan_.choose_step(world_); }
+
+  /// Sets the length and the end of the next attempt.
+  void plan(double next_frame) {
+    const double uncut = wanted();
+    const double step = uncut * control_.share();
+    double target = plan_.step ? next_tick(uncut) : clock_.time + step;
+    if (!plan_.step) target = std::min(target, std::max(next_frame, clock_.time + 1e-3 * step));
+    // The last step may be shorter than its ticks.
+    ticks_ = plan_.step && target < plan_.end + 1e-6 * step ? control_.ticks_ahead() : 0;
+    if (target > plan_.end - 1e-6 * step) target = plan_.end;
+    // Where an earlier run ended between two ticks, the first step of a continuation leads back to them.
+    const bool is_whole = plan_.step && std::abs(target - clock_.time - step) < 1e-6 * step;
+    clock_.step = is_whole ? step : target - clock_.time;
+    clock_.end_of_step = target;
+  }
+  void accept() {
+    clock_.time = clock_.end_of_step;
+    ++clock_.index;
+    control_.accept(ticks_);
+  }
+
+ private:
+  double next_tick(double uncut) const {
+    const double tick = uncut / static_cast<double>(StepControl::ticks_per_step);
+    return static_cast<double>(control_.ticks + control_.ticks_ahead()) * tick;
+  }
+
+  const TimePlan& plan_;
+  World& world_;
+  Clock& clock_;
+  StepControl& control_;
+  std::int64_t ticks_ = 0;  ///< of the attempt
+};
+
+std::string shown(double seconds) {
+  std::ostringstream text;
+  text << std::setprecision(6) << seconds;
+  return text.str();
+}
+
+/// The loop of run_simulation().
+class Loop {
+ public:
+  Loop(World& world, Schedule& step, Schedule& frame, const TimePlan& plan, const Observers& observers)
+      : world_(world),
+        step_(step),
+        frame_(frame),
+        plan_(plan),
+        observers_(observers),
+        clock_(world.resource<Clock>()),
+        stepper_(plan, world) {}
+
+  void start(Schedule& start) {
+    clock_.step = stepper_.wanted();
+    start.run();
+    frame_.run();
+  }
+
+  /// \return how the run ended
+  Ending run(const std::atomic<bool>& stop) {
+    Recurrence frames(plan_.frame_every, clock_.time, clock_.step);
+    Recurrence checkpoints(plan_.checkpoint_every, clock_.time, clock_.step);
+    while (!is_over()) {
+      take_step(frames.next());
+      if (observers_.after_step) observers_.after_step(clock_);
+      const bool has_frame = frames.due(clock_.time, clock_.step);
+      if (has_frame) take_frame();
+      if (checkpoints.due(clock_.time, clock_.step) || is_over() || stop) checkpoint();
+      if (is_over() && !has_frame) frame_.run();
+      if (stop && !is_over()) return Ending::interrupted;
+    }
+    return Ending::done;
+  }
+
+  void checkpoint() const {
+    if (observers_.write_checkpoint) observers_.write_checkpoint();
+  }
+
+ private:
+  bool is_over() const { return clock_.time >= plan_.end || (plan_.max_steps && clock_.index >= *plan_.max_steps); }
+
+  /// One accepted step, after as many attempts as it takes.
+  void take_step(double next_frame) {
+    for (;;) {
+      stepper_.plan(next_frame);
+      world_.mark();
+      try {
+        step_.run();
+        stepper_.accept();
+        return;
+      } catch (const StepRejected& rejected) {
+        world_.roll_back();
+        retry(rejected);
+      } catch (...) {
+        world_.roll_back();
+        throw;
+      }
+    }
+  }
+
+  void retry(const StepRejected& rejected) {
+    if (!world_.resource<StepControl>().reject()) {
+      throw std::runtime_error(std::string(rejected.what()) + " (step " + std::to_string(clock_.index + 1) +
+                               ", t = " + shown(clock_.time) +
+                               " s, not even with the shortest dt = " + shown(clock_.step) + " s)");
+    }
+    if (observers_.after_rejection) observers_.after_rejection(clock_, rejected.what());
+  }
+
+  /// A step whose frame cannot be written has not been taken: a continuation makes both again.
+  void take_frame() {
+    try {
+      frame_.run();
+    } catch (...) {
+      world_.roll_back();
+      throw;
+    }
+  }
+
+  World& world_;
+  Schedule& step_;
+  Schedule& frame_;
+  const TimePlan& plan_;
+  const Observers& observers_;
+  Clock& clock_;
+  Stepper stepper_;
+};
+
+/// What went wrong, also where there is no memory left to say much.
+std::string message_of(const std::exception& failure) {
+  if (dynamic_cast<const std::bad_alloc*>(&failure)) return "out of memory";
+  return failure.what();
+}
+
+/// Leaves a checkpoint of a run that has failed. \return the message, with what goes wrong now
+std::string last_words(const Loop& loop, std::string message) {
+  try {
+    loop.checkpoint();
+  } catch (const std::exception& failure) {
+    // The same disk may be full again.
+    if (message != message_of(failure)) message += "\n" + message_of(failure);
+  }
+  return message;
 }
 
 }  // namespace
 
 Outcome run_simulation(World& world, Schedule& start, Schedule& step, Schedule& frame, const TimePlan& plan,
-                       const Observers& observers, const std::atomic<bool>& stop) {
-  Clock& clock = world.resource<Clock>();
-  Recurrence frames(plan.frame_every);
-  Recurrence checkpoints(plan.checkpoint_every);
-  const auto checkpoint = [&] {
-    if (observers.write_checkpoint) observers.write_checkpoint();
-  };
-  bool started = false;
+                       const Observers& observers, const std::atomic<bool>& stop, Beginning beginning) {
+  Loop loop(world, step, frame, plan, observers);
   try {
-    clock.step = plan.step ? *plan.step : plan.choose_step(world);
-    start.run();
-    frame.run();
-    started = true;
-    while (clock.time < plan.end && (!plan.max_steps || clock.index < *plan.max_steps)) {
-      plan_step(plan, frames.next(), world, clock);
-      step.run();
-      clock.time = clock.end_of_step;
-      ++clock.index;
-      if (observers.after_step) observers.after_step(clock);
-      const bool last = clock.time >= plan.end || (plan.max_steps && clock.index >= *plan.max_steps);
-      if (frames.due(clock.time, clock.step) || last) frame.run();
-      if (checkpoints.due(clock.time, clock.step)) checkpoint();
-      if (stop && !last) {
-        checkpoint();
-        return {Ending::interrupted, {}};
-      }
-    }
+    if (beginning == Beginning::start) loop.start(start);
   } catch (const std::exception& failure) {
-    if (started) checkpoint();
-    return {Ending::failed, failure.what()};
+    return {Ending::failed, message_of(failure)};
   }
-  return {Ending::done, {}};
+  try {
+    if (beginning == Beginning::start) loop.checkpoint();
+    return {loop.run(stop), {}};
+  } catch (const std::exception& failure) {
+    return {Ending::failed, last_words(loop, message_of(failure))};
+  }
 }
 
 }  // namespace minamo

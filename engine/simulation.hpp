@@ -4,6 +4,7 @@
 
 #include "engine/clock.hpp"
 #include "engine/schedule.hpp"
+#include "engine/step_control.hpp"
 
 #include <atomic>
 #include <functional>
@@ -19,12 +20,14 @@ struct TimePlan {
   std::function<double(World&)> choose_step;  ///< length of the next step, where it is not fixed [s]
   double frame_every = 0;                     ///< [s]
   std::optional<double> checkpoint_every;     ///< [s]
-  std::optional<std::int64_t> max_steps;
+  std::optional<std::int64_t> max_steps;      ///< of the whole run
 };
 
 /// What the loop calls; each may be empty.
 struct Observers {
   std::function<void(const Clock&)> after_step;
+  /// An attempt was not accepted, and another follows. The clock is that of the attempt.
+  std::function<void(const Clock&, const std::string& why)> after_rejection;
   std::function<void()> write_checkpoint;
 };
 
@@ -35,11 +38,21 @@ struct Outcome {
   std::string message;  ///< of the failure
 };
 
+/// How a run begins.
+enum class Beginning {
+  start,         ///< with the schedule `start` and a frame
+  continuation,  ///< with the state that is in the world, which a checkpoint has left
+};
+
 /// Runs `start` and a frame once, then steps up to the end. Frames and checkpoints fall on the first step that reaches
-/// their time. A fixed step is shortened only to end on `plan.end`; a chosen one also to meet frames.
-/// A step that throws ends the run as `failed`; a set `stop` ends it as `interrupted` after the step. Both leave a
-/// checkpoint.
+/// their time; a checkpoint is written after the start and at the end, too. A frame that shows the end out of turn
+/// comes after that checkpoint, so that a longer run does not have it. A fixed step is shortened only to end on
+/// `plan.end`; a chosen one also to meet frames. An attempt at a step that throws StepRejected is taken back and made
+/// again at half the length (StepControl). If the shortest is rejected, too, or something else is thrown, the run ends
+/// as `failed`; a set `stop` ends it as `interrupted` after the step. Both leave a checkpoint of the last accepted
+/// state.
 Outcome run_simulation(World& world, Schedule& start, Schedule& step, Schedule& frame, const TimePlan& plan,
-                       const Observers& observers, const std::atomic<bool>& stop);
+                       const Observers& observers, const std::atomic<bool>& stop,
+                       Beginning beginning = Beginning::start);
 
 }  // namespace minamo

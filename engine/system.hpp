@@ -40,7 +40,10 @@ constexpr Access access_to(Mode mode) {
 template <class C, class Value, Mode mode>
 class ColumnView {
  public:
-  explicit ColumnView(World& world) : storage_(&world.storage<C>()) {}
+  explicit ColumnView(World& world) : storage_(&world.storage<C>()) {
+    if constexpr (mode == Mode::write) storage_->keep(Old::unread);
+    if constexpr (mode == Mode::update) storage_->keep(Old::needed);
+  }
   static constexpr Access access() { return access_to<C>(mode); }
   Value& operator[](std::size_t row) const { return storage_->values()[row]; }
   std::size_t size() const { return storage_->rows(); }

@@ -50,4 +50,23 @@ void World::renumber(std::string_view table, std::span<const std::optional<std::
   }
 }
 
+void World::mark() {
+  marked_rows_ = rows_;
+  for (const auto& storage : by_id_) {
+    if (storage && storage->info().lifetime == Lifetime::state) storage->mark();
+  }
+}
+
+void World::roll_back() {
+  for (const auto& storage : by_id_) {
+    if (!storage) continue;
+    if (storage->info().lifetime == Lifetime::state) {
+      storage->roll_back();
+    } else if (!storage->table().empty()) {
+      storage->resize(marked_rows_.at(std::string(storage->table())));
+    }
+  }
+  rows_ = marked_rows_;
+}
+
 }  // namespace minamo

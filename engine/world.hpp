@@ -32,6 +32,9 @@ class Storage {
   virtual void reorder(std::span<const std::uint32_t> order) = 0;
   /// Row k becomes what row `from[k]` was, or zero if there is none.
   virtual void renumber(std::span<const std::optional<std::uint32_t>> from) = 0;
+  /// The next change keeps what was there before it, for roll_back().
+  virtual void mark() = 0;
+  virtual void roll_back() = 0;
   virtual std::size_t rows() const = 0;  ///< 1 for a resource
   virtual const std::type_info& value_type() const = 0;
   virtual std::size_t value_bytes() const = 0;        ///< 0 if the value is not trivially copyable
@@ -72,7 +75,20 @@ std::span<std::byte> bytes_of(std::span<T> values) {
   }
 }
 
+/// Whether a change keeps what was there before it.
+enum class Keeping {
+  off,
+  due,   ///< the next change does
+  done,  ///< one has
+};
+
 }  // namespace detail
+
+/// What a writer of all values may do with the old ones.
+enum class Old {
+  needed,
+  unread,
+};
 
 template <ColumnComponent C>
 class ColumnStorage final : public Storage {
@@ -80,16 +96,35 @@ class ColumnStorage final : public Storage {
   using T = typename C::value_type;
   ColumnStorage() : Storage(C::info, C::table::name) {}
   std::span<T> values() { return values_; }
-  void resize(std::size_t rows) override { values_.resize(rows, zero<T>()); }
+  void resize(std::size_t rows) override {
+    keep(Old::needed);
+    values_.resize(rows, zero<T>());
+  }
   void reorder(std::span<const std::uint32_t> order) override {
     spare_.resize(order.size(), zero<T>());
     for (std::size_t k = 0; k < order.size(); ++k) spare_[k] = values_[order[k]];
-    values_.swap(spare_);
+    take_spare();
   }
   void renumber(std::span<const std::optional<std::uint32_t>> from) override {
     spare_.resize(from.size(), zero<T>());
     for (std::size_t k = 0; k < from.size(); ++k) spare_[k] = from[k] ? values_[*from[k]] : zero<T>();
-    values_.swap(spare_);
+    take_spare();
+  }
+  void mark() override { keeping_ = detail::Keeping::due; }
+  /// To be called before a change. Where all values are written anew, the old ones are set aside instead of copied.
+  void keep(Old old) {
+    if (keeping_ != detail::Keeping::due) return;
+    keeping_ = detail::Keeping::done;
+    if (old == Old::needed) {
+      kept_ = values_;
+    } else {
+      kept_.swap(values_);
+      values_.resize(kept_.size(), zero<T>());
+    }
+  }
+  void roll_back() override {
+    if (keeping_ == detail::Keeping::done) values_.swap(kept_);
+    keeping_ = detail::Keeping::off;
   }
   std::size_t rows() const override { return values_.size(); }
   const std::type_info& value_type() const override { return typeid(T); }
@@ -98,8 +133,18 @@ class ColumnStorage final : public Storage {
   std::size_t doubles_per_value() const override { return detail::doubles_in<T>(); }
 
  private:
+  /// The rows in spare_ become the values; the old ones are kept if that is due, which costs nothing.
+  void take_spare() {
+    values_.swap(spare_);
+    if (keeping_ != detail::Keeping::due) return;
+    spare_.swap(kept_);
+    keeping_ = detail::Keeping::done;
+  }
+
   std::vector<T> values_;
-  std::vector<T> spare_;  // the second buffer of the two above, kept so that a step does not allocate
+  std::vector<T> spare_;  // the other buffer of reorder and renumber, there so that a step does not allocate
+  std::vector<T> kept_;   // from before the first change since mark()
+  detail::Keeping keeping_ = detail::Keeping::off;
 };
 
 template <ResourceComponent C>
@@ -110,6 +155,12 @@ class ResourceStorage final : public Storage {
   void resize(std::size_t) override {}
   void reorder(std::span<const std::uint32_t>) override {}
   void renumber(std::span<const std::optional<std::uint32_t>>) override {}
+  void mark() override {
+    if constexpr (is_state) kept_ = value_;
+  }
+  void roll_back() override {
+    if constexpr (is_state) value_ = kept_;
+  }
   std::size_t rows() const override { return 1; }
   const std::type_info& value_type() const override { return typeid(C); }
   std::size_t value_bytes() const override { return detail::bytes_are_value<C> ? sizeof(C) : 0; }
@@ -117,7 +168,10 @@ class ResourceStorage final : public Storage {
   std::size_t doubles_per_value() const override { return 0; }
 
  private:
+  static constexpr bool is_state = C::info.lifetime == Lifetime::state;
+  struct Nothing {};
   C value_{};
+  std::conditional_t<is_state, C, Nothing> kept_{};
 };
 
 /// The data of one run. Components come into being on first use, filled with zeros.
@@ -163,6 +217,7 @@ class World {
   void resize(std::size_t rows) {
     resize(Table::name, rows);
   }
+  void resize(std::string_view table, std::size_t rows);
 
   /// Row k of every column of the table that outlives a step becomes what row `order[k]` was.
   /// Scratch columns are left as they are: they mean nothing after a structural change.
@@ -178,6 +233,12 @@ class World {
     renumber(Table::name, from);
   }
 
+  /// From here on a change can be taken back by roll_back(): of the components whose lifetime is `state`, and of the
+  /// rows of their tables. What a system does not change is not copied.
+  void mark();
+  /// State is as it was at mark(); scratch means nothing.
+  void roll_back();
+
   /// All stored components by name.
   const std::map<std::string, Storage*, std::less<>>& components() const { return by_name_; }
 
@@ -189,13 +250,13 @@ class World {
     return static_cast<StorageType&>(*by_id_[id]);
   }
   void insert(std::size_t id, std::unique_ptr<Storage> storage);
-  void resize(std::string_view table, std::size_t rows);
   void reorder(std::string_view table, std::span<const std::uint32_t> order);
   void renumber(std::string_view table, std::span<const std::optional<std::uint32_t>> from);
 
   std::vector<std::unique_ptr<Storage>> by_id_;
   std::map<std::string, Storage*, std::less<>> by_name_;
   std::map<std::string, std::size_t, std::less<>> rows_;
+  std::map<std::string, std::size_t, std::less<>> marked_rows_;
 };
 
 }  // namespace minamo

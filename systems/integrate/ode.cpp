@@ -1,5 +1,7 @@
 #include "systems/integrate/ode.hpp"
 
+#include "engine/step_control.hpp"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -63,8 +65,8 @@ bool agree(const Values& a, const Values& b, const Values& scale) {
 void require_finite(const ode::Equations& equations, const Instant& instant) {
   for (std::size_t k = 0; k < instant.ode_count; ++k) {
     if (std::isfinite(instant.ode[k])) continue;
-    throw std::runtime_error(fmt::format("ode variable {} is {} at t = {:.6g} s; its rate is {}", equations.name[k],
-                                         instant.ode[k], instant.time, equations.rate[k].text()));
+    throw StepRejected(fmt::format("ode variable {} is {} at t = {:.6g} s; its rate is {}", equations.name[k],
+                                   instant.ode[k], instant.time, equations.rate[k].text()));
   }
 }
 

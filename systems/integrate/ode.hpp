@@ -14,7 +14,7 @@ namespace minamo {
 Instant advance(std::span<const Expression> rate, const Instant& from, double to);
 
 /// (E40)  from the start of the step to the instant of the balances, and on to the end of the step.
-/// \throws std::runtime_error, with its name, if a variable becomes infinite or NaN.
+/// \throws StepRejected, with its name, if a variable becomes infinite or NaN.
 template <int Dim>
 struct IntegrateOde {
   static constexpr std::string_view doc = "(E40) the ode variables of the scene";

@@ -1,5 +1,7 @@
 #include "systems/solve/pressure_preconditioner.hpp"
 
+#include "engine/step_control.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -139,7 +141,7 @@ void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, c
   narrow_ = EnvelopeLu::cost(first_) < widest && factorize_envelope(compact);
   // The symmetric part can be indefinite in spray.
   if (!narrow_ && !factorize_symmetric(compact) && !factorize_pressure(compact, schur)) {
-    throw std::runtime_error("solve: the pressure matrix is not positive definite");
+    throw StepRejected("solve: the pressure matrix is not positive definite");
   }
   of_mass_.clear();
   if (viscous_part == 0) return;

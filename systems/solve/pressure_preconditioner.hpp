@@ -24,7 +24,7 @@ double viscous_part(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, cons
 template <int Dim>
 class PressurePreconditioner {
  public:
-  /// \throws std::runtime_error if the matrix cannot be factorized.
+  /// \throws StepRejected if the matrix cannot be factorized.
   void prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms,
                double viscous_part);
   /// out = about S^-1 r.

@@ -1,6 +1,7 @@
 #include "systems/solve/umfpack.hpp"
 
 #include "engine/parallel.hpp"
+#include "engine/step_control.hpp"
 
 #include <Eigen/UmfPackSupport>
 
@@ -42,13 +43,13 @@ SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const 
   }
   backend.factorize(matrix);
   if (backend.info() != Eigen::Success) {
-    throw std::runtime_error("solve: UMFPACK finds the matrix singular " + place(clock, right_hand_side.size()));
+    throw StepRejected("solve: UMFPACK finds the matrix singular " + place(clock, right_hand_side.size()));
   }
   solution.resize(right_hand_side.size());
   Eigen::Map<Eigen::VectorXd> x(solution.data(), size);
   x = backend.solve(b);
   if (!x.allFinite()) {
-    throw std::runtime_error("solve: the solution is not finite " + place(clock, right_hand_side.size()));
+    throw StepRejected("solve: the solution is not finite " + place(clock, right_hand_side.size()));
   }
   const double norm = b.norm();
   return {.unknowns = size, .iterations = 0, .residual = norm > 0 ? (b - matrix * x).norm() / norm : 0};
@@ -66,7 +67,7 @@ void solve_again(UmfpackFactors& factors, const std::vector<double>& b, std::vec
   const auto size = static_cast<Eigen::Index>(b.size());
   Eigen::Map<Eigen::VectorXd> solution(x.data(), size);
   solution = factors.impl->backend.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), size));
-  if (!solution.allFinite()) throw std::runtime_error("solve: the second solution of the step is not finite");
+  if (!solution.allFinite()) throw StepRejected("solve: the second solution of the step is not finite");
 }
 
 template <int Dim>

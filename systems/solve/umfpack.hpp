@@ -25,19 +25,19 @@ struct UmfpackFactors {
 };
 
 /// Factorizes the monolithic matrix and solves.
-/// \throws std::runtime_error if the matrix is singular or the solution is not finite, with step, time and size.
+/// \throws StepRejected if the matrix is singular or the solution is not finite, with step, time and size.
 SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const matrix::Pattern& pattern,
                              const std::vector<double>& values, const std::vector<double>& right_hand_side,
                              std::vector<double>& solution);
 
 /// Sets x to the solution for another right-hand side b, by the factors of the last factorization.
-/// \throws std::runtime_error if it is not finite.
+/// \throws StepRejected if it is not finite.
 void solve_again(UmfpackFactors& factors, const std::vector<double>& b, std::vector<double>& x);
 
 template <int Dim>
 struct SolveUmfpack {
   static constexpr std::string_view doc = "solve the monolithic system by UMFPACK";
-  /// \throws std::runtime_error if the matrix is singular or the solution is not finite, with step, time and size.
+  /// \throws StepRejected if the matrix is singular or the solution is not finite, with step, time and size.
   void operator()(Read<Clock> clock, Read<matrix::Pattern> pattern, Read<matrix::Values> values,
                   Read<matrix::RightHandSide> right_hand_side, Update<UmfpackFactors> factors,
                   Write<matrix::Solution> solution, Write<SolveReport> report) const;

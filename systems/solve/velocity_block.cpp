@@ -1,5 +1,6 @@
 #include "systems/solve/velocity_block.hpp"
 
+#include "engine/step_control.hpp"
 #include "systems/solve/cholesky.hpp"
 
 namespace minamo {
@@ -64,7 +65,7 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
   for (std::size_t r = 0; r < t.node.size(); ++r) {
     for (std::size_t e = 0; e < Dim; ++e) add_row(r, e);
   }
-  if (!factors_->factorize()) throw std::runtime_error("solve: the velocity block is not positive definite");
+  if (!factors_->factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
 template <int Dim>

@@ -15,7 +15,7 @@ class VelocityBlock {
   VelocityBlock();
   ~VelocityBlock();
   /// \param schur  assembled from the same terms; its blocks and mobility are kept by reference
-  /// \throws std::runtime_error if the factorization fails.
+  /// \throws StepRejected if the factorization fails.
   void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur);
   /// How much of a vector about is left of v - A solve(v): 0 if solve() is the inverse, else it divides by the
   /// diagonal.

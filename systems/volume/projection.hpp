@@ -52,7 +52,7 @@ template <int Dim>
 struct SolveVolumeBlock {
   static constexpr std::string_view doc = "(E37) d_I, by the operators of the step";
   /// The viscous matrix, where a scene has one, is looked at too; no system writes it after the solve.
-  /// \throws std::runtime_error as SolveBlock.
+  /// \throws StepRejected as SolveBlock.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed>, Read<node::Mass>,
                   Read<WetSites<Dim>>, Read<node::Site<Dim>> sites, Read<matrix::Node> node,

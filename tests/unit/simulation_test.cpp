@@ -14,17 +14,29 @@ struct Log {
   std::vector<double> steps;
   std::vector<double> frames;  ///< times
   int starts = 0;
-  double fail_from = 1e9;  ///< time of the step that throws
   static constexpr ComponentInfo info{"log", "", "1", Lifetime::state};
 };
+/// What goes wrong, and when.
+struct Faults {
+  double fail_from = 1e9;        ///< time of the step that throws
+  double fail_frame_from = 1e9;  ///< time of the frame that throws
+  double longest = 1e9;          ///< longer steps are rejected ...
+  double between[2] = {0, 1e9};  ///< ... in this time
+  static constexpr ComponentInfo info{"faults", "", "1", Lifetime::constant};
+};
 struct Step {
-  void operator()(Read<Clock> clock, Update<Log> log) const {
-    if (clock->time >= log->fail_from) throw std::runtime_error("no");
+  void operator()(Read<Clock> clock, Read<Faults> faults, Update<Log> log) const {
     log->steps.push_back(clock->step);
+    if (clock->time >= faults->fail_from) throw std::runtime_error("no");
+    const bool in_time = clock->time >= faults->between[0] && clock->time < faults->between[1];
+    if (in_time && clock->step > faults->longest) throw StepRejected("too long");
   }
 };
 struct Frame {
-  void operator()(Read<Clock> clock, Update<Log> log) const { log->frames.push_back(clock->time); }
+  void operator()(Read<Clock> clock, Read<Faults> faults, Update<Log> log) const {
+    if (clock->time >= faults->fail_frame_from) throw std::runtime_error("no room");
+    log->frames.push_back(clock->time);
+  }
 };
 struct Start {
   void operator()(Update<Log> log) const { ++log->starts; }
@@ -36,14 +48,20 @@ struct Run {
   Schedule start{{make_system<Start>("start")}, world};
   Schedule step{{make_system<Step>("step")}, world};
   Schedule frame{{make_system<Frame>("frame")}, world};
-  int checkpoints = 0;
+  std::vector<double> checkpoints;  ///< times
+  std::vector<std::string> rejections;
   std::atomic<bool> stop = false;
 
-  Outcome operator()(const TimePlan& plan) {
+  Outcome operator()(const TimePlan& plan, Beginning beginning = Beginning::start) {
     return run_simulation(world, start, step, frame, plan,
-                          {.after_step = {}, .write_checkpoint = [&] { ++checkpoints; }}, stop);
+                          {.after_step = {},
+                           .after_rejection = [&](const Clock&, const std::string& why) { rejections.push_back(why); },
+                           .write_checkpoint = [&] { checkpoints.push_back(clock().time); }},
+                          stop, beginning);
   }
   const Clock& clock() { return world.resource<Clock>(); }
+  const StepControl& control() { return world.resource<StepControl>(); }
+  Faults& faults() { return world.resource<Faults>(); }
   Log& log() { return world.resource<Log>(); }
 };
 
@@ -122,12 +140,17 @@ TEST_CASE("a run of no steps has its start and a frame", "[unit]") {
   CHECK(run.log().frames == std::vector<double>{0});
 }
 
-TEST_CASE("checkpoints are written at their interval", "[unit]") {
+TEST_CASE("checkpoints are written at the start, at their interval and at the end", "[unit]") {
   Run run;
   TimePlan plan = fixed(1.0, 0.01, 1);
-  plan.checkpoint_every = 0.2;
+  plan.checkpoint_every = 0.3;
   run(plan);
-  CHECK(run.checkpoints == 5);
+  // Times are multiples of the step, one rounding each.
+  REQUIRE(run.checkpoints.size() == 5);
+  CHECK(run.checkpoints[0] == 0);
+  CHECK(run.checkpoints[1] == Approx(0.3).epsilon(1e-15));
+  CHECK(run.checkpoints[3] == Approx(0.9).epsilon(1e-15));
+  CHECK(run.checkpoints[4] == 1);
 }
 
 TEST_CASE("an interrupted run ends after the step, with a checkpoint", "[unit]") {
@@ -135,18 +158,94 @@ TEST_CASE("an interrupted run ends after the step, with a checkpoint", "[unit]")
   run.stop = true;
   CHECK(run(fixed(1.0, 0.01, 1)).ending == Ending::interrupted);
   CHECK(run.clock().index == 1);
-  CHECK(run.checkpoints == 1);
+  CHECK(run.checkpoints == std::vector<double>{0, 0.01});
 }
 
 TEST_CASE("a run whose step throws ends as failed, with its message and a checkpoint of the time before", "[unit]") {
   Run run;
-  run.log().fail_from = 0.495;
+  run.faults().fail_from = 0.495;
   const Outcome outcome = run(fixed(1.0, 0.01, 1));
   CHECK(outcome.ending == Ending::failed);
   CHECK_THAT(outcome.message, Catch::Contains("no"));
   CHECK(run.clock().index == 50);
   CHECK(run.clock().time == 0.5);
-  CHECK(run.checkpoints == 1);
+  CHECK(run.checkpoints == std::vector<double>{0, 0.5});
+  CHECK(run.log().steps.size() == 50);  // the state is that of the last accepted step
+}
+
+TEST_CASE("a rejected step is taken back and made in halves that meet the times of whole steps again", "[unit]") {
+  Run run;
+  run.faults() = {.longest = 0.03, .between = {0.3, 0.35}};
+  CHECK(run(fixed(1.0, 0.1, 0.5)).ending == Ending::done);
+  // 0.1 and 0.05 are rejected at 0.3; four steps of 0.025, then four of 0.05 after which 0.1 is wanted again.
+  const std::vector<double> steps{0.1, 0.1, 0.1, 0.025, 0.025, 0.025, 0.025, 0.05, 0.05, 0.05, 0.05, 0.1, 0.1, 0.1};
+  REQUIRE(run.log().steps.size() == steps.size() + 1);
+  CHECK(run.log().steps.back() == Approx(0.1).epsilon(1e-14));  // 1 - 0.9, a rounding
+  run.log().steps.pop_back();
+  CHECK(run.log().steps == steps);
+  CHECK(run.rejections == std::vector<std::string>{"too long", "too long"});
+  CHECK(run.control().rejected == 2);
+  CHECK(run.clock().time == 1.0);
+  CHECK(run.log().frames.size() == 3);
+  CHECK(run.log().frames[1] == 0.5);
+}
+
+TEST_CASE("a chosen step is halved and doubled like a fixed one", "[unit]") {
+  Run run;
+  run.faults() = {.longest = 0.03, .between = {0.25, 0.3}};
+  CHECK(run(chosen(0.5, 0.0625, 10)).ending == Ending::done);
+  REQUIRE(run.log().steps.size() == 13);  // 4 x 1/16, 4 x 1/64, 4 x 1/32, and what is left
+  CHECK(run.log().steps[4] == 0.015625);
+  CHECK(run.log().steps[8] == 0.03125);
+  CHECK(run.clock().time == 0.5);
+}
+
+TEST_CASE("a step that is rejected at its shortest ends the run with the last accepted state", "[unit]") {
+  Run run;
+  run.faults() = {.longest = 0, .between = {0.5, 1}};
+  const Outcome outcome = run(fixed(1.0, 0.1, 1));
+  CHECK(outcome.ending == Ending::failed);
+  CHECK_THAT(outcome.message, Catch::Contains("too long") && Catch::Contains("shortest"));
+  CHECK(run.clock().time == 0.5);
+  CHECK(run.control().rejected == 1 + StepControl::most_halvings);
+  CHECK(run.log().steps.size() == 5);
+  CHECK(run.checkpoints.back() == 0.5);
+}
+
+TEST_CASE("a step whose frame cannot be written is not taken", "[unit]") {
+  Run run;
+  run.faults().fail_frame_from = 0.45;
+  const Outcome outcome = run(fixed(1.0, 0.1, 0.2));
+  CHECK(outcome.message == "no room");
+  CHECK(run.clock().index == 5);
+  CHECK(run.log().steps.size() == 5);
+  CHECK(run.log().frames.size() == 3);  // 0, 0.2, 0.4
+}
+
+TEST_CASE("a run that goes on meets the times of one that never stopped", "[unit]") {
+  const auto plan = GENERATE(fixed(1.0, 0.03, 0.25), chosen(1.0, 0.07, 0.25));
+  Run whole;
+  whole(plan);
+  Run parts;
+  TimePlan first = plan;
+  first.max_steps = 5;
+  parts(first);
+  const auto extra_frame = parts.log().frames.size() - 1;
+  parts.log().frames.erase(parts.log().frames.begin() + static_cast<std::ptrdiff_t>(extra_frame));
+  parts(plan, Beginning::continuation);
+  CHECK(parts.log().starts == 1);
+  CHECK(parts.log().steps == whole.log().steps);
+  CHECK(parts.log().frames == whole.log().frames);
+  CHECK(parts.clock().time == whole.clock().time);
+}
+
+TEST_CASE("a run that ended between two steps goes on to the next of them", "[unit]") {
+  Run run;
+  run(fixed(1.0, 0.3, 1));
+  run(fixed(1.5, 0.3, 1), Beginning::continuation);
+  REQUIRE(run.log().steps.size() == 6);
+  CHECK(run.log().steps[4] == Approx(0.2).epsilon(1e-14));  // 1.2 - 1, a rounding
+  CHECK(run.log().steps[5] == Approx(0.3).epsilon(1e-14));  // up to the end
 }
 
 TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {

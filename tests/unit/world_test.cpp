@@ -1,5 +1,7 @@
 #include "engine/world.hpp"
 
+#include "engine/system.hpp"
+
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
@@ -47,6 +49,12 @@ World world_with_heights(const std::vector<double>& heights) {
   world.resize<Rows>(heights.size());
   std::copy(heights.begin(), heights.end(), world.column<Height>().begin());
   return world;
+}
+
+/// As a system changes a value.
+void update(World& world, std::size_t row, double height) {
+  const Update<Height> h(world);
+  h[row] = height;
 }
 
 template <class Span>
@@ -205,4 +213,56 @@ TEST_CASE("a value that owns memory has no bytes to store", "[unit]") {
   world.resize<Rows>(2);
   CHECK(world.storage<Label>().value_bytes() == 0);
   CHECK(world.storage<Label>().bytes().empty());
+}
+
+TEST_CASE("what systems change after a mark is taken back", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  world.resource<Total>().value = 7;
+  world.mark();
+  SECTION("a column that is updated") { update(world, 1, 5); }
+  SECTION("a column that is written anew") {
+    const Write<Height> h(world);
+    std::fill(h.begin(), h.end(), 9.0);
+  }
+  SECTION("a column that is updated twice") {
+    update(world, 1, 5);
+    update(world, 1, 6);
+  }
+  SECTION("the order of rows") {
+    Resize<Rows>(world).reorder(std::vector<std::uint32_t>{2, 0, 1});
+    update(world, 0, 5);
+  }
+  SECTION("the number of rows") {
+    Resize<Rows>(world).renumber(std::vector<std::optional<std::uint32_t>>{1});
+    update(world, 0, 5);
+  }
+  SECTION("the number of rows, where they stay") { Resize<Rows>(world).resize(5); }
+  SECTION("a resource") {
+    const Update<Total> total(world);
+    total->value = 8;
+  }
+  SECTION("nothing") {}
+  world.roll_back();
+  CHECK(world.rows<Rows>() == 3);
+  CHECK(values(world.column<Height>()) == std::vector<double>{1, 2, 3});
+  CHECK(world.resource<Total>().value == 7);
+}
+
+TEST_CASE("columns that are scratch follow the rows that are taken back", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  world.column<Slope>();
+  world.mark();
+  Resize<Rows>(world).resize(1);
+  world.roll_back();
+  CHECK(world.column<Slope>().size() == 3);
+}
+
+TEST_CASE("a mark stands for the state then, not for that of an earlier mark", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  world.mark();
+  update(world, 0, 4);
+  world.mark();
+  update(world, 0, 5);
+  world.roll_back();
+  CHECK(values(world.column<Height>()) == std::vector<double>{4, 2, 3});
 }
