@@ -54,6 +54,12 @@ struct SolverTolerance {
   static constexpr ComponentInfo info{"solver.tolerance", "", "1", Lifetime::constant};
 };
 
+/// How far a node may move in a step that is accepted, in cells. [1]
+struct LargestMove {
+  double cells = 10;
+  static constexpr ComponentInfo info{"step.largest_move", "", "1", Lifetime::constant};
+};
+
 /// Particles that a step would have carried out of the box, so far. [1]
 struct PutBack {
   std::int64_t count = 0;

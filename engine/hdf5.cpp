@@ -2,6 +2,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include <hdf5.h>
 
@@ -13,13 +14,19 @@ namespace {
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
+  Handle(hid_t id, Close close_with, const std::string& what) : id_(id), close_(close_with) {
     if (id < 0) throw std::runtime_error(what);
   }
-  ~Handle() { close_(id_); }
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
+  /// What is still in a buffer is written now.
+  void close(const std::string& what) {
+    if (close_(std::exchange(id_, -1)) < 0) throw std::runtime_error(what);
+  }
 
  private:
   hid_t id_;
@@ -27,6 +34,10 @@ class Handle {
 };
 
 hid_t open(const std::string& path, Hdf5File::Access access) {
+  // At the end of the program the library would try once more to write what it could not, into a file that has been
+  // taken back since.
+  static const herr_t never_again = H5dont_atexit();
+  static_cast<void>(never_again);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
   switch (access) {
   case Hdf5File::Access::create:
@@ -53,33 +64,52 @@ Hdf5File::Hdf5File(std::string path, Access access) : path_(std::move(path)), fi
   if (file_ < 0) throw std::runtime_error(path_ + ": cannot be opened as an HDF5 file");
 }
 
-Hdf5File::~Hdf5File() { H5Fclose(file_); }
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0) H5Fclose(file_);
+}
 
-void Hdf5File::write(const std::string& dataset, const void* values, std::int64_t type,
-                     std::span<const std::size_t> shape) {
+void Hdf5File::close() {
+  const herr_t failed = H5Fclose(file_);
+  file_ = -1;
+  if (failed < 0) throw std::runtime_error(path_ + ": cannot be written");
+}
+
+Extent Hdf5File::write(const std::string& dataset, const void* values, std::int64_t type,
+                       std::span<const std::size_t> shape) {
   const std::string what = path_ + ": dataset " + dataset + " cannot be written";
-  std::array<hsize_t, 2> extent{};
-  for (std::size_t k = 0; k < shape.size(); ++k) extent[k] = shape[k];
+  std::array<hsize_t, 2> size{};
+  for (std::size_t k = 0; k < shape.size(); ++k) size[k] = shape[k];
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
   H5Pset_create_intermediate_group(links, 1);
-  const Handle space(H5Screate_simple(static_cast<int>(shape.size()), extent.data(), nullptr), H5Sclose, what);
-  const Handle data(H5Dcreate2(file_, dataset.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, what);
+  // Without the time of day in it, the same run gives the same bytes.
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
+  H5Pset_obj_track_times(creation, false);
+  const Handle space(H5Screate_simple(static_cast<int>(shape.size()), size.data(), nullptr), H5Sclose, what);
+  Handle data(H5Dcreate2(file_, dataset.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose, what);
   if (H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) throw std::runtime_error(what);
+  const haddr_t offset = H5Dget_offset(data);
+  const Extent extent = offset == HADDR_UNDEF ? Extent{} : Extent{offset, H5Dget_storage_size(data)};
+  data.close(what);
+  return extent;
 }
 
-void Hdf5File::write(const std::string& dataset, std::span<const double> values, std::size_t width) {
+Extent Hdf5File::write(const std::string& dataset, std::span<const double> values, std::size_t width) {
   const std::array<std::size_t, 2> shape{values.size() / width, width};
-  write(dataset, values.data(), H5T_NATIVE_DOUBLE, std::span(shape).first(width == 1 ? 1 : 2));
+  return write(dataset, values.data(), H5T_NATIVE_DOUBLE, std::span(shape).first(width == 1 ? 1 : 2));
 }
 
-void Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> values) {
+Extent Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> values) {
   const std::array<std::size_t, 1> shape{values.size()};
-  write(dataset, values.data(), H5T_NATIVE_INT64, shape);
+  return write(dataset, values.data(), H5T_NATIVE_INT64, shape);
 }
 
-void Hdf5File::write(const std::string& dataset, std::span<const std::byte> values) {
+Extent Hdf5File::write(const std::string& dataset, std::span<const std::byte> values) {
   const std::array<std::size_t, 1> shape{values.size()};
-  write(dataset, values.data(), H5T_NATIVE_UINT8, shape);
+  return write(dataset, values.data(), H5T_NATIVE_UINT8, shape);
+}
+
+Extent Hdf5File::write_text(const std::string& dataset, const std::string& text) {
+  return write(dataset, std::as_bytes(std::span(text)));
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
@@ -92,6 +122,18 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
   H5Tset_size(type, value.empty() ? 1 : value.size());
   H5Tset_cset(type, H5T_CSET_UTF8);
   write_attribute(file_, object, name, type, value.c_str(), what);
+}
+
+bool Hdf5File::has(const std::string& dataset) const {
+  const auto slash = dataset.find_last_of('/');
+  const std::string group = dataset.substr(0, slash);
+  if (slash != 0 && slash != std::string::npos && !has(group)) return false;
+  return H5Lexists(file_, dataset.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::string Hdf5File::read_text(const std::string& dataset) const {
+  const std::vector<std::byte> bytes = read_bytes(dataset);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::vector<std::byte> Hdf5File::read_bytes(const std::string& dataset) const {

@@ -130,7 +130,7 @@ std::vector<Slot> step_slots(const Needs& needs) {
       {"advect", {"advect"}},
       {"volume", volume_systems(needs)},
       {"measure", measure_systems(needs, "measure_probes")},
-      {"history", {"write_history"}},
+      {"history", {"accept_step", "write_history"}},
   };
 }
 

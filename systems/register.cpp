@@ -9,6 +9,7 @@
 #include "systems/integrate/midpoint.hpp"
 #include "systems/integrate/newmark.hpp"
 #include "systems/integrate/ode.hpp"
+#include "systems/measure/acceptance.hpp"
 #include "systems/measure/conservation.hpp"
 #include "systems/measure/error.hpp"
 #include "systems/measure/probes.hpp"
@@ -125,6 +126,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<MeasureErrorPressure>("measure_error_pressure");
   registry.add<MeasureErrorPressureOde>("measure_error_pressure_ode");
 
+  registry.add<AcceptStep>("accept_step");
   registry.add<WriteHistory>("write_history");
   registry.add<SamplePressure>("sample_pressure");
   registry.add<WriteFrame>("write_frame");

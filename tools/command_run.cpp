@@ -22,15 +22,21 @@ fs::path output_folder(const RunOptions& options) {
 }
 
 int report(const RunResult& result, const fs::path& folder, bool quiet) {
+  const fs::path checkpoint = folder / "checkpoint.h5";
   if (result.outcome.ending == Ending::failed) {
-    std::cerr << result.outcome.message << "\nthe state before this step is in " << (folder / "checkpoint.h5").string()
-              << '\n';
+    std::cerr << result.outcome.message << '\n';
+    if (fs::exists(checkpoint)) std::cerr << "the last accepted state is in " << checkpoint.string() << '\n';
     return exit_failed;
+  }
+  if (result.was_over) {
+    spdlog::info("{} is complete: t = {:.6g} s after {} steps; nothing to do", folder.string(), result.clock.time,
+                 result.clock.index);
+    return exit_done;
   }
   const bool interrupted = result.outcome.ending == Ending::interrupted;
   if (interrupted) {
-    spdlog::warn("interrupted at t = {:.6g} s after {} steps; checkpoint in {}", result.clock.time, result.clock.index,
-                 (folder / "checkpoint.h5").string());
+    spdlog::warn("interrupted at t = {:.6g} s after {} steps; --resume goes on from {}", result.clock.time,
+                 result.clock.index, checkpoint.string());
   }
   if (!quiet) {
     spdlog::info("results in {}: open fields.xdmf in ParaView, history.csv has a row per step", folder.string());
@@ -50,6 +56,7 @@ int run_scene(const RunOptions& options, const SystemRegistry& registry) {
                      .folder = folder,
                      .threads = threads,
                      .steps = options.steps,
+                     .beginning = options.resume ? Beginning::continuation : Beginning::start,
                      .quiet = options.quiet,
                      .at_end = {}};
   const RunResult result = run_into_folder(file, plan, registry, profiler, stop_on_signal());

@@ -21,6 +21,7 @@ struct RunOptions {
   int threads = 0;                     ///< 0: all processors
   std::vector<std::string> overrides;  ///< /pointer=JSON
   std::optional<std::int64_t> steps;
+  bool resume = false;
   bool profile = false;
   std::string trace;  ///< empty: OUT/trace.json
   bool quiet = false;

@@ -14,8 +14,10 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <csignal>
 #include <iostream>
 #include <limits>
+#include <new>
 
 namespace minamo {
 
@@ -62,7 +64,8 @@ void add_run(CLI::App& app, RunOptions& options) {
   app.add_option("--out", options.out, "folder for the results; by default out/NAME");
   app.add_option("--threads", options.threads, "threads; by default one per processor")->check(whole_number(1));
   app.add_option("--set", options.overrides, "/pointer=JSON, overrides a key of the scene")->allow_extra_args(false);
-  app.add_option("--steps", options.steps, "stop after so many steps")->check(whole_number(0));
+  app.add_option("--steps", options.steps, "stop after so many steps of the whole run")->check(whole_number(0));
+  app.add_flag("--resume", options.resume, "go on from the checkpoint in the folder for the results");
   app.add_option("--profile", options.trace,
                  "print time per system and write a Chrome trace; by default OUT/trace.json")
       ->expected(0, 1);
@@ -142,17 +145,26 @@ int run(int argc, const char* const* argv, const std::function<void(SystemRegist
   const auto logger = spdlog::stderr_color_mt("minamo");
   logger->set_pattern("%v");
   spdlog::set_default_logger(logger);
+  // A reader that goes away, as in `| head`, and a file that may not grow are errors like a full disk, not the end of
+  // the program.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     SystemRegistry registry;
     register_systems(registry);
     if (add) add(registry);
-    return dispatch(argc, argv, registry);
+    const int code = dispatch(argc, argv, registry);
+    if (!std::cout.flush()) throw std::runtime_error("stdout: cannot be written");
+    return code;
   } catch (const InputError& error) {
     std::cerr << error.what() << '\n';
     return exit_bad_input;
   } catch (const ScheduleError& error) {
     std::cerr << error.what() << '\n';
     return exit_bad_input;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "out of memory\n";
+    return exit_failed;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return exit_failed;

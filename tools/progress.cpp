@@ -19,20 +19,28 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(double end, std::optional<std::int64_t> max_steps, std::size_t particles, bool quiet)
-    : end_(end), max_steps_(max_steps), particles_(particles), active_(!quiet && isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(const TimePlan& plan, const Clock& start, std::size_t particles, bool quiet)
+    : end_(plan.end),
+      max_steps_(plan.max_steps),
+      done_before_(done(start)),
+      particles_(particles),
+      active_(!quiet && isatty(STDERR_FILENO) == 1) {}
+
+double Progress::done(const Clock& clock) const {
+  const double of_time = clock.time / end_;
+  return max_steps_ ? std::max(of_time, static_cast<double>(clock.index) / static_cast<double>(*max_steps_)) : of_time;
+}
 
 void Progress::show(const Clock& clock, const SolveReport& solve) {
   constexpr double seconds_between = 0.1;
   const double now = stopwatch_.wall_seconds();
   if (!active_ || now < last_shown_ + seconds_between) return;
   last_shown_ = now;
-  double done = clock.time / end_;
-  if (max_steps_) done = std::max(done, static_cast<double>(clock.index) / static_cast<double>(*max_steps_));
-  const double remaining = done > 0 ? now * (1 - done) / done : 0;
+  const double share = done(clock);
+  const double remaining = share > done_before_ ? now * (1 - share) / (share - done_before_) : 0;
   fmt::print(stderr,
              "\r\033[K{:3.0f} %  t = {:.5g} of {:.5g} s  step {}  dt = {:.3g} s  {} particles  {} unknowns  {} left",
-             100 * done, clock.time, end_, clock.index, clock.step, particles_, solve.unknowns, duration(remaining));
+             100 * share, clock.time, end_, clock.index, clock.step, particles_, solve.unknowns, duration(remaining));
   std::fflush(stderr);
 }
 

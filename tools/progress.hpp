@@ -4,22 +4,26 @@
 
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
+#include "engine/simulation.hpp"
 #include "tools/machine.hpp"
-
-#include <optional>
 
 namespace minamo {
 
 /// Shows nothing where stderr is not a terminal.
 class Progress {
  public:
-  Progress(double end, std::optional<std::int64_t> max_steps, std::size_t particles, bool quiet);
+  /// \param start  where the run begins, or goes on
+  Progress(const TimePlan& plan, const Clock& start, std::size_t particles, bool quiet);
   void show(const Clock& clock, const SolveReport& solve);
   void end();
 
  private:
+  /// Share of the run that is behind it.
+  double done(const Clock& clock) const;
+
   double end_;
   std::optional<std::int64_t> max_steps_;
+  double done_before_;
   std::size_t particles_;
   bool active_;
   Stopwatch stopwatch_;

@@ -1,14 +1,15 @@
 #include "tools/single_run.hpp"
 
 #include "components/particle.hpp"
-#include "engine/checkpoint.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/setup/time_plan.hpp"
+#include "tools/continuation.hpp"
 #include "tools/progress.hpp"
 #include "tools/summary.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <fstream>
 
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 }
 
 /// Makes the folder, without what an earlier run left in it.
-void open_output(const fs::path& folder, const SceneFile& scene, World& world) {
+void open_output(const fs::path& folder, World& world) {
   make_output_folder(folder);
   for (const char* name : {"history.csv", "fields.h5", "fields.xdmf", "summary.json", "checkpoint.h5", "trace.json"}) {
     std::error_code error;
@@ -33,17 +34,65 @@ void open_output(const fs::path& folder, const SceneFile& scene, World& world) {
   auto& history = world.resource<HistoryFile>().file;
   history.open(folder / "history.csv");
   if (!history) refuse_output(folder, "cannot be written");
-  write_text(folder / "scene.json", scene.as_run.dump(2) + "\n");
   world.resource<FieldsFile>().folder = folder.string();
+}
+
+bool is_over(const TimePlan& plan, const Clock& clock) {
+  return clock.time >= plan.end || (plan.max_steps && clock.index >= *plan.max_steps);
+}
+
+/// Makes the output, or takes it up where the checkpoint was written.
+/// \return whether there is anything left to run
+bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& times, World& world) {
+  if (plan.beginning == Beginning::start) {
+    open_output(plan.folder, world);
+  } else {
+    StoredFields fields = load_checkpoint(plan.folder, plan.scene, file, world);
+    if (is_over(times, world.resource<Clock>())) return false;
+    continue_output(plan.folder, std::move(fields), world);
+  }
+  write_text(plan.folder / "scene.json", file.as_run.dump(2) + "\n");
+  return true;
+}
+
+/// A summary that cannot be written fails the run, but not its message.
+void write_summary(const fs::path& folder, RunResult& result) {
+  try {
+    write_text(folder / "summary.json", result.summary.dump(2) + "\n");
+  } catch (const std::exception& failure) {
+    std::string& message = result.outcome.message;
+    message += (message.empty() ? "" : "\n") + std::string(failure.what());
+    result.outcome.ending = Ending::failed;
+  }
+}
+
+void warn_of_rejection(const Clock& clock, const std::string& why) {
+  spdlog::warn("step {} from t = {:.6g} s with dt = {:.6g} s is taken back: {}", clock.index + 1, clock.time,
+               clock.step, why);
+}
+
+/// The rows that count, and nothing after them, whatever became of the last.
+void close_history(const fs::path& folder, World& world) {
+  world.resource<HistoryFile>().file.close();
+  std::error_code ignored;
+  if (fs::exists(folder / "history.csv", ignored)) {
+    cut_history((folder / "history.csv").string(), world.resource<RunTotals>().rows);
+  }
 }
 
 }  // namespace
 
 void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path);
+  const fs::path unfinished = path.string() + ".unfinished";
+  std::ofstream file(unfinished);
   file << text;
   file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+  if (!file) {
+    std::error_code ignored;
+    fs::remove(unfinished, ignored);
+    throw std::runtime_error(path.string() + ": cannot be written");
+  }
+  fs::rename(unfinished, path);
 }
 
 void make_output_folder(const fs::path& folder) {
@@ -63,24 +112,29 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const Syst
   Schedule start(std::move(pipeline.start), world);
   Schedule step(std::move(pipeline.step), world, &profiler);
   Schedule frame(std::move(pipeline.output), world, &profiler);
-  open_output(plan.folder, file, world);
-
   TimePlan times = make_time_plan(scene);
   times.max_steps = plan.steps;
-  Progress progress(scene.time.end, plan.steps, world.rows<Particles>(), plan.quiet);
+  RunResult result;
+  if (!begin_output(plan, file, times, world)) {
+    result.clock = world.resource<Clock>();
+    result.was_over = true;
+    return result;
+  }
+
+  Progress progress(times, world.resource<Clock>(), world.rows<Particles>(), plan.quiet);
   const Observers observers{
       .after_step = [&](const Clock& clock) { progress.show(clock, world.resource<SolveReport>()); },
-      .write_checkpoint = [&] { write_checkpoint(plan.folder / "checkpoint.h5", world, file.as_run.dump()); }};
+      .after_rejection = warn_of_rejection,
+      .write_checkpoint = [&] { write_run_checkpoint(plan.folder, file, world); }};
   const double before_loop = stopwatch.wall_seconds();
-  RunResult result;
-  result.outcome = run_simulation(world, start, step, frame, times, observers, stop);
+  result.outcome = run_simulation(world, start, step, frame, times, observers, stop, plan.beginning);
   result.loop_seconds = stopwatch.wall_seconds() - before_loop;
   progress.end();
 
-  world.resource<HistoryFile>().file.close();
+  close_history(plan.folder, world);
   result.clock = world.resource<Clock>();
   result.summary = make_summary(plan.scene, result.outcome, plan.threads, stopwatch, profiler, world);
-  write_text(plan.folder / "summary.json", result.summary.dump(2) + "\n");
+  write_summary(plan.folder, result);
   if (plan.at_end && result.outcome.ending == Ending::done) plan.at_end(world);
   return result;
 }

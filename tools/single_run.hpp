@@ -15,10 +15,11 @@
 namespace minamo {
 
 struct RunPlan {
-  std::string scene;             ///< the scene file, as the messages and summary.json call it
-  std::filesystem::path folder;  ///< for the results
-  int threads = 1;               ///< that the caller has set, for summary.json
-  std::optional<std::int64_t> steps;
+  std::string scene;                  ///< the scene file, as the messages and summary.json call it
+  std::filesystem::path folder;       ///< for the results
+  int threads = 1;                    ///< that the caller has set, for summary.json
+  std::optional<std::int64_t> steps;  ///< of the whole run
+  Beginning beginning = Beginning::start;
   bool quiet = false;
   std::function<void(World&)> at_end;  ///< called where the run is done; may be empty
 };
@@ -28,10 +29,12 @@ struct RunResult {
   Clock clock;
   Json summary;             ///< as in summary.json
   double loop_seconds = 0;  ///< wall time of the time loop [s]
+  bool was_over = false;    ///< the checkpoint is that of the end; nothing was run or written
 };
 
 /// Runs the scene and writes all that a run leaves but the trace.
-/// \throws InputError if the scene cannot be seeded or the folder cannot be used; nothing is run then.
+/// \throws InputError if the scene cannot be seeded, the folder cannot be used or its checkpoint does not fit; nothing
+/// is run then.
 RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const SystemRegistry& registry,
                           Profiler& profiler, const std::atomic<bool>& stop);
 

@@ -3,6 +3,7 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
+#include "engine/step_control.hpp"
 #include "systems/output/history.hpp"
 
 #include "minamo_version.hpp"
@@ -68,6 +69,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   if (!outcome.message.empty()) summary["message"] = outcome.message;
   summary.update({{"steps", clock.index},
                   {"time", clock.time},
+                  {"rejected_steps", world.resource<StepControl>().rejected},
                   {"wall_s", wall},
                   {"cpu_s", stopwatch.cpu_seconds()},
                   {"threads", threads},

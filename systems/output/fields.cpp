@@ -17,8 +17,6 @@ std::span<const double> numbers(std::span<const Vec<Size>> values) {
   return {reinterpret_cast<const double*>(values.data()), values.size() * Size};
 }
 
-std::string h5_path(const FieldsFile& fields) { return fields.folder + "/fields.h5"; }
-
 std::string group(std::size_t frame) { return fmt::format("/particles/{}", frame); }
 
 /// A dataset of fields.h5 as an XDMF data item.
@@ -83,14 +81,15 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
                                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
                                  Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
-  const std::size_t frame = fields->frames.size();
-  Hdf5File file(h5_path(*fields), frame == 0 ? Hdf5File::Access::create : Hdf5File::Access::extend);
-  file.write(group(frame) + "/position", numbers<Dim>(x_p.span()), Dim);
-  file.write(group(frame) + "/velocity", numbers<Dim>(v_p.span()), Dim);
-  file.write(group(frame) + "/pressure", p_p.span());
-  file.write(group(frame) + "/id", id.span());
-  file.set_attribute(group(frame), "time", clock->time);
-  fields->frames.push_back({clock->time, x_p.size(), {}});
+  const std::string name = group(fields->frames.size());
+  begin_frame(*fields, clock->time, x_p.size());
+  const bool is_first = fields->frames.size() == 1;
+  Hdf5File file(fields->path(), is_first ? Hdf5File::Access::create : Hdf5File::Access::extend);
+  fields->frames.back().extents = {file.write(name + "/position", numbers<Dim>(x_p.span()), Dim),
+                                   file.write(name + "/velocity", numbers<Dim>(v_p.span()), Dim),
+                                   file.write(name + "/pressure", p_p.span()), file.write(name + "/id", id.span())};
+  file.set_attribute(name, "time", clock->time);
+  file.close();
 }
 
 template <int Dim>
@@ -104,9 +103,11 @@ void WriteVelocityGradient<Dim>::operator()(Read<particle::VelocityGradient<Dim>
       for (int j = 0; j < Dim; ++j) rows.push_back(gradient(i, j));
     }
   }
-  Hdf5File file(h5_path(*fields), Hdf5File::Access::extend);
-  file.write(group(fields->frames.size() - 1) + "/velocity_gradient", rows, Dim * Dim);
-  fields->frames.back().extra_fields.emplace_back("velocity_gradient");
+  Hdf5File file(fields->path(), Hdf5File::Access::extend);
+  FieldsFile::Frame& frame = fields->frames.back();
+  frame.extents.push_back(file.write(group(fields->frames.size() - 1) + "/velocity_gradient", rows, Dim * Dim));
+  frame.extra_fields.emplace_back("velocity_gradient");
+  file.close();
 }
 
 template <int Dim>
@@ -119,8 +120,12 @@ void WriteXdmf<Dim>::operator()(Update<FieldsFile> fields) const {
   for (std::size_t k = 0; k < fields->frames.size(); ++k) xdmf << grid_text<Dim>(fields->frames[k], k);
   xdmf << "    </Grid>\n  </Domain>\n</Xdmf>\n";
   xdmf.close();
-  if (!xdmf) throw std::runtime_error(path + ": cannot be written");
+  if (!xdmf) {
+    std::filesystem::remove(path + ".unfinished");
+    throw std::runtime_error(path + ": cannot be written");
+  }
   std::filesystem::rename(path + ".unfinished", path);
+  end_frame(*fields);
 }
 
 template struct SamplePressure<2>;

@@ -9,22 +9,9 @@
 #include "components/sites.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
-
-#include <string>
+#include "systems/output/fields_file.hpp"
 
 namespace minamo {
-
-/// Where the frames go, and what the XDMF index says of them.
-struct FieldsFile {
-  struct Frame {
-    double time;  ///< [s]
-    std::size_t particles;
-    std::vector<std::string> extra_fields;  ///< beyond position, velocity, pressure, id
-  };
-  std::string folder;  ///< nothing is written while it is empty
-  std::vector<Frame> frames;
-  static constexpr ComponentInfo info{"fields.file", "", "", Lifetime::cache};
-};
 
 /// (E33)  p_p = sum_I S_I(y_p) p_I.
 template <int Dim>
@@ -34,7 +21,7 @@ struct SamplePressure {
                   Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const;
 };
 
-/// Adds a frame to fields.h5.
+/// Adds a frame to fields.h5. The frame is finished by write_xdmf; until then take_back_frame() undoes it.
 /// \throws std::runtime_error if the file cannot be written.
 template <int Dim>
 struct WriteFrame {

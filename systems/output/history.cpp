@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace minamo {
 
@@ -49,6 +50,7 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   if (is_start) totals->first = totals->last;
   if (is_start) totals->columns = static_cast<std::int64_t>(further->columns.size());
   require_known(*further, totals->columns);
+  totals->overlap = overlap->value;
   totals->overlap_max = std::max(totals->overlap_max, overlap->value);
   totals->active_nodes_max = std::max(totals->active_nodes_max, static_cast<std::int64_t>(active.size()));
   totals->unknowns_max = std::max(totals->unknowns_max, solve->unknowns);
@@ -68,6 +70,17 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   for (const auto& column : further->columns) fmt::format_to(out, ",{}", column.value);
   row.push_back('\n');
   history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
+  if (!history->file) throw std::runtime_error("history.csv: cannot be written");
+}
+
+std::int64_t cut_history(const std::string& path, std::int64_t rows) {
+  std::ifstream file(path, std::ios::binary);
+  std::int64_t lines = 0;
+  std::streamoff end = 0;
+  for (std::string line; lines < rows + 1 && std::getline(file, line) && !file.eof(); ++lines) end = file.tellg();
+  file.close();
+  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(end));
+  return lines - 1;
 }
 
 template std::string history_header<2>(const measure::Columns&);

@@ -28,6 +28,7 @@ struct RunTotals {
   };
   Values first;
   Values last;
+  double overlap = 0;  ///< of the last row
   double overlap_max = 0;
   std::int64_t active_nodes_max = 0;
   std::int64_t unknowns_max = 0;
@@ -40,8 +41,13 @@ struct RunTotals {
 template <int Dim>
 std::string history_header(const measure::Columns& further);
 
+/// Cuts a history off behind so many rows, or behind its last whole one.
+/// \return how many it has then; -1 for a file without header
+/// \throws std::filesystem::filesystem_error
+std::int64_t cut_history(const std::string& path, std::int64_t rows);
+
 /// The header comes with the first row, because it is then that measure::Columns knows its names.
-/// \throws std::runtime_error if a system sets a column that the header does not have.
+/// \throws std::runtime_error if a system sets a column that the header does not have, or if writing fails.
 template <int Dim>
 struct WriteHistory {
   static constexpr std::string_view doc = "a row of history.csv";

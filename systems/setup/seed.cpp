@@ -184,6 +184,9 @@ void seed_world(const Scene& scene, const std::string& file, World& world) {
   world.resource<BodyForce>() = {scene.body_force};
   world.resource<NewmarkParameters>() = {scene.newmark_beta, scene.newmark_gamma};
   world.resource<VolumeRate>() = {scene.volume_rate};
+  // A step that was chosen by its CFL number may come out faster than the particles were before it.
+  auto& largest = world.resource<LargestMove>();
+  largest.cells = std::max(largest.cells, 2 * scene.time.cfl);
   world.resource<SolverTolerance>() = {scene.solver_tolerance};
   world.resource<XpicOrder>() = {scene.xpic_order};
   world.resource<FlipBlend>() = {scene.flip_blend};

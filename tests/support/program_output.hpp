@@ -27,10 +27,12 @@ inline std::string in_quotes(const std::string& word) {
 }  // namespace detail
 
 /// Runs the program in a folder and waits for its end.
-inline ProgramOutput output_of_program(const std::string& folder, const std::vector<std::string>& arguments) {
+/// \param before  what the shell does first, as in "ulimit -f 100 && "
+inline ProgramOutput output_of_program(const std::string& folder, const std::vector<std::string>& arguments,
+                                       const std::string& before = {}) {
   const Folder caught;
   std::string line = "cd ";
-  line.append(detail::in_quotes(folder)).append(" && ").append(detail::in_quotes(MINAMO_PROGRAM));
+  line.append(detail::in_quotes(folder)).append(" && ").append(before).append(detail::in_quotes(MINAMO_PROGRAM));
   for (const std::string& argument : arguments) line.append(" ").append(detail::in_quotes(argument));
   line.append(" > ").append(detail::in_quotes(caught / "out"));
   line.append(" 2> ").append(detail::in_quotes(caught / "err"));

@@ -1,5 +1,6 @@
 #include "engine/checkpoint.hpp"
 
+#include "engine/clock.hpp"
 #include "engine/hdf5.hpp"
 #include "support/folder.hpp"
 #include "support/scene_run.hpp"
@@ -42,7 +43,7 @@ TEST_CASE("a checkpoint holds the state components and no other", "[unit]") {
   const Folder folder;
   SceneRun run(small_scene());
   run.step(3);
-  write_checkpoint(folder / "c.h5", run.world(), "{}");
+  write_checkpoint(folder / "c.h5", run.world(), {});
   std::set<std::string> expected;
   for (const auto& [name, storage] : run.world().components()) {
     if (storage->info().lifetime == Lifetime::state) expected.insert(name);
@@ -57,7 +58,7 @@ TEST_CASE("a checkpoint holds the state bit for bit", "[unit]") {
   const Folder folder;
   SceneRun run(small_scene());
   run.step(3);
-  write_checkpoint(folder / "c.h5", run.world(), "{}");
+  write_checkpoint(folder / "c.h5", run.world(), {});
   const Hdf5File file(folder / "c.h5", Hdf5File::Access::read);
   std::vector<std::string> differ;
   for (const auto& [name, bytes] : state(run.world())) {
@@ -66,10 +67,56 @@ TEST_CASE("a checkpoint holds the state bit for bit", "[unit]") {
   CHECK(differ.empty());
 }
 
+TEST_CASE("a world that has read a checkpoint has its state, and goes on bit for bit as the one that wrote it",
+          "[unit]") {
+  const Folder folder;
+  SceneRun run(small_scene());
+  run.step(3);
+  write_checkpoint(folder / "c.h5", run.world(), {});
+  SceneRun other(small_scene());
+  other.step(1);
+  read_state(Hdf5File(folder / "c.h5", Hdf5File::Access::read), other.world());
+  CHECK(state(other.world()) == state(run.world()));
+  run.step(3);
+  other.step(3);
+  CHECK(state(other.world()) == state(run.world()));
+}
+
+TEST_CASE("a checkpoint that lacks a component, or has another size of it, changes nothing", "[unit]") {
+  const Folder folder;
+  SceneRun run(small_scene());
+  run.step(1);
+  const auto before = state(run.world());
+  const auto [dataset, rows] = GENERATE(std::pair{"/state/particle.mass", 0}, std::pair{"/state/particle.mass", 5});
+  {
+    Hdf5File file(folder / "c.h5", Hdf5File::Access::create);
+    for (const auto& [name, bytes] : before) {
+      if ("/state/" + name != dataset) file.write("/state/" + name, bytes);
+    }
+    if (rows > 0) file.write(dataset, std::vector<double>(static_cast<std::size_t>(rows)));
+    file.close();
+  }
+  const Hdf5File file(folder / "c.h5", Hdf5File::Access::read);
+  CHECK_THROWS_WITH(read_state(file, run.world()), Catch::Contains("c.h5") && Catch::Contains("particle."));
+  CHECK(state(run.world()) == before);
+}
+
+TEST_CASE("a checkpoint that cannot be written leaves the one before it", "[unit]") {
+  const Folder folder;
+  World world;
+  world.resource<Clock>().index = 7;
+  write_checkpoint(folder / "c.h5", world, {});
+  const std::string before = text_of(folder / "c.h5");
+  const auto fail = [](Hdf5File&) { throw std::runtime_error("no room"); };
+  CHECK_THROWS_WITH(write_checkpoint(folder / "c.h5", world, fail), "no room");
+  CHECK(text_of(folder / "c.h5") == before);
+  CHECK_FALSE(std::filesystem::exists(folder / "c.h5.unfinished"));
+}
+
 TEST_CASE("a checkpoint appears under its name only when it is complete", "[unit]") {
   const Folder folder;
   World world;
   world.resource<NotPlain>();
-  CHECK_THROWS_WITH(write_checkpoint(folder / "c.h5", world, "{}"), Catch::Contains("not_plain"));
+  CHECK_THROWS_WITH(write_checkpoint(folder / "c.h5", world, {}), Catch::Contains("not_plain"));
   CHECK_FALSE(std::filesystem::exists(folder / "c.h5"));
 }

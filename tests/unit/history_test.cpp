@@ -82,3 +82,18 @@ TEST_CASE("a column that the header does not have ends the run", "[error]") {
   run.world().resource<measure::Columns>().set("enstrophy", 1);
   CHECK_THROWS_WITH(run.step(), Catch::Contains("column enstrophy of history.csv was not measured at the start"));
 }
+
+TEST_CASE("a history is cut behind whole rows", "[unit]") {
+  const Folder folder;
+  const auto [text, rows, left, found] =
+      GENERATE(table<std::string, int, std::string, int>({{"h\n1\n2\n3\n", 2, "h\n1\n2\n", 2},
+                                                          {"h\n1\n2\n", 2, "h\n1\n2\n", 2},
+                                                          {"h\n1\n2", 2, "h\n1\n", 1},
+                                                          {"h\n1\n", 5, "h\n1\n", 1},
+                                                          {"h", 5, "", -1},
+                                                          {"", 0, "", -1}}));
+  CAPTURE(text, rows);
+  std::ofstream(folder / "history.csv") << text;
+  CHECK(cut_history(folder / "history.csv", rows) == found);
+  CHECK(text_of(folder / "history.csv") == left);
+}

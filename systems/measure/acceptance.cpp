@@ -1,0 +1,87 @@
+#include "systems/measure/acceptance.hpp"
+
+#include "engine/parallel.hpp"
+#include "engine/step_control.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
+#include <cmath>
+#include <limits>
+
+namespace minamo {
+
+namespace {
+
+/// What UMFPACK reaches with three digits to spare where the matrix is healthy.
+constexpr double largest_residual = 1e-6;
+/// Liquid that falls on liquid overlaps by a hundredth in a step, a collapse by its own volume.
+constexpr double largest_growth_of_overlap = 0.2;
+
+template <class Vector>
+std::string text(const Vector& values) {
+  return fmt::format("({:.4g})", fmt::join(values.begin(), values.end(), ", "));
+}
+
+/// |u|, infinite where a component is not finite: a comparison with NaN is false, whichever way round.
+template <int Dim>
+double length(const Vec<Dim>& u) {
+  return u.allFinite() ? u.norm() : std::numeric_limits<double>::infinity();
+}
+
+template <int Dim>
+void require_moderate(const Grid<Dim>& grid, double cells, std::span<const Index<Dim>> site,
+                      std::span<const Vec<Dim>> u_i) {
+  const double largest = reduce_rows(
+      u_i.size(), 0.0, [&](std::size_t i) { return length<Dim>(u_i[i]); },
+      [](double x, double y) { return std::max(x, y); });
+  if (largest <= cells * grid.spacing) return;
+  std::size_t worst = 0;
+  while (length<Dim>(u_i[worst]) < largest) ++worst;
+  throw StepRejected(fmt::format("solve: node {} moves by {} cells, more than {}",
+                                 fmt::format("({})", fmt::join(site[worst], ", ")),
+                                 text<Vec<Dim>>(u_i[worst] / grid.spacing), cells));
+}
+
+template <int Dim>
+void require_finite(const measure::Energy& energy, const measure::Momentum<Dim>& momentum,
+                    std::span<const std::int64_t> id, std::span<const Vec<Dim>> x_p, std::span<const Vec<Dim>> v_p) {
+  // Sums over all particles: one that is not finite makes them so.
+  if (std::isfinite(energy.kinetic) && std::isfinite(energy.potential.value_or(0)) && momentum.linear.allFinite() &&
+      momentum.angular.allFinite()) {
+    return;
+  }
+  for (std::size_t p = 0; p < x_p.size(); ++p) {
+    if (x_p[p].allFinite() && std::isfinite(v_p[p].squaredNorm())) continue;
+    throw StepRejected(fmt::format("g2p: particle {} at {} m has velocity {} m/s", id[p], text<Vec<Dim>>(x_p[p]),
+                                   text<Vec<Dim>>(v_p[p])));
+  }
+  throw StepRejected("measure: energy or momentum is not finite");
+}
+
+}  // namespace
+
+template <int Dim>
+void AcceptStep<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance,
+                                 Read<SolveReport> solve, Read<node::Site<Dim>> site, Read<node::Displacement<Dim>> u_i,
+                                 Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
+                                 Read<particle::Velocity<Dim>> v_p, Read<measure::Energy> energy,
+                                 Read<measure::Momentum<Dim>> momentum, Read<measure::Overlap> overlap,
+                                 Read<RunTotals> so_far) const {
+  const double residual = std::max(largest_residual, tolerance->relative);
+  if (!(solve->residual <= residual)) {
+    throw StepRejected(fmt::format("solve: |r|/|b| = {:.3g} after {} iterations, more than {:.3g} ({} unknowns)",
+                                   solve->residual, solve->iterations, residual, solve->unknowns));
+  }
+  require_moderate<Dim>(*grid, largest->cells, site.span(), u_i.span());
+  require_finite<Dim>(*energy, *momentum, id.span(), x_p.span(), v_p.span());
+  if (!(overlap->value <= so_far->overlap + largest_growth_of_overlap)) {
+    throw StepRejected(fmt::format("advect: the overlap grows from {:.3g} to {:.3g} of the liquid in one step",
+                                   so_far->overlap, overlap->value));
+  }
+}
+
+template struct AcceptStep<2>;
+template struct AcceptStep<3>;
+
+}  // namespace minamo

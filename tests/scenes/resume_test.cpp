@@ -1,0 +1,171 @@
+// A run that goes on from its checkpoint ends with the bytes of one that never stopped.
+
+#include "support/folder.hpp"
+#include "support/program.hpp"
+#include "support/program_output.hpp"
+#include "support/scene_run.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+using namespace minamo;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+std::string scene(const std::string& name) { return std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name; }
+
+Arguments run_of(const std::string& scene_name, const Arguments& overrides) {
+  Arguments arguments{"run", scene(scene_name), "--threads", "1", "--quiet"};
+  for (const std::string& assignment : overrides) arguments.insert(arguments.end(), {"--set", assignment});
+  return arguments;
+}
+
+Arguments with(Arguments arguments, const Arguments& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// Files of two runs that are not byte for byte the same.
+Arguments differing_files(const std::string& a, const std::string& b) {
+  Arguments names;
+  for (const char* name : {"/history.csv", "/fields.h5", "/fields.xdmf", "/scene.json", "/checkpoint.h5"}) {
+    if (text_of(a + name) != text_of(b + name)) names.emplace_back(name);
+  }
+  return names;
+}
+
+struct Case {
+  std::string scene;
+  Arguments overrides;
+};
+
+const Arguments coarse{"/grid/cells=[20, 20]", "/output/every=0.02", "/output/checkpoint=0.03"};
+
+Case coarse_dam_break(const Arguments& overrides) { return {"dam_break.json", with(coarse, overrides)}; }
+
+const std::vector<Case> cases{
+    coarse_dam_break({}),
+    coarse_dam_break({R"(/transfer={"scheme": "flip"})", R"(/solver={"scheme": "umfpack"})"}),
+    coarse_dam_break({R"(/time={"end": 5, "cfl": 0.5})", R"(/integrator={"scheme": "midpoint"})"}),
+    coarse_dam_break({R"(/stabilization={"scheme": "oss"})", R"(/transfer={"scheme": "apic"})"}),
+    coarse_dam_break({R"(/stabilization={"scheme": "vms"})", R"(/transfer={"scheme": "xpic", "order": 3})"}),
+    coarse_dam_break({"/fluid/viscosity=5", R"(/volume={"scheme": "delta"})", R"(/integrator={"scheme": "midpoint"})"}),
+    // Steps are rejected on both sides of the checkpoint.
+    coarse_dam_break({"/time/step=0.1", R"(/integrator={"scheme": "midpoint"})"}),
+    {"elliptical_drop.json", {"/grid/cells=[20, 20]", "/output/every=0.02"}},
+    {"poiseuille.json", {"/output/every=0.1"}},
+    {"dam_break_3d.json", {"/output/every=0.01"}},
+};
+
+}  // namespace
+
+TEST_CASE("a run that goes on ends with the bytes of one that never stopped", "[scene]") {
+  const Case& of = GENERATE(from_range(cases));
+  CAPTURE(of.scene, of.overrides);
+  const Folder folder;
+  const Arguments run = run_of(of.scene, of.overrides);
+  REQUIRE(run_program(with(run, {"--out", folder / "whole", "--steps", "12"})).code == 0);
+  REQUIRE(run_program(with(run, {"--out", folder / "parts", "--steps", "5"})).code == 0);
+  REQUIRE(run_program(with(run, {"--out", folder / "parts", "--steps", "9", "--resume"})).code == 0);
+  REQUIRE(run_program(with(run, {"--out", folder / "parts", "--steps", "12", "--resume"})).code == 0);
+  CHECK(differing_files(folder / "whole", folder / "parts").empty());
+}
+
+TEST_CASE("a run that is killed at any moment goes on to the bytes of one that was not", "[scene]") {
+  // More of them by hand: MINAMO_KILLS=200 build/test/minamo_tests "a run that is killed at any moment*"
+  const char* wanted = std::getenv("MINAMO_KILLS");
+  const int kills = wanted != nullptr ? std::atoi(wanted) : 8;
+  const Folder folder;
+  const Arguments run = run_of(
+      "dam_break.json", {"/grid/cells=[20, 20]", "/output/every=0.002", "/output/checkpoint=0.003", "/time/end=0.15"});
+  const auto begin = std::chrono::steady_clock::now();
+  REQUIRE(run_program(with(run, {"--out", folder / "whole"})).code == 0);
+  const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  int resumed = 0;
+  for (int k = 0; k < kills; ++k) {
+    std::filesystem::remove_all(folder / "parts");
+    Program program(with(run, {"--out", folder / "parts"}));
+    std::this_thread::sleep_for(share(random) * duration);
+    program.send(SIGKILL);
+    program.wait();
+    Arguments again = with(run, {"--out", folder / "parts"});
+    if (std::filesystem::exists(folder / "parts/checkpoint.h5")) again.emplace_back("--resume");
+    resumed += again.back() == "--resume" ? 1 : 0;
+    REQUIRE(run_program(again).code == 0);
+    const auto differing = differing_files(folder / "whole", folder / "parts");
+    CAPTURE(k, differing);
+    REQUIRE(differing.empty());
+  }
+  WARN(resumed << " of " << kills << " killed runs had a checkpoint and went on from it");
+  CHECK(resumed > 0);
+}
+
+TEST_CASE("a run may go on to a later end", "[scene]") {
+  const Folder folder;
+  const Arguments run = run_of("dam_break.json", coarse);
+  REQUIRE(run_program(with(run, {"--out", folder / "whole", "--set", "/time/end=0.05"})).code == 0);
+  REQUIRE(run_program(with(run, {"--out", folder / "parts", "--set", "/time/end=0.03"})).code == 0);
+  REQUIRE(run_program(with(run, {"--out", folder / "parts", "--set", "/time/end=0.05", "--resume"})).code == 0);
+  CHECK(differing_files(folder / "whole", folder / "parts").empty());
+}
+
+TEST_CASE("a run that is complete is left alone", "[scene]") {
+  const Folder folder;
+  const Arguments run = with(run_of("dam_break.json", with(coarse, {"/time/end=0.005"})), {"--out", folder / "out"});
+  REQUIRE(run_program(run).code == 0);
+  const std::string before = text_of(folder / "out/summary.json");
+  const ProgramEnd again = run_program(with(run, {"--resume"}));
+  CHECK(again.code == 0);
+  CHECK_THAT(again.output, Catch::Contains("is complete"));
+  CHECK(text_of(folder / "out/summary.json") == before);
+}
+
+TEST_CASE("what does not fit a checkpoint is refused, and nothing is changed", "[scene]") {
+  const Folder folder;
+  const Arguments run = with(run_of("dam_break.json", coarse), {"--out", folder / "out"});
+  REQUIRE(run_program(with(run, {"--steps", "5"})).code == 0);
+  Arguments more{"--resume"};
+  std::string message;
+  SECTION("another scene: every difference, and no other") {
+    more.insert(more.end(), {"--set", R"(/transfer={"scheme": "flip"})", "--set", "/fluid/density=900", "--set",
+                             "/title=\"other\"", "--set", "/output/every=0.5"});
+    message = "dam_break.json: /fluid/density: differs from the scene of the checkpoint\n"
+              "  expected  1000 (number)\n  got       900 (number)\n";
+  }
+  SECTION("no checkpoint") {
+    std::filesystem::remove(folder / "out/checkpoint.h5");
+    message = "checkpoint.h5: no such checkpoint";
+  }
+  SECTION("no checkpoint, but another file") {
+    std::ofstream(folder / "out/checkpoint.h5") << "a diary";
+    message = "checkpoint.h5: is no checkpoint";
+  }
+  SECTION("half a checkpoint") {
+    std::filesystem::resize_file(folder / "out/checkpoint.h5", 5000);
+    message = "checkpoint.h5: is no checkpoint";
+  }
+  SECTION("no fields") {
+    std::filesystem::remove(folder / "out/fields.h5");
+    message = "fields.h5: is missing, or shorter than at the checkpoint";
+  }
+  SECTION("a shorter history") {
+    std::filesystem::resize_file(folder / "out/history.csv", 600);
+    message = "history.csv: is missing, or ends before the checkpoint";
+  }
+  const auto fields = text_of(folder / "out/fields.h5");
+  const auto checkpoint = text_of(folder / "out/checkpoint.h5");
+  const ProgramEnd end = run_program(with(run, more));
+  CHECK(end.code == 2);
+  CHECK_THAT(end.output, Catch::Contains(message));
+  CHECK_THAT(end.output, !Catch::Contains("/title") && !Catch::Contains("/output"));
+  CHECK(text_of(folder / "out/fields.h5") == fields);
+  CHECK(text_of(folder / "out/checkpoint.h5") == checkpoint);
+}

@@ -1,0 +1,171 @@
+#include "tools/continuation.hpp"
+
+#include "engine/checkpoint.hpp"
+#include "engine/step_control.hpp"
+#include "systems/output/fields.hpp"
+#include "systems/output/history.hpp"
+
+#include "minamo_version.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* checkpoint_name = "checkpoint.h5";
+
+/// What the checkpoint holds beside the state: scene, version, fields.h5 without its data.
+namespace dataset {
+constexpr const char* scene = "/scene";
+constexpr const char* version = "/version";
+constexpr const char* frames = "/fields/frames";
+constexpr const char* size = "/fields/size";
+constexpr const char* others = "/fields/others";
+}  // namespace dataset
+
+void add_fields(const FieldsFile& fields, Hdf5File& file) {
+  const FileImage image = image_of(fields);
+  const auto size = static_cast<std::int64_t>(image.size);
+  file.write_text(dataset::frames, Json(fields.frames).dump());
+  file.write(dataset::size, std::span(&size, 1));
+  file.write(dataset::others, image.others);
+}
+
+StoredFields read_fields(const Hdf5File& file) {
+  StoredFields fields{Json::parse(file.read_text(dataset::frames)).get<std::vector<FieldsFile::Frame>>(), {}};
+  const auto size = file.read_bytes(dataset::size);
+  std::copy(size.begin(), size.end(), std::as_writable_bytes(std::span(&fields.image.size, 1)).begin());
+  fields.image.others = file.read_bytes(dataset::others);
+  for (const auto& frame : fields.frames) {
+    fields.image.unchanging.insert(fields.image.unchanging.end(), frame.extents.begin(), frame.extents.end());
+  }
+  return fields;
+}
+
+Problem problem(const fs::path& file, std::string what, std::string expected, std::string got) {
+  return {file.string(), {}, std::move(what), std::move(expected), std::move(got), {}};
+}
+
+/// Whether a continuation may have another value there.
+bool may_change(const std::string& pointer) {
+  return pointer == "/title" || pointer == "/$schema" || pointer == "/time/end" || pointer.starts_with("/output/");
+}
+
+/// A problem per value of the scene that the checkpoint was not made with.
+std::vector<Problem> differences(const std::string& scene_path, const Json& stored, const Json& scene) {
+  const Json before = stored.flatten();
+  const Json now = scene.flatten();
+  const auto text = [](const Json& values, const std::string& pointer) {
+    return values.contains(pointer) ? shown(values[pointer]) : std::string("nothing");
+  };
+  Json pointers = before;
+  pointers.update(now);
+  std::vector<Problem> problems;
+  for (const auto& [pointer, value] : pointers.items()) {
+    if (may_change(pointer) || text(before, pointer) == text(now, pointer)) continue;
+    problems.push_back({scene_path,
+                        pointer,
+                        "differs from the scene of the checkpoint",
+                        text(before, pointer),
+                        text(now, pointer),
+                        {}});
+  }
+  return problems;
+}
+
+Problem no_checkpoint(const fs::path& path) {
+  return problem(path, "is no checkpoint", "a file that minamo has written", {});
+}
+
+/// \throws InputError if there is none.
+Hdf5File open_checkpoint(const fs::path& path) {
+  if (!fs::exists(path)) {
+    throw InputError({problem(path, "no such checkpoint",
+                              "one that an earlier run has left; without --resume a run starts anew", {})});
+  }
+  try {
+    return Hdf5File(path.string(), Hdf5File::Access::read);
+  } catch (const std::runtime_error&) {
+    throw InputError({no_checkpoint(path)});
+  }
+}
+
+void require_fit(const Hdf5File& file, const std::string& scene_path, const SceneFile& scene) {
+  for (const char* name : {dataset::version, dataset::scene, dataset::frames, dataset::size, dataset::others}) {
+    if (!file.has(name)) throw InputError({no_checkpoint(file.path())});
+  }
+  const std::string written_by = file.read_text(dataset::version);
+  if (written_by != version) {
+    throw InputError(
+        {problem(file.path(), "was written by another version of minamo", std::string(version), written_by)});
+  }
+  std::vector<Problem> problems = differences(scene_path, Json::parse(file.read_text(dataset::scene)), scene.as_run);
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void require_output(const fs::path& folder, const StoredFields& fields) {
+  const fs::path path = folder / "fields.h5";
+  if (fields.image.fits(path.string())) return;
+  throw InputError({problem(path, "is missing, or shorter than at the checkpoint",
+                            fmt::format("at least {} bytes", fields.image.size), {})});
+}
+
+/// Takes the history back. \throws InputError if it does not reach to the checkpoint.
+void open_history(const fs::path& path, std::int64_t rows, std::ofstream& history) {
+  const std::int64_t found = fs::exists(path) ? cut_history(path.string(), rows) : 0;
+  if (found < rows) {
+    throw InputError({problem(path, "is missing, or ends before the checkpoint", fmt::format("at least {} rows", rows),
+                              fmt::format("{} rows", std::max<std::int64_t>(found, 0)))});
+  }
+  history.open(path, std::ios::app);
+}
+
+void write_index(World& world) {
+  if (world.has<Grid<2>>()) {
+    make_system<WriteXdmf<2>>("").run(world);
+  } else {
+    make_system<WriteXdmf<3>>("").run(world);
+  }
+}
+
+}  // namespace
+
+void write_run_checkpoint(const fs::path& folder, const SceneFile& scene, World& world) {
+  FieldsFile& fields = world.resource<FieldsFile>();
+  take_back_frame(fields);
+  // The rows that the checkpoint counts are in the file.
+  auto& history = world.resource<HistoryFile>().file;
+  if (!history.flush()) throw std::runtime_error((folder / "history.csv").string() + ": cannot be written");
+  write_checkpoint((folder / checkpoint_name).string(), world, [&](Hdf5File& file) {
+    file.write_text(dataset::scene, scene.as_run.dump());
+    file.write_text(dataset::version, std::string(version));
+    add_fields(fields, file);
+  });
+}
+
+StoredFields load_checkpoint(const fs::path& folder, const std::string& scene_path, const SceneFile& scene,
+                             World& world) {
+  const Hdf5File file = open_checkpoint(folder / checkpoint_name);
+  require_fit(file, scene_path, scene);
+  StoredFields fields = read_fields(file);
+  require_output(folder, fields);
+  world.resource<StepControl>();  // no system names it; the time loop makes it, later
+  read_state(file, world);
+  return fields;
+}
+
+void continue_output(const fs::path& folder, StoredFields stored, World& world) {
+  open_history(folder / "history.csv", world.resource<RunTotals>().rows, world.resource<HistoryFile>().file);
+  stored.image.restore((folder / "fields.h5").string());
+  FieldsFile& fields = world.resource<FieldsFile>();
+  fields.folder = folder.string();
+  fields.frames = std::move(stored.frames);
+  write_index(world);
+}
+
+}  // namespace minamo
