@@ -10,9 +10,10 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from reporting.plots import draw_history, draw_systems
+from figuring.layout import png
+from figuring.plots import draw_history, draw_systems
+from figuring.strips import Strip, draw_strip
 from reporting.runs import Run, labels
-from reporting.strips import Strip, draw_strip, png
 
 STYLE = """
 body { font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; color: #222;

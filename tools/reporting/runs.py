@@ -72,13 +72,17 @@ class Run:
             particles = file.get("particles", {})
             return np.array([float(particles[key].attrs["time"]) for key in sorted(particles, key=int)])
 
-    def frame(self, index: int) -> Frame:
-        """Frame `index` of fields.h5."""
+    def columns(self, index: int) -> dict[str, np.ndarray]:
+        """All that frame `index` of fields.h5 holds, particles x width or particles, in the order of the ids."""
         with self._open_fields() as file:
             group = file[f"particles/{index}"]
             order = np.argsort(group["id"][:])
-            columns = [group[name][:][order] for name in ("position", "velocity", "pressure")]
-        return Frame(float(self.times[index]), *columns)
+            return {name: values[:][order] for name, values in group.items()}
+
+    def frame(self, index: int) -> Frame:
+        """Frame `index` of fields.h5."""
+        columns = self.columns(index)
+        return Frame(float(self.times[index]), *(columns[name] for name in ("position", "velocity", "pressure")))
 
     def frames(self) -> Iterator[Frame]:
         """All frames, in the order of time."""

@@ -58,7 +58,11 @@ def _further_panels(runs: list[Run]) -> list[Panel]:
     """Probes and what other systems have added."""
     known = {column for panel in _known_panels(True) for column in panel.columns} | {"step", "time"}
     further = dict.fromkeys(column for run in runs for column in run.history if column not in known)
-    return [Panel(column.replace("_", " "), {column: ""}) for column in further]
+    return [Panel(column.replace("_", " "), {column: ""}, _unit_of_probe(column)) for column in further]
+
+
+def _unit_of_probe(column: str) -> str:
+    return "Pa" if column.endswith("_pressure") else "m/s" if "_velocity_" in column else ""
 
 
 def series(run: Run, column: str) -> np.ndarray | None:

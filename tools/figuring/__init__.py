@@ -1,0 +1,1 @@
+"""Draws runs for print: strips of particles, histories, movies."""

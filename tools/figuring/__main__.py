@@ -1,0 +1,127 @@
+"""Draws runs for print: strips of particles, histories, times of the systems, and a movie.
+
+  tools/figures out/dam_break                      into out/dam_break/figures
+  tools/figures out/dam_break out/dam_break_flip   the same, runs side by side, into the first folder
+  tools/figures out/dam_break --times 0.1,0.3,0.6 --field vorticity
+  tools/figures out/dam_break_3d --slice y=0.05
+  tools/figures paper                              the figures of the README; runs the scenes that are missing
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from figuring.fields import find_field
+from figuring.layout import WIDTH, png
+from figuring.movies import check_ffmpeg, write_movie
+from figuring.paper import FIGURES, ROOT, write_figure
+from figuring.plots import draw_history, draw_systems
+from figuring.strips import Strip, draw_strip
+from figuring.views import check_slice, read_slice
+from reporting.references import read_references
+from reporting.runs import NoResults, Run, telling_times
+
+
+def numbers(text: str) -> list[float]:
+    """Numbers with commas between them."""
+    return [float(part) for part in text.split(",")]
+
+
+def words(text: str) -> list[str]:
+    """Words with commas between them."""
+    return text.split(",")
+
+
+def positive(text: str) -> int:
+    """A whole number above 0."""
+    if not text.isdigit() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"expected a whole number above 0, got \"{text}\"")
+    return int(text)
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="tools/figures", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+", metavar="DIR", help="what `minamo run --out DIR` wrote")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="default: `figures` in the first DIR")
+    parser.add_argument("--times", type=numbers, metavar="T,T,...",
+                        help="output times to show [s]; default: 6, between which the liquid moves equally far")
+    parser.add_argument("--field", type=words, default=["speed", "pressure"], metavar="NAME,NAME,...",
+                        help="a strip for each; the movie shows the first; default: speed,pressure")
+    parser.add_argument("--slice", type=read_slice, metavar="AXIS=PLACE",
+                        help="of a run in space: particles within half a cell of a plane [m], like z=0.1")
+    parser.add_argument("--reference", type=Path, metavar="DIR",
+                        help="draws the lines of DIR/NAME_tT.csv (segment,x,y) into the strips at time T")
+    parser.add_argument("--corners", action="store_true",
+                        help="draws how the corners of boxes of liquid, free of walls, must go: on straight lines "
+                             "with the velocity of the start, as for the rotating square")
+    parser.add_argument("--fps", type=positive, metavar="N", help="frames per second; default: a movie of 6 s")
+    parser.add_argument("--no-movie", action="store_true", help="pictures only")
+    return parser.parse_args()
+
+
+def paper_arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="tools/figures paper", description="Draws the figures of the README.")
+    parser.add_argument("--scenes", type=Path, default=ROOT / "scenes", metavar="DIR", help="default: scenes")
+    parser.add_argument("--results", type=Path, default=ROOT / "out", metavar="DIR",
+                        help="finished runs of the same scenes are taken from here, others are run; default: out")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="default: the folder of the scenes")
+    return parser.parse_args(sys.argv[2:])
+
+
+def read_run(folder: str) -> Run:
+    """A run that has at least one frame."""
+    run = Run(folder)
+    if len(run.times) == 0:
+        raise NoResults(f"{folder}: no frames to draw; expected: at least one in fields.h5")
+    return run
+
+
+def figures(options: argparse.Namespace) -> None:
+    """All figures of some runs."""
+    runs = [read_run(folder) for folder in options.folders]
+    for run in runs if options.slice else []:
+        check_slice(run, options.slice)
+    if not options.no_movie:
+        check_ffmpeg()
+    fields = [find_field(runs, name) for name in options.field]
+    references = read_references(options.reference) if options.reference else []
+    longest = max(runs, key=lambda run: run.times[-1])
+    times = options.times or telling_times(longest, 6 if len(runs) == 1 else 4)
+    strips = [draw_strip(Strip(runs, times, field, references, options.corners, options.slice)) for field in fields]
+
+    out = options.out or runs[0].folder / "figures"
+    out.mkdir(parents=True, exist_ok=True)
+    suffix = "_" + options.slice.name.replace(" = ", "").removesuffix(" m") if options.slice else ""
+    pictures = {f"{field.name}{suffix}": strip for field, strip in zip(fields, strips)}
+    pictures |= {"history": draw_history(runs, WIDTH), "systems": draw_systems(runs, WIDTH)}
+    for name, picture in pictures.items():
+        if picture:
+            (out / f"{name}.png").write_bytes(png(picture))
+            print(out / f"{name}.png")
+    if not options.no_movie:
+        movie = out / f"{fields[0].name}{suffix}.mp4"
+        write_movie(movie, runs, fields[0], options.slice, options.fps)
+        print(movie)
+
+
+def paper(options: argparse.Namespace) -> None:
+    """All figures of the paper."""
+    out = options.out or options.scenes
+    out.mkdir(parents=True, exist_ok=True)
+    for figure in FIGURES:
+        print(os.path.relpath(write_figure(figure, options.scenes, options.results, out)))
+
+
+if __name__ == "__main__":
+    try:
+        if sys.argv[1:2] == ["paper"]:
+            paper(paper_arguments())
+        else:
+            figures(arguments())
+    except NoResults as problem:
+        print(problem, file=sys.stderr)
+        sys.exit(2)

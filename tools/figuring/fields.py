@@ -1,0 +1,71 @@
+"""What particles are coloured by: what fields.h5 has of them, and what follows from that."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from reporting.runs import NoResults, Run
+
+AXES = "xyz"
+SEQUENTIAL, SIGNED = "viridis", "coolwarm"  # perceptually uniform; told apart by all eyes
+
+
+@dataclass(frozen=True)
+class Field:
+    """A number per particle."""
+
+    name: str
+    unit: str
+    values: Callable[[dict[str, np.ndarray]], np.ndarray]  # from the columns of a frame
+    colours: str = SEQUENTIAL
+
+    @property
+    def label(self) -> str:
+        return self.name.replace("_", " ") + (f" [{self.unit}]" if self.unit else "")
+
+
+def fields_of(run: Run) -> dict[str, Field]:
+    """All that the particles of a run can be coloured by."""
+    columns, dimension = run.columns(0), run.dimension
+    found = [Field("speed", "m/s", lambda columns: np.linalg.norm(columns["velocity"], axis=1)),
+             Field("pressure", "Pa", lambda columns: columns["pressure"], "cividis")]
+    found += [_part("velocity", "m/s", k, AXES[k]) for k in range(dimension)]
+    if "velocity_gradient" in columns:
+        found.append(Field("vorticity", "1/s", _vorticity, SIGNED if dimension == 2 else SEQUENTIAL))
+        pairs = [(i, j) for i in range(dimension) for j in range(dimension)]
+        found += [_part("velocity_gradient", "1/s", k, AXES[i] + AXES[j]) for k, (i, j) in enumerate(pairs)]
+    for name, values in columns.items():
+        if name not in ("position", "velocity", "pressure", "velocity_gradient"):
+            found += [_whole(name)] if values.ndim == 1 else [_part(name, "", k, str(k)) for k in range(values.shape[1])]
+    return {field.name: field for field in found}
+
+
+def _whole(column: str) -> Field:
+    return Field(column, "", lambda columns: columns[column].astype(float))
+
+
+def _part(column: str, unit: str, k: int, name: str) -> Field:
+    return Field(f"{column}_{name}", unit, lambda columns: columns[column][:, k], SIGNED)
+
+
+def _vorticity(columns: dict[str, np.ndarray]) -> np.ndarray:
+    """dv/dx - du/dy; in space the magnitude of the curl. The gradient has dv_i/dx_j in row i, column j. [1/s]"""
+    dimension = columns["position"].shape[1]
+    gradient = columns["velocity_gradient"].reshape(-1, dimension, dimension)
+    turning = gradient - gradient.transpose(0, 2, 1)
+    return turning[:, 1, 0] if dimension == 2 else np.sqrt(0.5) * np.linalg.norm(turning, axis=(1, 2))
+
+
+def find_field(runs: list[Run], name: str) -> Field:
+    """The field of that name, which all runs must have."""
+    for run in runs:
+        known = fields_of(run)
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1, 0.4)
+            raise NoResults(f"{run.folder}: unknown field \"{name}\"; expected one of: {', '.join(known)}"
+                            + (f"; nearest: {near[0]}" if near else ""))
+    return known[name]

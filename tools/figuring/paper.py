@@ -1,0 +1,76 @@
+"""The figures of the paper that tools/figures draws anew from our scenes, and the runs that they need."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from figuring.fields import find_field
+from figuring.layout import png
+from figuring.strips import Strip, draw_strip
+from reporting.references import read_references
+from reporting.runs import NoResults, Run
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@dataclass(frozen=True)
+class PaperFigure:
+    """A row per scene, a column per time, coloured by speed."""
+
+    name: str
+    scenes: tuple[str, ...]
+    times: tuple[float, ...]  # [s]
+    reference: Path | None = None
+    corners: bool = False
+
+
+FIGURES = (
+    PaperFigure("dam_break", ("dam_break_pic", "dam_break_flip", "dam_break"), (0.3, 0.6, 5.0),
+                reference=ROOT / "scenes/reference/dam_break_interfoam"),
+    PaperFigure("rotating_square", ("rotating_square_flip", "rotating_square"), (1.0, 2.0, 4.0), corners=True),
+)
+
+
+def write_figure(figure: PaperFigure, scenes: Path, results: Path, out: Path) -> Path:
+    """Runs the scenes whose results are not there, and draws."""
+    runs = [_run(scenes / f"{name}.json", results / name) for name in figure.scenes]
+    references = read_references(figure.reference) if figure.reference else []
+    strip = Strip(runs, list(figure.times), find_field(runs, "speed"), references, figure.corners)
+    path = out / f"{figure.name}.png"
+    path.write_bytes(png(draw_strip(strip)))
+    return path
+
+
+def _run(scene: Path, folder: Path) -> Run:
+    if not scene.is_file():
+        raise NoResults(f"{scene}: no such scene")
+    if not _is_there(scene, folder):
+        program = os.environ.get("MINAMO")
+        command = [program, "run"] if program else [str(ROOT / "tools/run")]
+        status = subprocess.run([*command, str(scene), "--out", str(folder)], check=False).returncode
+        if status != 0:
+            sys.exit(status)  # minamo has said why
+    return Run(folder)
+
+
+def _is_there(scene: Path, folder: Path) -> bool:
+    """Whether the folder has all results of this very scene."""
+    if not (folder / "scene.json").is_file():
+        return False
+    run = Run(folder)
+    return run.status == "done" and _contains(run.scene, json.loads(scene.read_text()))
+
+
+def _contains(whole: Any, part: Any) -> bool:
+    """The scene as it ran has all that the file says, and the defaults."""
+    if isinstance(part, dict):
+        return isinstance(whole, dict) and all(key in whole and _contains(whole[key], part[key]) for key in part)
+    if isinstance(part, list):
+        return isinstance(whole, list) and len(whole) == len(part) and all(map(_contains, whole, part))
+    return whole == part
