@@ -14,20 +14,33 @@ import os
 import sys
 from pathlib import Path
 
+import numpy as np
+
 from figuring.fields import find_field
 from figuring.layout import WIDTH, png
 from figuring.movies import check_ffmpeg, write_movie
 from figuring.paper import FIGURES, ROOT, write_figure
 from figuring.plots import draw_history, draw_systems
 from figuring.strips import Strip, draw_strip
-from figuring.views import check_slice, read_slice
+from figuring.views import Slice, check_slice, read_slice
 from reporting.references import read_references
 from reporting.runs import NoResults, Run, telling_times
 
 
 def numbers(text: str) -> list[float]:
     """Numbers with commas between them."""
-    return [float(part) for part in text.split(",")]
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"expected numbers with commas between them, got \"{text}\"") from None
+
+
+def slice_(text: str) -> Slice:
+    """`z=0.1`."""
+    try:
+        return read_slice(text)
+    except ValueError as problem:
+        raise argparse.ArgumentTypeError(str(problem)) from None
 
 
 def words(text: str) -> list[str]:
@@ -51,7 +64,7 @@ def arguments() -> argparse.Namespace:
                         help="output times to show [s]; default: 6, between which the liquid moves equally far")
     parser.add_argument("--field", type=words, default=["speed", "pressure"], metavar="NAME,NAME,...",
                         help="a strip for each; the movie shows the first; default: speed,pressure")
-    parser.add_argument("--slice", type=read_slice, metavar="AXIS=PLACE",
+    parser.add_argument("--slice", type=slice_, metavar="AXIS=PLACE",
                         help="of a run in space: particles within half a cell of a plane [m], like z=0.1")
     parser.add_argument("--reference", type=Path, metavar="DIR",
                         help="draws the lines of DIR/NAME_tT.csv (segment,x,y) into the strips at time T")
@@ -117,6 +130,7 @@ def paper(options: argparse.Namespace) -> None:
 
 
 if __name__ == "__main__":
+    np.seterr(all="ignore")  # runs that went beyond all numbers are drawn as well
     try:
         if sys.argv[1:2] == ["paper"]:
             paper(paper_arguments())

@@ -40,7 +40,8 @@ def fields_of(run: Run) -> dict[str, Field]:
         found += [_part("velocity_gradient", "1/s", k, AXES[i] + AXES[j]) for k, (i, j) in enumerate(pairs)]
     for name, values in columns.items():
         if name not in ("position", "velocity", "pressure", "velocity_gradient"):
-            found += [_whole(name)] if values.ndim == 1 else [_part(name, "", k, str(k)) for k in range(values.shape[1])]
+            parts = range(values[0].size) if values.ndim > 1 else ()
+            found += [_part(name, "", k, str(k)) for k in parts] or [_whole(name)]
     return {field.name: field for field in found}
 
 

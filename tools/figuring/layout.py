@@ -51,14 +51,14 @@ def lay_out(rows: list[list[View]], margins: Margins, width: float = WIDTH) -> t
     return figure, panels
 
 
-def label_outer(panels: list[list], below: set[tuple[int, int]]) -> None:
+def label_outer(panels: list[list]) -> None:
     """Coordinates at the left of the first column and below the panels that have none below them."""
     for i, row in enumerate(panels):
         for k, panel in enumerate(row):
             if k > 0:
                 panel.set_ylabel("")
                 panel.tick_params(labelleft=False)
-            if (i, k) not in below:
+            if any(len(lower) > k for lower in panels[i + 1:]):
                 panel.set_xlabel("")
                 panel.tick_params(labelbottom=False)
 

@@ -46,7 +46,6 @@ def write_movie(path: Path, runs: list[Run], field: Field, cut: Slice | None, pe
     title = figure.text(0.5, 1 - 0.16 / figure.get_figheight(), "", fontsize=10, ha="center", va="center")
     names = dict(zip(map(id, runs), labels(runs)))
     cells = [cell for row in zip(panels, rows, views) for cell in zip(*row)]
-    lowest = {(i, k) for i in range(len(rows)) for k in range(len(rows[i])) if i == len(rows) - 1 or k >= len(rows[-1])}
     writer = FFMpegWriter(fps=per_second or frames_per_second(len(times)), codec="h264",
                           extra_args=["-crf", "20", "-movflags", "+faststart", "-threads", "1"])
     with writer.saving(figure, str(path), DOTS_PER_INCH):
@@ -57,7 +56,7 @@ def write_movie(path: Path, runs: list[Run], field: Field, cut: Slice | None, pe
                 draw_panel(panel, Look(field, norm, cut), run, _last_until(run, time), time, view)
                 if len(runs) > 1:
                     panel.set_title(names[id(run)], fontsize=9, pad=4)
-            label_outer(panels, lowest)
+            label_outer(panels)
             writer.grab_frame()
 
 
@@ -79,5 +78,5 @@ def _written(time: float, times: np.ndarray) -> str:
 
 def _margins(runs: list[Run], cut: Slice | None) -> Margins:
     in_space = all(plane_of(run, cut) is None for run in runs)
-    return Margins(left=0.18 if in_space else 0.5, bottom=0.15 if in_space else 0.42, top=0.55 if len(runs) > 1 else 0.35,
-                   across=0.2 if in_space else 0.1, down=0.35)
+    return Margins(left=0.18 if in_space else 0.5, bottom=0.15 if in_space else 0.42,
+                   top=0.55 if len(runs) > 1 else 0.35, across=0.2 if in_space else 0.1, down=0.35)

@@ -43,15 +43,18 @@ def draw_panel(panel, look: Look, run: Run, index: int | None, time: float, view
         return
     columns = run.columns(index)
     places, which = place(run, columns["position"], look.cut)
-    _draw_particles(panel, places, _diameter(panel, run), look.field.values(columns)[which], cmap=look.field.colours, norm=look.norm)
+    _draw_particles(panel, places, _diameter(panel, run), look.field.values(columns)[which],
+                    cmap=look.field.colours, norm=look.norm)
     _draw_references(panel, look.references, time)
     if look.corners:
         _draw_corners(panel, run, time)
 
 
 def _absence(run: Run, time: float) -> str:
-    ended = float(run.times[-1])
-    return f"{run.status} at {ended:.3g} s" if time > ended else "no frame here"
+    if time < run.times[-1]:
+        return "no frame at that time"
+    ended = run.summary.get("time", float(run.times[-1]))
+    return f"{'ended' if run.status == 'done' else run.status} at {ended:.3g} s"
 
 
 def _draw_axes(panel, run: Run, cut: Slice | None, view: View) -> None:
@@ -126,7 +129,8 @@ def _name_edges(panel, corners: np.ndarray, places: np.ndarray, outline: list[tu
         a, b = min(along, key=lambda pair: tuple(places[list(pair)].mean(axis=0)[::-1].round(9)))
         ends = places[[a, b]]
         direction = ends[1] - ends[0]
-        angle = (np.degrees(np.arctan2(direction[1], direction[0])) + 89) % 180 - 89  # read from below or from the right
+        angle = np.degrees(np.arctan2(direction[1], direction[0]))
+        angle = (angle + 89) % 180 - 89  # to be read from below, or from the right
         outward = np.array([-direction[1], direction[0]]) / np.linalg.norm(direction)
         outward *= np.sign(outward @ (ends.mean(axis=0) - middle))
         panel.annotate(f"${AXES[axis]}$: {np.linalg.norm(corners[a] - corners[b]):.4g} m", ends.mean(axis=0),

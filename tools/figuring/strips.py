@@ -55,7 +55,7 @@ def draw_strip(strip: Strip) -> Figure:
     for row, axes in zip(rows, panels):
         for cell, panel in zip(row, axes):
             draw_panel(panel, look, cell.run, cell.index, cell.time, views[id(cell.run)])
-    label_outer(panels, _lowest(rows))
+    label_outer(panels)
     _name_rows_and_columns(strip, panels)
     colour_bar(figure, strip.field, norm, extend)
     _legend(figure, strip)
@@ -89,11 +89,6 @@ def _rows(strip: Strip) -> list[list[Cell]]:
     return [cells[0][k:k + across] for k in range(0, len(strip.times), across)]
 
 
-def _lowest(rows: list[list]) -> set[tuple[int, int]]:
-    """Places of the cells that have none below them."""
-    return {(i, k) for i, row in enumerate(rows) for k in range(len(row)) if all(len(lower) <= k for lower in rows[i + 1:])}
-
-
 def _in_the_box_of(run: Run, strip: Strip, cells: list[Cell]) -> list[np.ndarray]:
     """All points to be shown of runs with the same box, so that their pictures have the same view. [m]"""
     points = [cell.run.columns(cell.index)["position"] for cell in cells
@@ -107,7 +102,8 @@ def scale(shown: Field, frames: list[tuple[Run, int]], cut: Slice | None) -> tup
     From 0 on; of what has a sign the same on both sides of 0.
     """
     values = np.concatenate([_values(shown, run, run.columns(index), cut) for run, index in frames])
-    if len(values) == 0:  # nothing near the slice
+    values = values[np.isfinite(values)]
+    if len(values) == 0:  # nothing near the slice, or nothing that is a number
         return Normalize(0, 1), "neither"
     low, high = np.percentile(values, [0.5, 99.5])
     if shown.colours == SIGNED:

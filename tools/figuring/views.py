@@ -39,13 +39,12 @@ class Slice:
 
 
 def read_slice(text: str) -> Slice:
-    """`z=0.1`.
-    @throws ValueError
-    """
-    match = re.fullmatch(r"\s*([xyz])\s*=\s*(\S+)\s*", text)
-    if not match:
-        raise ValueError(f"expected an axis and a place on it, like z=0.1, got \"{text}\"")
-    return Slice(AXES.index(match[1]), float(match[2]))
+    """`z=0.1`; anything else is a ValueError."""
+    match = re.fullmatch(r"\s*([xyz])\s*=\s*([-+0-9.eE]+)\s*", text)
+    try:
+        return Slice(AXES.index(match[1]), float(match[2]))
+    except (TypeError, ValueError):
+        raise ValueError(f"expected an axis and a place on it, like z=0.1, got \"{text}\"") from None
 
 
 def check_slice(run: Run, cut: Slice) -> None:

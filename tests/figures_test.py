@@ -1,0 +1,191 @@
+"""What tools/figures makes of small runs, and what it says of wrong input. In the environment: PROGRAM, WORK."""
+
+import json
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+from matplotlib.image import imread
+
+ROOT = Path(__file__).resolve().parent.parent
+PROGRAM = os.environ["PROGRAM"]
+WORK = Path(os.environ["WORK"])
+SHORT = {"/time/end": 0.1, "/time/step": 0.005, "/output/every": 0.01}
+COARSE = {"/grid/cells": [16, 8, 16], "/particles/0/per_cell": 2, "/time/end": 0.06, "/time/step": 0.01}
+
+
+def run_scene(scene, folder, settings):
+    """Runs a scene into WORK/folder; the exit status."""
+    command = [PROGRAM, "run", str(ROOT / f"scenes/{scene}.json"), "--out", str(WORK / folder)]
+    command += ["--threads", "1", "--quiet"]
+    for key, value in settings.items():
+        command += ["--set", f"{key}={json.dumps(value)}"]
+    return subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode
+
+
+def figures(*arguments):
+    """Calls the python part of tools/figures in WORK."""
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "tools"), "MINAMO": PROGRAM}
+    return subprocess.run([sys.executable, "-P", "-B", "-m", "figuring", *map(str, arguments)], cwd=WORK, text=True,
+                          env=environment, capture_output=True, check=False)
+
+
+def size_of_png(path):
+    """Width and height in pixels."""
+    start = path.read_bytes()[:24]
+    assert start[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is no PNG"
+    return struct.unpack(">II", start[16:])
+
+
+def stream_of(movie):
+    """What ffprobe says of a video after it has decoded all of it."""
+    command = ["ffprobe", "-v", "error", "-count_frames", "-of", "json", "-show_entries",
+               "stream=nb_read_frames,width,height,codec_name,pix_fmt", str(movie)]
+    return json.loads(subprocess.run(command, capture_output=True, check=True).stdout)["streams"][0]
+
+
+def frames_of(folder):
+    with h5py.File(WORK / folder / "fields.h5") as file:
+        return len(file["particles"])
+
+
+def panel_of(path):
+    """The pixels inside the walls of a strip with one panel: rows from the top, colours from 0 to 1."""
+    picture = imread(path)[:, :, :3]
+    dark = picture.max(axis=2) < 0.25
+    rows, columns = (np.flatnonzero(count > 0.8 * count.max()) for count in (dark.sum(axis=1), dark.sum(axis=0)))
+    return picture[rows[0]:rows[-1], columns[0]:columns[-1]]
+
+
+def close_to(picture, colour):
+    return np.abs(picture - np.array(colour)).max(axis=2) < 0.1
+
+
+class Figures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        WORK.mkdir(parents=True)
+        for scene in ("dam_break", "dam_break_flip"):
+            assert run_scene(scene, scene, SHORT) == 0
+        assert run_scene("dam_break_3d", "space", COARSE) == 0
+
+    def expect_files(self, done, *paths):
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.stdout.split(), list(paths))
+        self.assertEqual(done.returncode, 0)
+
+    def expect_error(self, message, *arguments):
+        done = figures(*arguments)
+        self.assertEqual(done.stderr.strip(), message)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+
+    def test_a_run_gives_strips_histories_and_a_movie_with_all_its_frames(self):
+        names = ("speed.png", "pressure.png", "history.png", "systems.png", "speed.mp4")
+        self.expect_files(figures("dam_break"), *(f"dam_break/figures/{name}" for name in names))
+        for name in names[:3]:
+            width, height = size_of_png(WORK / "dam_break/figures" / name)
+            self.assertEqual(width, 1440)  # 7.2 inches with 200 dots each
+            self.assertGreater(height, 500)
+        movie = stream_of(WORK / "dam_break/figures/speed.mp4")
+        self.assertEqual(frames_of("dam_break"), 11)
+        self.assertEqual(int(movie["nb_read_frames"]), 11)
+        self.assertEqual((movie["codec_name"], movie["pix_fmt"]), ("h264", "yuv420p"))  # what every player shows
+
+    def test_particles_are_drawn_where_they_are(self):
+        self.expect_files(figures("dam_break", "--times", "0", "--field", "pressure", "--no-movie", "--out", "start"),
+                          "start/pressure.png", "start/history.png", "start/systems.png")
+        panel = panel_of(WORK / "start/pressure.png")
+        where = np.argwhere(np.ptp(panel, axis=2) > 0.1)
+        # The column takes a quarter of the width and half of the height of the tank; particles and walls have a width.
+        self.assertAlmostEqual(where[:, 1].max() / panel.shape[1], 0.25, delta=0.015)
+        self.assertAlmostEqual(1 - where[:, 0].min() / panel.shape[0], 0.5, delta=0.015)
+
+    def test_runs_stand_side_by_side_with_the_lines_of_a_reference(self):
+        red = (0.84, 0.15, 0.16)
+        call = ("dam_break", "dam_break_flip", "--times", "0.1", "--field", "speed")
+        reference = ROOT / "scenes/reference/dam_break_interfoam"
+        for out, more in (("bare", ["--no-movie"]), ("both", ["--reference", reference])):
+            self.assertEqual(figures(*call, "--out", out, *more).stderr, "")
+        self.assertFalse(close_to(imread(WORK / "bare/speed.png")[:, :, :3], red).any())
+        self.assertGreater(close_to(imread(WORK / "both/speed.png")[:, :, :3], red).sum(), 200)
+        self.assertEqual(int(stream_of(WORK / "both/speed.mp4")["nb_read_frames"]), 11)
+        width, height = size_of_png(WORK / "both/speed.png")
+        self.assertGreater(height, 1.5 * width)  # a column with a panel per run
+
+    def test_a_run_in_space_is_seen_as_a_whole_and_as_a_slice(self):
+        self.expect_files(figures("space", "--field", "speed"), "space/figures/speed.png", "space/figures/history.png",
+                          "space/figures/systems.png", "space/figures/speed.mp4")
+        self.assertEqual(int(stream_of(WORK / "space/figures/speed.mp4")["nb_read_frames"]), frames_of("space"))
+        done = figures("space", "--field", "pressure", "--slice", "x=0.1", "--times", "0.06")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(int(stream_of(WORK / "space/figures/pressure_x0.1.mp4")["nb_read_frames"]), frames_of("space"))
+        panel = panel_of(WORK / "space/figures/pressure_x0.1.png")
+        self.assertAlmostEqual(panel.shape[0] / panel.shape[1], 2, delta=0.02)  # y and z of the tank
+        self.assertGreater((np.ptp(panel, axis=2) > 0.1).mean(), 0.1)
+
+    def test_a_slice_shows_nothing_where_there_is_no_liquid(self):
+        self.assertEqual(figures("space", "--slice", "x=0.5", "--times", "0", "--no-movie", "--out", "dry").stderr, "")
+        self.assertFalse((np.ptp(panel_of(WORK / "dry/speed_x0.5.png"), axis=2) > 0.1).any())
+
+    def test_a_run_that_failed_gives_figures_of_what_is_there(self):
+        # The force leaves the range of numbers after 0.032 s.
+        status = run_scene("dam_break", "failed", SHORT | {"/body_force": [0, "-9.81/(t < 0.032)"]})
+        self.assertEqual(status, 3)
+        names = ("speed.png", "history.png", "systems.png", "speed.mp4")
+        self.expect_files(figures("failed", "--field", "speed"), *(f"failed/figures/{name}" for name in names))
+        self.assertEqual(int(stream_of(WORK / "failed/figures/speed.mp4")["nb_read_frames"]), frames_of("failed"))
+        # Beside a run that went on its panels say that it ended.
+        self.assertEqual(figures("dam_break", "failed", "--times", "0,0.1", "--no-movie", "--out", "beside").stderr, "")
+
+    def test_wrong_input_gives_one_clear_error(self):
+        self.expect_error("nowhere: no results of minamo here (no scene.json); "
+                          "expected: a folder that `minamo run SCENE --out DIR` wrote", "nowhere")
+        empty = WORK / "empty"
+        empty.mkdir()
+        shutil.copy(WORK / "dam_break/scene.json", empty)
+        self.expect_error("empty: no frames to draw; expected: at least one in fields.h5", "empty")
+        known = ("speed, pressure, velocity_x, velocity_y, vorticity, velocity_gradient_xx, velocity_gradient_xy, "
+                 "velocity_gradient_yx, velocity_gradient_yy, id")
+        self.expect_error(f"dam_break: unknown field \"presure\"; expected one of: {known}; nearest: pressure",
+                          "dam_break", "--field", "presure")
+        self.expect_error("dam_break: t = 3 s is outside the run; expected: between 0 and 0.1 s",
+                          "dam_break", "--times", "0.1,3")
+        self.expect_error("dam_break: no frame at t = 0.056 s; nearest: 0.05 and 0.06 s",
+                          "dam_break", "--times", "0.056")
+        self.expect_error("dam_break: a run in the plane cannot be cut at z = 0.1 m", "dam_break", "--slice", "z=0.1")
+        self.expect_error("space: the slice y = 0.4 m misses the box; expected: y between 0 and 0.292 m",
+                          "space", "--slice", "y=0.4")
+        done = figures("space", "--slice", "w=0.4")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("argument --slice: expected an axis and a place on it, like z=0.1, got \"w=0.4\"", done.stderr)
+
+    def test_the_pictures_of_the_readme_come_from_one_call_which_runs_what_is_missing(self):
+        (WORK / "scenes").mkdir()
+        for name, cells, step in (("dam_break_pic", 16, 0.02), ("dam_break_flip", 16, 0.02), ("dam_break", 16, 0.02),
+                                  ("rotating_square_flip", 40, 0.02), ("rotating_square", 40, 0.02)):
+            scene = json.loads((ROOT / f"scenes/{name}.json").read_text())
+            scene["grid"]["cells"] = [cells, cells]
+            scene["time"]["step"] = step
+            (WORK / f"scenes/{name}.json").write_text(json.dumps(scene))
+        call = ("paper", "--scenes", "scenes", "--results", "results", "--out", "readme")
+        self.assertEqual(figures(*call).returncode, 0)
+        for name in ("dam_break.png", "rotating_square.png"):
+            self.assertEqual(size_of_png(WORK / "readme" / name)[0], 1440)
+        written = {path: path.stat().st_mtime_ns for path in (WORK / "results").glob("*/summary.json")}
+        self.assertEqual(len(written), 5)
+        scene["time"]["step"] = 0.04  # of the rotating square
+        (WORK / "scenes/rotating_square.json").write_text(json.dumps(scene))
+        self.assertEqual(figures(*call).returncode, 0)
+        again = [path.parent.name for path, time in written.items() if path.stat().st_mtime_ns != time]
+        self.assertEqual(again, ["rotating_square"])
+
+
+if __name__ == "__main__":
+    unittest.main()
