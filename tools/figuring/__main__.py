@@ -102,6 +102,9 @@ def figures(options: argparse.Namespace) -> None:
         check_ffmpeg()
     fields = [find_field(runs, name) for name in options.field]
     references = read_references(options.reference) if options.reference else []
+    for run in runs if references else []:
+        if run.dimension == 3:
+            raise NoResults(f"{run.folder}: the lines of {options.reference} lie in the plane, this run in space")
     longest = max(runs, key=lambda run: run.times[-1])
     times = options.times or telling_times(longest, 6 if len(runs) == 1 else 4)
     strips = [draw_strip(Strip(runs, times, field, references, options.corners, options.slice)) for field in fields]
@@ -126,7 +129,8 @@ def paper(options: argparse.Namespace) -> None:
     out = options.out or options.scenes
     out.mkdir(parents=True, exist_ok=True)
     for figure in FIGURES:
-        print(os.path.relpath(write_figure(figure, options.scenes, options.results, out)))
+        picture = write_figure(figure, options.scenes, options.results, out)
+        print(min(str(picture), os.path.relpath(picture), key=len))
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ class Margins:
     bottom: float
     right: float = 0.85
     top: float = 0.28
-    across: float = 0.1
+    across: float = 0.2
     down: float = 0.1
 
 

@@ -79,4 +79,4 @@ def _written(time: float, times: np.ndarray) -> str:
 def _margins(runs: list[Run], cut: Slice | None) -> Margins:
     in_space = all(plane_of(run, cut) is None for run in runs)
     return Margins(left=0.18 if in_space else 0.5, bottom=0.15 if in_space else 0.42,
-                   top=0.55 if len(runs) > 1 else 0.35, across=0.2 if in_space else 0.1, down=0.35)
+                   top=0.55 if len(runs) > 1 else 0.35, down=0.35)

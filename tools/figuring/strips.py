@@ -126,8 +126,7 @@ def _margins(strip: Strip, rows: list[list[Cell]]) -> Margins:
     in_space = all(plane_of(run, strip.cut) is None for run in strip.runs)
     legend = 0.26 if strip.references or strip.corners else 0.0
     return Margins(left=(0.15 if in_space else 0.5) + (0.28 if named else 0.0),
-                   bottom=legend + (0.12 if in_space else 0.42), across=0.2 if in_space else 0.1,
-                   down=0.1 if named or len(rows) == 1 else 0.3)
+                   bottom=legend + (0.12 if in_space else 0.42), down=0.1 if named or len(rows) == 1 else 0.3)
 
 
 def _name_rows_and_columns(strip: Strip, panels: list[list]) -> None:

@@ -26,8 +26,8 @@ def read_references(folder: Path) -> list[Curves]:
     """All NAME_tT.csv of a folder: lines at time T, rows of `segment,x,y`; underscores of NAME are shown as blanks."""
     found = []
     for path in sorted(folder.glob("*_t*.csv")):
-        name, time = re.fullmatch(r"(.*)_t([0-9.]+)", path.stem).groups()
-        found.append(Curves(name.replace("_", " "), float(time), _segments(path)))
+        if match := re.fullmatch(r"(.*)_t([0-9]+\.?[0-9]*)", path.stem):
+            found.append(Curves(match[1].replace("_", " "), float(match[2]), _segments(path)))
     if not found:
         raise NoResults(f"{folder}: no reference here; expected: files NAME_tT.csv with the columns segment,x,y")
     return found
