@@ -108,8 +108,8 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(1 - where[:, 0].min() / panel.shape[0], 0.5, delta=0.015)
 
     def test_runs_stand_side_by_side_with_the_lines_of_a_reference(self):
-        red = (0.84, 0.15, 0.16)
         call = ("dam_break", "dam_break_flip", "--times", "0.1", "--field", "speed")
+        red = (0.84, 0.15, 0.16)
         reference = ROOT / "scenes/reference/dam_break_interfoam"
         for out, more in (("bare", ["--no-movie"]), ("both", ["--reference", reference])):
             self.assertEqual(figures(*call, "--out", out, *more).stderr, "")
@@ -143,6 +143,18 @@ class Figures(unittest.TestCase):
         self.assertEqual(int(stream_of(WORK / "failed/figures/speed.mp4")["nb_read_frames"]), frames_of("failed"))
         # Beside a run that went on its panels say that it ended.
         self.assertEqual(figures("dam_break", "failed", "--times", "0,0.1", "--no-movie", "--out", "beside").stderr, "")
+
+    def test_values_beyond_all_numbers_are_magenta_and_do_not_hide_the_others(self):
+        shutil.copytree(WORK / "dam_break", WORK / "diverged")
+        with h5py.File(WORK / "diverged/fields.h5", "r+") as file:
+            file["particles/10/velocity"][0] = np.inf
+            file["particles/10/velocity"][1] = np.nan
+            file["particles/10/velocity"][2] = 1e200  # its square is beyond
+        done = figures("diverged", "--field", "speed,velocity_x", "--times", "0.1", "--no-movie")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        panel = panel_of(WORK / "diverged/figures/speed.png")
+        self.assertGreater(close_to(panel, (1, 0, 1)).sum(), 50)
+        self.assertGreater((np.ptp(panel, axis=2) > 0.1).mean(), 0.1)  # of the tank, an eighth of which is water
 
     def test_wrong_input_gives_one_clear_error(self):
         self.expect_error("nowhere: no results of minamo here (no scene.json); "

@@ -63,7 +63,8 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--times", type=numbers, metavar="T,T,...",
                         help="output times to show [s]; default: 6, between which the liquid moves equally far")
     parser.add_argument("--field", type=words, default=["speed", "pressure"], metavar="NAME,NAME,...",
-                        help="a strip for each; the movie shows the first; default: speed,pressure")
+                        help="a strip for each; the movie shows the first; default: speed,pressure; what is no finite "
+                             "number is magenta")
     parser.add_argument("--slice", type=slice_, metavar="AXIS=PLACE",
                         help="of a run in space: particles within half a cell of a plane [m], like z=0.1")
     parser.add_argument("--reference", type=Path, metavar="DIR",

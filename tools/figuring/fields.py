@@ -7,11 +7,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib import colormaps
+from matplotlib.colors import Colormap
 
 from reporting.runs import NoResults, Run
 
 AXES = "xyz"
 SEQUENTIAL, SIGNED = "viridis", "coolwarm"  # perceptually uniform; told apart by all eyes
+NOT_FINITE = "#ff00ff"  # in none of the maps
 
 
 @dataclass(frozen=True)
@@ -22,6 +25,10 @@ class Field:
     unit: str
     values: Callable[[dict[str, np.ndarray]], np.ndarray]  # from the columns of a frame
     colours: str = SEQUENTIAL
+
+    @property
+    def colour_map(self) -> Colormap:
+        return colormaps[self.colours].with_extremes(bad=NOT_FINITE)
 
     @property
     def label(self) -> str:

@@ -44,7 +44,7 @@ def draw_panel(panel, look: Look, run: Run, index: int | None, time: float, view
     columns = run.columns(index)
     places, which = place(run, columns["position"], look.cut)
     _draw_particles(panel, places, _diameter(panel, run), look.field.values(columns)[which],
-                    cmap=look.field.colours, norm=look.norm)
+                    cmap=look.field.colour_map, norm=look.norm)
     _draw_references(panel, look.references, time)
     if look.corners:
         _draw_corners(panel, run, time)
@@ -81,7 +81,8 @@ def _diameter(panel, run: Run) -> float:
 def _draw_particles(panel, places: np.ndarray, diameter: float, values: np.ndarray, **colours) -> None:
     sizes = np.full(len(values), diameter)
     panel.add_collection(EllipseCollection(sizes, sizes, np.zeros(len(values)), units="xy", offsets=places,
-                                           linewidths=0, offset_transform=panel.transData, array=values, **colours))
+                                           linewidths=0, offset_transform=panel.transData,
+                                           array=np.ma.masked_invalid(values), **colours))
 
 
 def _draw_box(panel, run: Run, cut: Slice | None) -> None:
