@@ -1,5 +1,7 @@
 #include "engine/hdf5.hpp"
 
+#include "engine/memory_reserve.hpp"
+
 #include <array>
 #include <stdexcept>
 #include <utility>
@@ -38,6 +40,7 @@ hid_t open(const std::string& path, Hdf5File::Access access) {
   // taken back since.
   static const herr_t never_again = H5dont_atexit();
   static_cast<void>(never_again);
+  require_memory(memory_for_a_file);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
   switch (access) {
   case Hdf5File::Access::create:

@@ -1,6 +1,7 @@
 #include "tools/single_run.hpp"
 
 #include "components/particle.hpp"
+#include "engine/memory_reserve.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/setup/time_plan.hpp"
@@ -122,10 +123,16 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const Syst
   }
 
   Progress progress(times, world.resource<Clock>(), world.rows<Particles>(), plan.quiet);
+  MemoryReserve reserve;
   const Observers observers{
       .after_step = [&](const Clock& clock) { progress.show(clock, world.resource<SolveReport>()); },
       .after_rejection = warn_of_rejection,
-      .write_checkpoint = [&] { write_run_checkpoint(plan.folder, file, world); }};
+      .write_checkpoint =
+          [&] {
+            reserve.release();
+            write_run_checkpoint(plan.folder, file, world);
+            reserve.take();
+          }};
   const double before_loop = stopwatch.wall_seconds();
   result.outcome = run_simulation(world, start, step, frame, times, observers, stop, plan.beginning);
   result.loop_seconds = stopwatch.wall_seconds() - before_loop;

@@ -104,7 +104,8 @@ OutputScene read_output(Input& input, double end) {
     output.every = input.number("every", every);
   }
   output.checkpoint = input.optional_number(
-      "checkpoint", {.unit = "s", .doc = "simulated time between checkpoints; by default at start and end alone", .above = 0});
+      "checkpoint",
+      {.unit = "s", .doc = "simulated time between checkpoints; by default at start and end alone", .above = 0});
   return output;
 }
 
