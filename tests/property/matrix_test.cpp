@@ -189,3 +189,17 @@ TEMPLATE_TEST_CASE_SIG("L is symmetric", "[property]", ((int Dim), Dim), 2, 3) {
   }
   CHECK(worst < rounding);
 }
+
+TEMPLATE_TEST_CASE_SIG("L follows from the trace of K", "[property]", ((int Dim), Dim), 2, 3) {
+  World world;
+  assemble<Dim>(world, 27);
+  const auto L = world.column<matrix::Laplacian<Dim>>();
+  const std::vector assembled(L.begin(), L.end());
+  run<LaplacianFromViscosity<Dim>>(world);
+  double worst = 0;
+  for (std::size_t r = 0; r < L.size(); ++r) {
+    for (std::size_t k = 0; k < L[r].size(); ++k) worst = std::max(worst, std::abs(L[r][k] - assembled[r][k]));
+  }
+  CHECK(worst > 0);  // two ways to round
+  CHECK(worst < rounding);
+}
