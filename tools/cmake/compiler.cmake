@@ -28,12 +28,16 @@ function(minamo_compile_options target)
       $<$<BOOL:${MINAMO_DEVELOPER}>:-Werror>)
   else()
     # No warnings here: the sanitizers' own code sets off false ones, and the ordinary build has looked already.
-    # vptr would look for type information that the packaged TBB does not export.
-    set(sanitize -fsanitize=address,undefined -fno-sanitize=vptr)
+    if(MINAMO_SANITIZE STREQUAL "thread")
+      set(sanitize -fsanitize=thread)
+    else()
+      # vptr would look for type information that the packaged TBB does not export.
+      set(sanitize -fsanitize=address,undefined -fno-sanitize=vptr)
+      target_compile_options(${target} PRIVATE -fno-sanitize-recover=undefined)
+      target_compile_definitions(${target} PUBLIC _GLIBCXX_ASSERTIONS)
+    endif()
     # -g1: lines for the reports, a quarter less time to compile.
-    target_compile_options(${target} PUBLIC ${sanitize} PRIVATE -O1 -g1 -fno-omit-frame-pointer
-      -fno-sanitize-recover=undefined)
-    target_compile_definitions(${target} PUBLIC _GLIBCXX_ASSERTIONS)
+    target_compile_options(${target} PUBLIC ${sanitize} PRIVATE -O1 -g1 -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC ${sanitize})
   endif()
 endfunction()
