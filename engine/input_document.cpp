@@ -15,6 +15,7 @@ class UnknownKeys {
   void look_in(InputPlace& place) {
     if (!place.object) return;
     for (const auto& [key, value] : place.object->items()) {
+      if (record_.problems.size() >= enough) return;
       const bool is_known = std::find(place.known.begin(), place.known.end(), key) != place.known.end();
       if (!is_known) note(place, key, value);
       const auto below = place.children.find(key);
@@ -33,6 +34,8 @@ class UnknownKeys {
   }
 
  private:
+  static constexpr std::size_t enough = 1000;  ///< problems: nobody reads more, and a file can have a million
+
   void note(InputPlace& place, const std::string& key, const Json& value) {
     std::vector<std::string> unused;
     std::copy_if(place.known.begin(), place.known.end(), std::back_inserter(unused),
@@ -76,7 +79,7 @@ Input::Document::Document(std::shared_ptr<InputRecord> record)
     : record_(std::move(record)), root_(root_place(record_)) {}
 
 Input::Document::Document(const Json& json, std::string file)
-    : Document(std::make_shared<InputRecord>(InputRecord{std::move(file), {}, {}})) {
+    : Document(std::make_shared<InputRecord>(InputRecord{std::move(file), {}, {}, {}})) {
   InputPlace& root = *root_.place_;
   root.standing = InputPlace::Standing::present;
   if (json.is_object()) {

@@ -59,6 +59,7 @@ std::shared_ptr<InputPlace> InputPlace::child(std::string_view name, std::option
 void InputPlace::note(Problem problem) {
   if (record->describing || standing == Standing::silent) return;
   problem.file = record->file;
+  record->unsound.insert(problem.pointer);
   record->problems.push_back(std::move(problem));
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,7 @@ struct InputRecord {
   std::string file;
   bool describing = false;
   std::vector<Problem> problems;
+  std::set<std::string> unsound;  ///< pointers of the problems
 };
 
 /// An object of the document, or the lack of one.

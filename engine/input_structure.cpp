@@ -208,9 +208,9 @@ void Input::problem(std::string_view key, std::string what, std::string expected
 
 bool Input::sound(std::string_view key) const {
   const std::string at = pointer_below(pointer(), key);
-  const auto& problems = place_->record->problems;
-  return std::none_of(problems.begin(), problems.end(),
-                      [&](const Problem& other) { return other.pointer == at || other.pointer.starts_with(at + "/"); });
+  const auto& unsound = place_->record->unsound;
+  const auto below = unsound.lower_bound(at + "/");
+  return !unsound.contains(at) && (below == unsound.end() || !below->starts_with(at + "/"));
 }
 
 std::optional<std::size_t> Input::elements(std::string_view key) const {

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -52,6 +53,9 @@ class TextCheck : public nlohmann::json_sax<Json> {
 
   bool key(string_t& name) override {
     levels_.back().key = name;
+    constexpr std::size_t most = 1000;  // a key is found by looking at all of them
+    if (levels_.back().names.size() == most)
+      return refuse("too many keys", fmt::format("at most {} of an object", most));
     if (!levels_.back().names.insert(name).second)
       problems_.push_back({file_, pointer(), "key given twice", {}, {}, {}});
     return true;
@@ -68,6 +72,8 @@ class TextCheck : public nlohmann::json_sax<Json> {
     }
     for (std::string* text : {&reason, &expected})
       if (const auto at = text->find("; last read"); at != std::string::npos) text->erase(at);
+    const bool is_nul = position > 0 && position <= text_.size() && text_[position - 1] == '\0';
+    if (is_nul) reason = "unexpected NUL byte";  // the parser takes it for the end
     const bool legible = reason.find("UTF-8") == std::string::npos;
     const std::string got = legible ? trimmed_line(text_, position) : std::string();
     problems_.push_back({file_, {}, line_and_column(text_, position) + ": " + reason, expected, got, {}});
@@ -81,8 +87,18 @@ class TextCheck : public nlohmann::json_sax<Json> {
     std::set<std::string> names{};
   };
 
+  /// Ends the reading.
+  bool refuse(std::string what, std::string expected) {
+    if (!levels_.empty()) levels_.pop_back();
+    problems_.push_back({file_, pointer(), std::move(what), std::move(expected), {}, {}});
+    return false;
+  }
+
   bool next() {
-    if (!levels_.empty() && levels_.back().index) ++*levels_.back().index;
+    constexpr std::size_t most = 10000;  // what compares each with all takes a second
+    if (levels_.empty() || !levels_.back().index) return true;
+    if (*levels_.back().index == most) return refuse("too long", fmt::format("a list of at most {}", most));
+    ++*levels_.back().index;
     return true;
   }
 
@@ -90,8 +106,8 @@ class TextCheck : public nlohmann::json_sax<Json> {
     // What reads, copies and prints a document calls itself once per level; this keeps the stack safe.
     constexpr std::size_t deepest = 100;
     if (levels_.size() == deepest) {
-      problems_.push_back({file_, {}, "nested too deeply", "at most 100 levels", {}, {}});
-      return false;
+      levels_.clear();  // a pointer to it would fill the screen
+      return refuse("nested too deeply", fmt::format("at most {} levels", deepest));
     }
     levels_.push_back(std::move(level));
     return true;
@@ -117,6 +133,44 @@ class TextCheck : public nlohmann::json_sax<Json> {
 
 [[noreturn]] void fail(Problem problem) { throw InputError({std::move(problem)}); }
 
+/// What a path leads to, if it is neither a file nor nothing: a pipe could wait for ever, a device never end.
+std::string not_a_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;  // what cannot be looked at fails to open, with its reason
+  switch (fs::status(path, ignored).type()) {
+  case fs::file_type::directory:
+    return "is a folder";
+  case fs::file_type::fifo:
+    return "is a pipe";
+  case fs::file_type::character:
+  case fs::file_type::block:
+    return "is a device";
+  case fs::file_type::socket:
+    return "is a socket";
+  default:
+    return {};
+  }
+}
+
+/// All of a file that is not too large; no more is read of one that is.
+std::string text_of(std::ifstream& file, const std::string& path) {
+  constexpr std::size_t megabyte = 1'000'000;
+  constexpr std::size_t most = 16 * megabyte;
+  const std::string expected = fmt::format("at most {} MB", most / megabyte);
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(path, unknown);
+  if (!unknown && size > most) fail({path, {}, "too large", expected, fmt::format("{} MB", size / megabyte), {}});
+  std::string text;
+  std::array<char, 65536> part{};
+  while (file && text.size() <= most) {  // what /proc calls empty may be endless
+    file.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) fail({path, {}, "cannot be read to its end", {}, {}, {}});
+  if (text.size() > most) fail({path, {}, "too large", expected, {}, {}});
+  return text;
+}
+
 /// The file's neighbour that could be meant.
 std::string closest_file(const std::filesystem::path& path) {
   std::vector<std::string> names;
@@ -124,7 +178,7 @@ std::string closest_file(const std::filesystem::path& path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   for (std::filesystem::directory_iterator at(folder, unreadable), end; !unreadable && at != end;
        at.increment(unreadable))
-    names.push_back(at->path().filename().string());
+    if (at->path().filename() != path.filename()) names.push_back(at->path().filename().string());
   std::sort(names.begin(), names.end());
   const std::string name = closest_name(path.filename().string(), names);
   return name.empty() ? name : (path.parent_path() / name).string();
@@ -168,19 +222,19 @@ Json& place_of(Json& document, const std::string& pointer, const std::string& fi
 }  // namespace
 
 Json read_json(const std::string& path) {
-  std::error_code ignored;  // a file that cannot be looked at fails to open, with its reason
-  if (std::filesystem::is_directory(path, ignored)) fail({path, {}, "is a folder", "a JSON file", {}, {}});
+  if (const std::string kind = not_a_file(path); !kind.empty()) fail({path, {}, kind, "a JSON file", {}, {}});
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file && errno == ENOENT) fail({path, {}, "no such file", {}, {}, closest_file(path)});
   if (!file) fail({path, {}, std::string("cannot be read: ") + std::strerror(errno), {}, {}, {}});
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) fail({path, {}, "cannot be read to its end", {}, {}, {}});
-  return parse_json(text, path);
+  return parse_json(text_of(file, path), path);
 }
 
 Json parse_json(const std::string& text, const std::string& file) {
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail({file, {}, "empty", "a JSON document", {}, {}});
+  const std::string_view byte_order_mark = "\xef\xbb\xbf";
+  const std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  if (text.find_first_not_of(" \t\r\n", begin) == std::string::npos)
+    fail({file, {}, "empty", "a JSON document", {}, {}});
   TextCheck check(text, file);
   Json::sax_parse(text, &check);
   if (!check.problems().empty()) throw InputError(check.problems());

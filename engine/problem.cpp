@@ -45,6 +45,17 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string quoted(const std::string& name) { return Json(name).dump(-1, ' ', false, Json::error_handler_t::replace); }
 
+/// In valid UTF-8 and on one line, without what would steer a terminal: names and lines come from the input.
+std::string printable(const std::string& text) {
+  const auto valid = Json::parse(quoted(text)).get<std::string>();
+  std::string shown;
+  for (const char c : valid) {
+    const auto code = static_cast<unsigned char>(c);
+    shown += code < 0x20 || code == 0x7f ? fmt::format("\\u{:04x}", code) : std::string(1, c);
+  }
+  return shown;
+}
+
 /// Cut after at most `length` bytes, not within a UTF-8 character.
 std::string cut(std::string text, std::size_t length) {
   if (text.size() <= length) return text;
@@ -57,12 +68,12 @@ std::string cut(std::string text, std::size_t length) {
 std::string Problem::text() const {
   std::string text;
   for (const std::string* place : {&file, &pointer})
-    if (!place->empty()) text += *place + ": ";
-  text += what;
-  if (!expected.empty()) text += "\n  expected  " + expected;
-  if (!got.empty()) text += "\n  got       " + got;
-  if (!closest.empty()) text.append("\n  closest   ").append(Json::accept(closest) ? closest : quoted(closest));
-  return text;
+    if (!place->empty()) text += printable(*place) + ": ";
+  text += printable(what);
+  if (!expected.empty()) text += "\n  expected  " + printable(expected);
+  if (!got.empty()) text += "\n  got       " + printable(got);
+  if (closest.empty()) return text;
+  return text.append("\n  closest   ").append(printable(Json::accept(closest) ? closest : quoted(closest)));
 }
 
 InputError::InputError(std::vector<Problem> problems)
@@ -73,10 +84,12 @@ std::string closest_name(std::string_view name, std::span<const std::string> kno
   std::string closest;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(wanted, lower_case(candidate));
     const std::size_t length = std::max(wanted.size(), candidate.size());
+    const std::size_t most = std::max<std::size_t>(1, 2 * length / 5);
+    if (length - std::min(wanted.size(), candidate.size()) > most) continue;  // so many letters are wrong at least
+    const std::size_t distance = edit_distance(wanted, lower_case(candidate));
     // Two letters of five may be wrong, but not all: "x" is not near "y".
-    const bool near = distance <= std::max<std::size_t>(1, 2 * length / 5) && distance < length;
+    const bool near = distance <= most && distance < length;
     if (near && distance < least) {
       least = distance;
       closest = candidate;
