@@ -110,6 +110,9 @@ OutputScene read_output(Input& input, double end) {
 }
 
 void read_systems(Input& input, const SystemRegistry& registry, Scene& scene) {
+  constexpr std::size_t most = 100;  // where each could stand is found by trying
+  if (const auto count = input.elements("systems"); count > most)
+    input.problem("systems", "too many", fmt::format("at most {}", most), std::to_string(*count));
   input.list("systems", "extra systems in the step", 0, [&](Input& extra, std::size_t) {
     const std::string use = extra.choice("use", registry.names(), "name of the system, see `minamo list systems`");
     const std::string after = extra.choice("after", slot_names(), "slot of the step that it follows");

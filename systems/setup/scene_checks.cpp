@@ -27,6 +27,18 @@ bool all_equal(const std::vector<double>& spacing) {
   return true;
 }
 
+/// Whether places in a cell are told apart and its measure is neither 0 nor infinite, in double precision.
+bool can_be_computed(const GridScene& grid, const std::vector<double>& spacing) {
+  double measure = 1;
+  double farthest = 0;
+  for (std::size_t d = 0; d < spacing.size(); ++d) {
+    measure *= spacing[d];
+    farthest = std::max({farthest, std::abs(grid.low[d]), std::abs(grid.high[d])});
+  }
+  constexpr double finest = 1e-10;  // velocity gradients are differences over a thousandth of a cell
+  return std::isnormal(measure) && *std::min_element(spacing.begin(), spacing.end()) > finest * farthest;
+}
+
 /// The counts with equal spacing that are nearest to the given ones, if there are any not too far away.
 std::optional<std::vector<int>> nearest_counts(const GridScene& grid) {
   std::optional<std::vector<int>> best;
@@ -114,6 +126,12 @@ void check_grid(Input& input, GridScene& grid) {
     return;
   }
   const std::vector<double> spacing = spacings(grid);
+  if (!can_be_computed(grid, spacing)) {
+    input.problem("cells", "cells that numbers cannot resolve",
+                  "cells wider than 1e-10 of the largest coordinate, whose measure is neither 0 nor infinite",
+                  fmt::format("[{}], spacing [{:.6g}] m", fmt::join(grid.cells, ", "), fmt::join(spacing, ", ")));
+    return;
+  }
   grid.spacing = spacing[0];
   if (all_equal(spacing)) return;
   const auto nearest = nearest_counts(grid);

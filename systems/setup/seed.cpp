@@ -150,6 +150,18 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
   }
 }
 
+/// Of every region a particle must weigh something, and not infinitely much.
+template <int Dim>
+void check_mass(const Scene& scene, const Grid<Dim>& grid, const std::string& file, std::vector<Problem>& problems) {
+  for (const ParticleScene& region : scene.particles) {
+    const double mass = scene.density * std::pow(grid.spacing / region.per_cell, Dim);
+    if (std::isnormal(mass)) continue;
+    problems.push_back({file, "/fluid/density", "particles without a mass", "a density with which they have one",
+                        fmt::format("{} kg/m^3, particles of {} kg", scene.density, mass), ""});
+    return;
+  }
+}
+
 /// Where a run with orthogonal subscales starts from: the pressure gradient of a liquid at rest.
 template <int Dim>
 void set_pressure_gradient(const Scene& scene, World& world) {
@@ -192,6 +204,7 @@ void seed_world(const Scene& scene, const std::string& file, World& world) {
   world.resource<FlipBlend>() = {scene.flip_blend};
   world.resource<Walls<Dim>>() = make_walls<Dim>(scene.walls);
   std::vector<Problem> problems;
+  check_mass<Dim>(scene, grid, file, problems);
   const Seeds<Dim> seeds = lay_out<Dim>(scene, grid, file, problems);
   set_particles<Dim>(scene, grid, seeds, file, world, problems);
   set_pressure_gradient<Dim>(scene, world);
