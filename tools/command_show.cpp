@@ -15,11 +15,8 @@ int check_scenes(const std::vector<std::string>& scenes, const SystemRegistry& r
   for (const std::string& path : scenes) {
     try {
       const SceneFile file = load_scene(path, {}, registry);
-      World world;
-      seed(file.scene, path, world);
-      Pipeline pipeline = make_pipeline(file.scene, registry);
-      const Schedule step(std::move(pipeline.step), world);
-      std::cout << path << ": valid, " << world.rows("particle") << " particles\n";
+      const std::size_t particles = rehearse(file.scene, path, registry);
+      std::cout << path << ": valid, " << particles << " particles\n";
     } catch (const InputError& error) {
       std::cerr << error.what() << '\n';
       valid = false;

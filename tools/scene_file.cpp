@@ -1,9 +1,48 @@
 #include "tools/scene_file.hpp"
 
+#include "components/particle.hpp"
+#include "engine/schedule.hpp"
+#include "systems/setup/memory.hpp"
 #include "systems/setup/scene_systems.hpp"
 #include "systems/setup/seed.hpp"
+#include "tools/available_memory.hpp"
+
+#include <spdlog/fmt/fmt.h>
 
 namespace minamo {
+
+namespace {
+
+/// In the unit in which it is a short number.
+std::string bytes_text(double bytes) {
+  const char* unit = "MB";
+  double value = bytes / 1e6;
+  for (const char* larger : {"GB", "TB"}) {
+    if (value < 1e3) break;
+    value /= 1e3;
+    unit = larger;
+  }
+  return fmt::format("{:.3g} {}", value, unit);
+}
+
+/// \throws InputError
+void require_memory(const Scene& scene, const std::string& file) {
+  const SceneSize size = size_of(scene);
+  const double needed = memory_of(scene, size);
+  const AvailableMemory available = available_memory();
+  if (needed <= available.bytes) return;
+  std::string what = "does not fit into memory; larger cells or fewer particles per cell need less";
+  if (scene.solver == "umfpack") what += ", as does the solver \"block\"";
+  throw InputError(
+      {{file,
+        {},
+        what,
+        fmt::format("at most {}, {}", bytes_text(available.bytes), available.source),
+        fmt::format("about {}: {:.3g} particles on {:.3g} nodes", bytes_text(needed), size.particles, size.nodes),
+        {}}});
+}
+
+}  // namespace
 
 SceneFile load_scene(const std::string& path, const std::vector<std::string>& overrides,
                      const SystemRegistry& registry) {
@@ -32,11 +71,19 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
 }
 
 void seed(const Scene& scene, const std::string& file, World& world) {
+  require_memory(scene, file);
   if (scene.dimension == 2) {
     seed_world<2>(scene, file, world);
   } else {
     seed_world<3>(scene, file, world);
   }
+}
+
+std::size_t rehearse(const Scene& scene, const std::string& file, const SystemRegistry& registry) {
+  World world;
+  seed(scene, file, world);
+  const Schedule step(make_pipeline(scene, registry).step, world);
+  return world.rows<Particles>();
 }
 
 }  // namespace minamo

@@ -10,6 +10,8 @@ namespace minamo {
 
 namespace {
 
+constexpr int most_variants = 1000;  // each has a folder and a run
+
 /// The name can stand for a number in an expression.
 bool can_be_variable(const std::string& name) {
   try {
@@ -76,7 +78,8 @@ std::vector<Parameter> read_parameters(Input& vary) {
       continue;
     }
     parameters.push_back({name, {values.begin(), values.end()}});
-    check_values(vary, name, key, parameters.back().values);
+    if (values.size() <= static_cast<std::size_t>(most_variants))
+      check_values(vary, name, key, parameters.back().values);
   }
   if (!vary.describing() && vary.names("").empty())
     vary.problem("", "nothing is varied", "at least one list of values");
@@ -107,7 +110,6 @@ void check_use(Input& input, const Study& study) {
 }
 
 void check_count(Input& input, const Study& study) {
-  constexpr double most_variants = 1000;  // each has a folder and a run
   double count = 1;
   for (const Parameter& parameter : study.parameters) count *= static_cast<double>(parameter.values.size());
   if (count > most_variants)

@@ -1,7 +1,5 @@
 #include "tools/study_variant.hpp"
 
-#include "engine/schedule.hpp"
-
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 
@@ -67,10 +65,10 @@ double along_x(const Json& cells) { return (cells.is_array() ? cells[0] : cells)
 void set_cells(Json& scene, const Json& cells, const std::string& file) {
   Json counts = cells;
   if (!cells.is_array()) {
-    const Json grid = scene.value("grid", Json::object());
     std::vector<double> low;
     std::vector<double> high;
     try {
+      const Json& grid = scene.at("grid");
       grid.at("low").get_to(low);
       grid.at("high").get_to(high);
     } catch (const Json::exception&) {
@@ -133,14 +131,22 @@ class Problems {
       if (told_.insert(general.text()).second) problems_.push_back(problem);
     }
   }
-  const std::vector<Problem>& all() const { return problems_; }
+  /// \throws InputError if there are any.
+  void refuse_any() const {
+    if (!problems_.empty()) throw InputError(problems_);
+  }
 
  private:
   std::set<std::string> told_;
   std::vector<Problem> problems_;
 };
 
-/// \throws InputError, ScheduleError
+/// What the messages call the scene of a variant.
+std::string file_of(const Study& study, const std::string& variant) {
+  return fmt::format("{}: variant {}", study.scene, variant);
+}
+
+/// \throws InputError
 Variant make_variant(const Json& scene, const Study& study, const Combination& combination, const std::string& file,
                      const SystemRegistry& registry) {
   Variant variant;
@@ -148,9 +154,6 @@ Variant make_variant(const Json& scene, const Study& study, const Combination& c
   variant.scene = understand_scene(scene_of(scene, study, combination, file), file, registry);
   const auto missing = missing_for(study.error, variant.scene.scene, study.file);
   if (!missing.empty()) throw InputError(missing);
-  World world;
-  seed(variant.scene.scene, file, world);
-  const Schedule step(make_pipeline(variant.scene.scene, registry).step, world);  // throws if it cannot be
   for (std::size_t k = 0; k < combination.values.size(); ++k) {
     variant.values.push_back(value_text(combination.values[k]));
     if (study.parameters[k].key == resolution_key) variant.resolution = along_x(combination.values[k]);
@@ -196,19 +199,33 @@ std::vector<int> equal_cells(const std::vector<double>& low, const std::vector<d
   return cells;
 }
 
-std::vector<Variant> make_variants(const Study& study, const SystemRegistry& registry) {
-  const Json scene = read_json(study.scene);
+std::vector<Variant> read_variants(const Study& study, const Json& scene, const SystemRegistry& registry) {
   std::vector<Variant> variants;
   Problems problems;
   for (const Combination& combination : combinations(study)) {
-    const std::string file = fmt::format("{}: variant {}", study.scene, combination.name);
+    const std::string file = file_of(study, combination.name);
     try {
       variants.push_back(make_variant(scene, study, combination, file, registry));
     } catch (const InputError& error) {
       problems.add(error, file);
     }
   }
-  if (!problems.all().empty()) throw InputError(problems.all());
+  problems.refuse_any();
+  return variants;
+}
+
+std::vector<Variant> make_variants(const Study& study, const SystemRegistry& registry) {
+  std::vector<Variant> variants = read_variants(study, read_json(study.scene), registry);
+  Problems problems;
+  for (const Variant& variant : variants) {
+    const std::string file = file_of(study, variant.name);
+    try {
+      rehearse(variant.scene.scene, file, registry);
+    } catch (const InputError& error) {
+      problems.add(error, file);
+    }
+  }
+  problems.refuse_any();
   return variants;
 }
 

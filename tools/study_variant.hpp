@@ -27,8 +27,12 @@ std::vector<std::string> short_names(const std::vector<Parameter>& parameters);
 /// Counts with equal spacing for `along_x` cells along x, as near as whole numbers come to it.
 std::vector<int> equal_cells(const std::vector<double>& low, const std::vector<double>& high, int along_x);
 
-/// Every combination, the last parameter fastest.
+/// Every combination of a study of this scene, the last parameter fastest.
 /// \throws InputError with all problems of all variants.
+std::vector<Variant> read_variants(const Study& study, const Json& scene, const SystemRegistry& registry);
+
+/// The same for the scene that the study names, with all that is in the way of a run found out as well.
+/// \throws InputError, ScheduleError
 std::vector<Variant> make_variants(const Study& study, const SystemRegistry& registry);
 
 }  // namespace minamo

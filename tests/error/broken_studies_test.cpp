@@ -147,3 +147,13 @@ TEST_CASE("a study whose variants cannot all run is refused, and no problem is t
   }));
   check_refused(study, text);
 }
+
+TEST_CASE("a study of a file that is no scene is refused", "[error]") {
+  const StudyFolder folder(R"({"scene": "list.json", "vary": {"cells": [8]}, "error": "velocity"})");
+  std::ofstream(folder / "list.json") << "[1, 2]";
+  const ProgramOutput run = output_of_program(folder / "", {"study", "a.json"});
+  CHECK(run.err == "list.json: variant cells8: wrong type\n"
+                   "  expected  an object\n"
+                   "  got       [1,2] (list)\n");
+  CHECK(run.code == 2);
+}

@@ -1,0 +1,39 @@
+/// \file
+/// The memory of runs: estimated against measured, and refused where a limit leaves too little.
+
+#include "support/program_output.hpp"
+#include "support/scene_run.hpp"
+#include "systems/setup/memory.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace minamo;
+
+namespace {
+
+std::string scene_path(const std::string& name) { return std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name; }
+
+}  // namespace
+
+TEST_CASE("a run takes as much memory as was estimated, within the bounds that are documented", "[scene]") {
+  const auto [name, steps] =
+      GENERATE(table<std::string, std::string>({{"dam_break.json", "1000"}, {"dam_break_3d.json", "5"}}));
+  CAPTURE(name);
+  const Folder folder;
+  REQUIRE(output_of_program(folder / "", {"run", scene_path(name), "--steps", steps, "--out", "out"}).code == 0);
+  const auto taken = read_json(folder / "out/summary.json").at("peak_memory_bytes").get<double>();
+  const Scene scene = scene_run::read(scene_run::scene_of_file(name));
+  const double estimated = memory_of(scene, size_of(scene));
+  CHECK(taken <= estimated);
+  CHECK(taken >= estimated / 2.4);
+}
+
+TEST_CASE("a run that does not fit into a limited address space is refused, and nothing is written", "[scene]") {
+  const Folder folder;
+  const std::vector<std::string> arguments{"run", scene_path("dam_break.json"), "--set", "/grid/cells=[640,640]"};
+  const ProgramOutput refused = output_of_program(folder / "", arguments, "ulimit -v 300000 && ");
+  CHECK_THAT(refused.err, Catch::Contains("does not fit into memory") &&
+                              Catch::Contains(" MB, left of the address space, ulimit -v\n"));
+  CHECK(refused.code == 2);
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}
