@@ -36,6 +36,10 @@ function(minamo_compile_options target)
       target_compile_options(${target} PRIVATE -fno-sanitize-recover=undefined)
       target_compile_definitions(${target} PUBLIC _GLIBCXX_ASSERTIONS)
     endif()
+    if(MINAMO_FUZZ)
+      # What libFuzzer steers by; and conversions of numbers that do not fit, of which g++ knows nothing.
+      list(APPEND sanitize -fsanitize=fuzzer-no-link,float-cast-overflow)
+    endif()
     # -g1: lines for the reports, a quarter less time to compile.
     target_compile_options(${target} PUBLIC ${sanitize} PRIVATE -O1 -g1 -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC ${sanitize})
