@@ -72,6 +72,16 @@ void warn_of_rejection(const Clock& clock, const std::string& why) {
                clock.step, why);
 }
 
+/// The scenes of this repository gain up to 1.3 %.
+void warn_of_energy(const Json& summary, World& world) {
+  const double rise = summary["conservation"]["energy_rise"];
+  if (rise <= 0.05) return;
+  spdlog::warn(
+      "energy rose by {:.3g} % though nothing does work, most of all until t = {:.6g} s: do not trust this result; "
+      "a shorter step helps, or another method",
+      100 * rise, world.resource<RunTotals>().energy.time);
+}
+
 /// The rows that count, and nothing after them, whatever became of the last.
 void close_history(const fs::path& folder, World& world) {
   world.resource<HistoryFile>().file.close();
@@ -142,6 +152,7 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const Syst
   result.clock = world.resource<Clock>();
   result.summary = make_summary(plan.scene, result.outcome, plan.threads, stopwatch, profiler, world);
   write_summary(plan.folder, result);
+  warn_of_energy(result.summary, world);
   if (plan.at_end && result.outcome.ending == Ending::done) plan.at_end(world);
   return result;
 }

@@ -58,6 +58,15 @@ Json last_errors(World& world) {
   return errors;
 }
 
+/// (E59)
+double energy_rise(double mass, World& world) {
+  const bool in_plane = world.has<Grid<2>>();
+  const double h = in_plane ? world.resource<Grid<2>>().spacing : world.resource<Grid<3>>().spacing;
+  // A millionth of a cell per step.
+  const double slow = 1e-6 * h / world.resource<Clock>().step;
+  return world.resource<RunTotals>().energy.share(mass * slow * slow);
+}
+
 }  // namespace
 
 Json make_summary(const std::string& scene, const Outcome& outcome, int threads, const Stopwatch& stopwatch,
@@ -87,6 +96,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   Json conservation{{"mass", mass}};
   conservation.update(conserved(totals.last, in_plane));
   conservation["overlap_max"] = totals.overlap_max;
+  conservation["energy_rise"] = energy_rise(mass, world);
   conservation["initial"] = conserved(totals.first, in_plane);
   summary["conservation"] = conservation;
   summary["errors"] = last_errors(world);

@@ -18,6 +18,14 @@ RunTotals::Values values(const measure::Energy& energy, const measure::Momentum<
   return values;
 }
 
+void watch(bool is_start, const Clock& clock, double kinetic, double potential, EnergyWatch& watch) {
+  if (is_start) {
+    watch.start(kinetic, potential);
+  } else {
+    watch.see(clock.end_of_step, kinetic, potential);
+  }
+}
+
 void require_known(const measure::Columns& further, std::int64_t known) {
   const auto count = static_cast<std::int64_t>(further.columns.size());
   if (count <= known) return;
@@ -50,6 +58,7 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   if (is_start) totals->first = totals->last;
   if (is_start) totals->columns = static_cast<std::int64_t>(further->columns.size());
   require_known(*further, totals->columns);
+  if (energy->potential) watch(is_start, *clock, energy->kinetic, *energy->potential, totals->energy);
   totals->overlap = overlap->value;
   totals->overlap_max = std::max(totals->overlap_max, overlap->value);
   totals->active_nodes_max = std::max(totals->active_nodes_max, static_cast<std::int64_t>(active.size()));

@@ -8,6 +8,7 @@
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
+#include "systems/measure/energy_watch.hpp"
 
 #include <fstream>
 
@@ -28,6 +29,7 @@ struct RunTotals {
   };
   Values first;
   Values last;
+  EnergyWatch energy;  ///< of constant body forces
   double overlap = 0;  ///< of the last row
   double overlap_max = 0;
   std::int64_t active_nodes_max = 0;

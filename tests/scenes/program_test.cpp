@@ -186,3 +186,13 @@ TEST_CASE("a run of no steps writes the start alone", "[scene]") {
   CHECK(lines_of(folder / "out/history.csv").size() == 2);
   CHECK(json_of(folder / "out/summary.json")["steps"] == 0);
 }
+
+TEST_CASE("a run that gains energy says so at its end", "[scene]") {
+  const Folder folder;
+  // Newmark's method carries the acceleration of an impact on; steps ten times too long make much of it.
+  const ProgramEnd end = run_program(dam_break(folder / "out", {"--set", "/time/step=0.02", "--steps", "60"}));
+  CHECK(end.code == 0);
+  const Json summary = json_of(folder / "out/summary.json");
+  CHECK((summary["conservation"]["energy_rise"] > 0.05) == (end.output.find("energy rose by") != std::string::npos));
+  CHECK(summary["conservation"]["energy_rise"] > 0.05);
+}

@@ -2,6 +2,7 @@
 
 #include "components/measure.hpp"
 #include "systems/measure/conservation.hpp"
+#include "systems/measure/energy_watch.hpp"
 #include "systems/measure/volume.hpp"
 
 #include <catch2/catch.hpp>
@@ -99,4 +100,28 @@ TEST_CASE("overlap is what particles have beyond the volume of their nodes", "[u
   }
   // Volumes of 35 cells, a few roundings each.
   CHECK(world.resource<measure::Overlap>().value == Approx(excess / (35 * times)).margin(1e-14));
+}
+
+TEST_CASE("a rise of energy is what came after the lowest, over what there was to exchange", "[unit]") {
+  EnergyWatch watch;
+  watch.start(0, 60);
+  watch.see(1, 20, 38);  // 58
+  watch.see(2, 15, 45);  // 60: 2 more
+  watch.see(3, 10, 30);
+  watch.see(4, 11, 30);
+  CHECK(watch.rise == 2);
+  CHECK(watch.time == 2);
+  CHECK(watch.share(0) == Approx(2.0 / 30));  // U has gone from 60 to 30
+}
+
+TEST_CASE("rounding at rest is no rise of energy", "[unit]") {
+  EnergyWatch watch;
+  watch.start(0, 500);
+  watch.see(1, 1e-13, 500);
+  CHECK(watch.share(0) < 1e-11);
+  EnergyWatch weightless;
+  weightless.start(0, 0);
+  CHECK(weightless.share(0) == 0);
+  weightless.see(1, 1e-25, 0);
+  CHECK(weightless.share(1e-9) < 1e-15);
 }

@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// Whether a run has gained energy that nothing gave it.
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+/// Walls stand still and viscosity only takes: under a constant body force K + U never rises. Plain data.
+struct EnergyWatch {
+  double lowest = 0;       ///< K + U so far [J]
+  double rise = 0;         ///< largest (K + U) - lowest before it [J]
+  double time = 0;         ///< when that was [s]
+  double kinetic_max = 0;  ///< [J]
+  double potential_min = 0;
+  double potential_max = 0;
+
+  void start(double kinetic, double potential) {
+    *this = {
+        .lowest = kinetic + potential, .kinetic_max = kinetic, .potential_min = potential, .potential_max = potential};
+  }
+  void see(double t, double kinetic, double potential) {
+    const double energy = kinetic + potential;
+    if (energy - lowest > rise) {
+      rise = energy - lowest;
+      time = t;
+    }
+    lowest = std::min(lowest, energy);
+    kinetic_max = std::max(kinetic_max, kinetic);
+    potential_min = std::min(potential_min, potential);
+    potential_max = std::max(potential_max, potential);
+  }
+
+  /// (E59)  The rise over what was there to exchange: the largest of K_max, U_max - U_min, 1e-4 |U| and `negligible`.
+  /// \param negligible  what rounding may move [J]
+  double share(double negligible) const {
+    const double potential = 1e-4 * std::max(std::abs(potential_min), std::abs(potential_max));
+    const double scale = std::max({kinetic_max, potential_max - potential_min, potential, negligible});
+    return scale > 0 ? rise / scale : 0;
+  }
+};
+
+}  // namespace minamo
