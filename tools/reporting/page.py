@@ -1,193 +1,142 @@
-"""report.html: one file with tables and pictures, nothing to load."""
+"""report.html: one file with everything in it. Its sources are in page/, what is packed into them comes from here."""
 
 from __future__ import annotations
 
-import base64
 import json
+import re
 from html import escape
 from pathlib import Path
 from typing import Any
 
-from matplotlib.figure import Figure
+from reporting.facts import balance_section, headline, messages, scene_files, scene_section
+from reporting.graph import Drawing, describe, draw_graph
+from reporting.histories import Plot, packed_history, plots
+from reporting.overlays import corner_paths, references, walls
+from reporting.particles import Particles
+from reporting.profile import profile_section
+from reporting.runs import Run, labels, telling_times
 
-from figuring.layout import png
-from figuring.plots import draw_history, draw_systems
-from figuring.strips import Strip, draw_strip
-from reporting.runs import Run, labels
-
-STYLE = """
-body { font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; color: #222;
-       max-width: 1040px; margin: 2em auto; padding: 0 1em; }
-h1 { font-size: 1.5em; margin: 0 0 .2em; }
-h2 { font-size: 1.1em; margin: 1.8em 0 .5em; padding-bottom: .2em; border-bottom: 1px solid #ddd; }
-h3 { font-size: 1em; margin: 1em 0 .2em; }
-img { width: 100%; }
-table { border-collapse: collapse; width: 100%; font-size: .92em; }
-th, td { text-align: left; padding: .22em 1.2em .22em 0; border-bottom: 1px solid #eee; vertical-align: top; }
-th { font-weight: 600; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; }
-th.number { text-align: right; }
-tr.differs td { background: #fff6e0; }
-.facts { columns: 2; column-gap: 3em; }
-.facts div { break-inside: avoid; border-bottom: 1px solid #eee; display: flex; padding: .2em 0; }
-.facts b { flex: 0 0 9em; font-weight: 600; }
-.key { color: #555; }
-.done { color: #177a3d; } .failed, .interrupted, .unknown { color: #b3261e; }
-pre { background: #f6f6f6; padding: .8em; overflow-x: auto; font-size: .85em; }
-summary { cursor: pointer; color: #555; }
-"""
+SOURCES = Path(__file__).resolve().parent / "page"
+STYLES = ("vendor/uPlot.min.css", "page.css")
+SCRIPTS = ("vendor/uPlot.iife.min.js", "data.js", "colours.js", "camera.js", "painter.js",
+           "drawing.js", "panel.js", "colour_bar.js", "player.js", "strip.js", "plots.js", "systems.js", "theme.js",
+           "app.js")
+MOST_SAMPLES = 5_000_000  # particles times frames of a page: 5 bytes each in the plane, 8 in space
+STRIP_LENGTH = 8  # pictures
 
 
-def write_page(path: Path, runs: list[Run], strips: list[Strip]) -> None:
-    """Writes the page on these runs."""
+class Packer:
+    """Keeps packed columns, and gives keys to find them by in the page."""
+
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+
+    def add(self, text: str) -> int:
+        self.texts.append(text)
+        return len(self.texts) - 1
+
+    def html(self) -> str:
+        return "\n".join(f"<script type=\"application/octet-stream\" id=\"packed-{key}\">{text}</script>"
+                         for key, text in enumerate(self.texts))
+
+
+def write_page(path: Path, runs: list[Run], times: list[float] | None, program: Path | None) -> None:
+    """Writes the page on these runs; `times` [s] are those of the strip, `program` draws the graph of the systems."""
+    packer, shown = Packer(), plots([run for run in runs if run.history])
+    most = MOST_SAMPLES // max(1, sum(len(run.times) for run in runs))
+    particles = [Particles.read(run, most) for run in runs]
+    described = [_described(run, label, each, shown, packer)
+                 for run, label, each in zip(runs, labels(runs), particles)]
+    report = {"runs": described, "plots": [plot.as_json() for plot in shown],
+              "strip": times or _strip_times(described, runs)}
     title = runs[0].title if len(runs) == 1 else "Comparison: " + ", ".join(labels(runs))
-    parts = [f"<h1>{escape(title)}</h1>", *map(_headline, runs), *_failures(runs), "<h2>Scene</h2>", _scene(runs),
-             *_pictures(strips), *_section("History", draw_history(runs)), "<h2>Start and end</h2>", _balance(runs),
-             *_section("Wall time of the systems", draw_systems(runs)), *_files(runs)]
-    path.write_text("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-                    f"<title>{escape(title)}</title>\n<style>{STYLE}</style></head>\n<body>\n" + "\n".join(parts)
-                    + "\n</body></html>\n", encoding="utf-8")
+    page = _filled("template.html", {
+        "title": escape(title), "headlines": "\n".join(map(headline, runs)), "messages": messages(runs),
+        "style": "\n".join(_source(name) for name in STYLES), "script": "\n".join(_source(name) for name in SCRIPTS),
+        "particles": _filled("particles.html", {"stored": escape(_stored(described))}) if any(particles) else "",
+        "histories": "<h2>History</h2><div id=\"plots\"></div><p class=\"soft\">Point at a plot for its values, "
+                     "click to go to a time, drag over a span to zoom, double click to zoom out.</p>" if shown else "",
+        "sections": "\n".join([scene_section(runs), balance_section(runs), profile_section(runs),
+                               _graph_section(draw_graph(runs[0], program)), scene_files(runs)]),
+        "footer": "Written by tools/report of minamo. Plots by uPlot, MIT licence.",
+        "report": json.dumps(report, allow_nan=False, separators=(",", ":")).replace("</", "<\\/"),
+        "packed": packer.html(),
+    })
+    path.write_text(page, encoding="utf-8")
 
 
-def _headline(run: Run) -> str:
-    """The run in a line."""
-    summary, kind = run.summary, run.status if run.status in ("done", "failed", "interrupted") else "unknown"
-    words = [f"<b class=\"{kind}\">{escape(run.status)}</b>", escape(str(run.folder))]
-    if summary:
-        words += [f"{summary['time']:.4g} s in {summary['steps']} steps", f"{summary['particles']} particles",
-                  f"{duration(summary['wall_s'])} on {summary['threads']} thread{'s'[:summary['threads'] != 1]}"]
-    return f"<div class=\"key\">{' · '.join(words)}</div>"
+def _source(name: str) -> str:
+    return (SOURCES / name).read_text(encoding="utf-8")
 
 
-def _failures(runs: list[Run]) -> list[str]:
-    messages = [run.summary["message"] for run in runs if run.summary.get("message")]
-    return [f"<pre class=\"failed\">{escape(message)}</pre>" for message in messages]
+def _filled(name: str, parts: dict[str, str]) -> str:
+    """A source with {{name}} replaced."""
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _source(name))
 
 
-def duration(seconds: float) -> str:
-    """Seconds as they are read: 0.21 s, 19 s, 3 min 20 s, 2 h 5 min."""
-    if seconds < 100:
-        return f"{seconds:.3g} s"
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes} min {rest} s" if minutes < 100 else f"{minutes // 60} h {minutes % 60} min"
-
-
-def facts(run: Run) -> dict[str, str]:
-    """What was computed, how, and what it took."""
-    scene, summary = run.scene, run.summary
-    cells = " × ".join(str(count) for count in scene["grid"]["cells"])
-    found = {
-        "Status": run.status,
-        "Transfer": _scheme(scene.get("transfer", {})),
-        "Integrator": _scheme(scene.get("integrator", {})),
-        "Stabilization": _scheme(scene.get("stabilization", {})),
-        "Volume": _scheme(scene.get("volume", {})),
-        "Solver": _scheme(scene.get("solver", {})),
-        "Grid": f"{cells} cells of {1e3 * run.spacing:.4g} mm",
-        "Walls": _short(scene.get("walls", "")),
-        "Liquid": f"{scene['fluid']['density']:g} kg/m³, {scene['fluid']['viscosity']:g} Pa s",
-        "Body force": f"{_short(scene.get('body_force', ''))} m/s²",
-        "Time step": _time_step(scene["time"]),
-    }
-    if not summary:
-        return found
-    wall, steps = summary["wall_s"], summary["steps"]
-    return found | {
-        "Simulated": f"{summary['time']:.6g} s in {steps} steps",
-        "Particles": f"{summary['particles']}, {scene['particles'][0].get('per_cell')} per cell and direction",
-        "Unknowns": f"at most {summary['unknowns_max']}",
-        "Wall time": f"{duration(wall)}, {1e3 * wall / max(1, steps):.3g} ms per step",
-        "CPU time": f"{duration(summary['cpu_s'])} on {summary['threads']} thread{'s'[:summary['threads'] != 1]}",
-        "CPU": summary["cpu_model"],
-        "Memory": f"{summary['peak_memory_bytes'] / 2**20:.0f} MiB",
-        "Version": summary["version"],
+def _described(run: Run, label: str, particles: Particles | None, shown: list[Plot], packer: Packer) -> dict[str, Any]:
+    """What the page knows of a run."""
+    low, high = run.box
+    sides = walls(run.scene.get("walls", "slip"), run.dimension)
+    view = _view(run, particles)
+    return {
+        "label": label, "dimension": run.dimension, "up": run.up, "spacing": run.spacing,
+        "particle_size": run.particle_size, "box": {"low": low.tolist(), "high": high.tolist()}, "view": view,
+        "walls": sides, "periodic": any("periodic" in each for each in sides), "times": run.times.tolist(),
+        "particles": particles.packed(packer.add) if particles else None,
+        "references": references(run), "corners": corner_paths(run),
+        "history": packed_history(run, shown, packer.add),
     }
 
 
-def _scheme(block: dict[str, Any]) -> str:
-    options = ", ".join(f"{key} {_short(value)}" for key, value in block.items() if key != "scheme")
-    return block.get("scheme", "") + (f" ({options})" if options else "")
+def _view(run: Run, particles: Particles | None) -> list[list[float]]:
+    """Low and high corner of what is shown: the box, or, in the plane, far from all walls, the reach of the liquid."""
+    low, high = run.box
+    if particles is not None and run.dimension == 2:
+        reach = particles.position.reshape(-1, 2)
+        least, most, near = reach.min(axis=0), reach.max(axis=0), 3 * run.spacing
+        if (least > low + near).all() and (most < high - near).all():
+            half, middle = 0.55 * (most - least).max(), 0.5 * (most + least)
+            low, high = middle - half, middle + half
+    return [low.tolist(), high.tolist()]
 
 
-def _short(value: Any) -> str:
-    """A value of the scene without the marks of JSON."""
-    if isinstance(value, dict):
-        return ", ".join(f"{key}: {_short(entry)}" for key, entry in value.items())
-    if isinstance(value, list):
-        return "(" + ", ".join(_short(entry) for entry in value) + ")"
-    return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def _time_step(time: dict[str, Any]) -> str:
-    return f"{time['step']:g} s" if "step" in time else f"CFL {time['cfl']:g}"
-
-
-def _scene(runs: list[Run]) -> str:
-    """One run: facts in two columns. Several: a column each, rows that differ marked."""
-    if len(runs) == 1:
-        rows = "".join(f"<div><b>{name}</b><span>{escape(value)}</span></div>"
-                       for name, value in facts(runs[0]).items())
-        return f"<div class=\"facts\">{rows}</div>"
-    columns = [facts(run) for run in runs]
-    names = dict.fromkeys(name for column in columns for name in column)
-    head = "".join(f"<th>{escape(label)}</th>" for label in labels(runs))
-    return f"<table><tr><th></th>{head}</tr>{''.join(_row(name, columns) for name in names)}</table>"
-
-
-def _row(name: str, columns: list[dict[str, str]]) -> str:
-    values = [column.get(name, "") for column in columns]
-    mark = " class=\"differs\"" if len(set(values)) > 1 else ""
-    return f"<tr{mark}><th>{name}</th>{''.join(f'<td>{escape(value)}</td>' for value in values)}</tr>"
-
-
-def _pictures(strips: list[Strip]) -> list[str]:
-    if all(len(run.times) == 0 for run in strips[0].runs):
+def _strip_times(described: list[dict[str, Any]], runs: list[Run]) -> list[float]:
+    """The times of a reference that fits the first run with frames, else output times that tell most. [s]"""
+    first = next((k for k, run in enumerate(runs) if len(run.times)), None)
+    if first is None:
         return []
-    found = ["<h2>Particles</h2>"]
-    for strip in strips:
-        caption = f"Coloured by {strip.field.name}"
-        found += [f"<h3>{caption}</h3>", _image(draw_strip(strip), caption)]
-    return found
+    times = runs[first].times
+    compared = {float(times[abs(times - curves["time"]).argmin()]) for curves in described[first]["references"]
+                if abs(times - curves["time"]).min() < 2e-3 * times[-1]}
+    return sorted(compared)[:STRIP_LENGTH] if len(compared) > 2 else telling_times(runs[first], STRIP_LENGTH)
 
 
-def _section(title: str, figure: Figure | None) -> list[str]:
-    return [f"<h2>{title}</h2>", _image(figure, title)] if figure else []
+def _stored(described: list[dict[str, Any]]) -> str:
+    """How exact the numbers of the page are."""
+    shown = [run for run in described if run["particles"]]
+    step = max(run["particles"]["position"]["step"] for run in shown)
+    bits = {field["bits"] for run in shown for field in run["particles"]["fields"]}
+    text = (f"Places are stored to {1e3 * step:.2g} mm (16 bits over their range), quantities in {max(bits)} bits over "
+            "their range; the exact numbers are in fields.h5. While it plays, particles move on smooth curves through "
+            "their places at the output times; a picture that stands still is always that of an output time.")
+    for run in shown:
+        if run["particles"]["shown"] < run["particles"]["count"]:
+            text += (f" {run['label']}: {run['particles']['shown']} of {run['particles']['count']} particles, drawn by "
+                     "chance, are in the page, and drawn larger; ranges are those of all.")
+    return text
 
 
-def _image(figure: Figure, text: str) -> str:
-    return f"<img alt=\"{escape(text)}\" src=\"data:image/png;base64,{base64.b64encode(png(figure)).decode()}\">"
-
-
-def _balance(runs: list[Run]) -> str:
-    """What is conserved but for walls, body force and viscosity: at the start, at the end, the difference."""
-    head = "<th></th><th></th>" + "".join(f"<th class=\"number\">{name}</th>" for name in ("start", "end", "change"))
-    names = labels(runs) if len(runs) > 1 else [""]
-    rows = "".join(_balance_rows(run, name) for run, name in zip(runs, names) if run.summary)
-    return f"<table><tr>{head}</tr>{rows}</table>" if rows else "<p>No summary.json yet.</p>"
-
-
-def _balance_rows(run: Run, label: str) -> str:
-    balance, per_metre = run.summary["conservation"], "/m" if run.dimension == 2 else ""
-    rows = [("mass", f"kg{per_metre}", None, balance["mass"]),
-            ("energy", f"J{per_metre}", balance["initial"]["energy"], balance["energy"])]
-    rows += [(f"momentum {axis}", f"N s{per_metre}", start, end) for axis, start, end in
-             list(zip("xyz", balance["initial"]["momentum"], balance["momentum"]))[:run.dimension]]
-    turning = ["angular momentum"] if run.dimension == 2 else [f"angular momentum {axis}" for axis in "xyz"]
-    rows += [(name, f"J s{per_metre}", start, end) for name, start, end in
-             zip(turning, balance["initial"]["angular_momentum"], balance["angular_momentum"])]
-    rows += [("largest overlap / volume", "1", None, balance["overlap_max"])]
-    rows += [(f"error of the {field}", "", None, value) for field, value in run.summary.get("errors", {}).items()]
-    return "".join(_balance_row(label if k == 0 else "", *row) for k, row in enumerate(rows))
-
-
-def _balance_row(label: str, name: str, unit: str, start: float | None, end: float) -> str:
-    cells = ["" if value is None else f"{value:.6g}" for value in (start, end)]
-    cells.append("" if start is None else f"{end - start:+.3g}")
-    numbers = "".join(f"<td class=\"number\">{cell}</td>" for cell in cells)
-    return f"<tr><th>{escape(label)}</th><td>{name}{f' [{unit}]' if unit else ''}</td>{numbers}</tr>"
-
-
-def _files(runs: list[Run]) -> list[str]:
-    return ["<h2>Scene files as run</h2>"] + [
-        f"<details><summary>{escape(str(run.folder))}/scene.json</summary>"
-        f"<pre>{escape(json.dumps(run.scene, indent=1))}</pre></details>" for run in runs]
+def _graph_section(drawing: Drawing) -> str:
+    """The drawing, and always, where the program could be asked, what every system reads and writes."""
+    parts = ["<h2>Systems of a step</h2><figure id=\"graph\">"]
+    if drawing.svg:
+        parts.append("<p class=\"soft\">An arrow is data that waits for its writer; warm is expensive. Click a system."
+                     f"</p><pre hidden></pre><div class=\"wide\">{drawing.svg}</div>")
+    if drawing.sentence:
+        parts.append(f"<p>{escape(drawing.sentence)}</p>")
+    if drawing.systems:
+        text = "\n\n".join(describe(system).replace("\n", "\n  ") for system in drawing.systems)
+        parts.append(f"<details><summary>{len(drawing.systems)} systems, what they read and write</summary>"
+                     f"<pre>{escape(text)}</pre></details>")
+    return "".join([*parts, "</figure>"])

@@ -39,6 +39,7 @@ class Run:
         if not (self.folder / "scene.json").is_file():
             raise NoResults(f"{folder}: no results of minamo here (no scene.json); "
                             "expected: a folder that `minamo run SCENE --out DIR` wrote")
+        self.problems: list[str] = []  # of files that are there and cannot be read
         self.scene = self._json("scene.json")
         self.summary = self._json("summary.json")
         self.history = self._history()
@@ -46,7 +47,11 @@ class Run:
 
     def _json(self, name: str) -> dict[str, Any]:
         path = self.folder / name
-        return json.loads(path.read_text()) if path.is_file() else {}
+        try:
+            return json.loads(path.read_text()) if path.is_file() else {}
+        except json.JSONDecodeError as error:
+            raise NoResults(f"{path}: cannot be read as JSON ({error}); expected: what `minamo run --out DIR` wrote"
+                            ) from error
 
     def _history(self) -> dict[str, np.ndarray]:
         path = self.folder / "history.csv"
@@ -68,9 +73,13 @@ class Run:
     def _times(self) -> np.ndarray:
         if not (self.folder / "fields.h5").is_file():
             return np.empty(0)
-        with self._open_fields() as file:
-            particles = file.get("particles", {})
-            return np.array([float(particles[key].attrs["time"]) for key in sorted(particles, key=int)])
+        try:
+            with self._open_fields() as file:
+                particles = file.get("particles", {})
+                return np.array([float(particles[key].attrs["time"]) for key in sorted(particles, key=int)])
+        except NoResults as problem:
+            self.problems.append(str(problem))
+            return np.empty(0)
 
     def columns(self, index: int) -> dict[str, np.ndarray]:
         """All that frame `index` of fields.h5 holds, particles x width or particles, in the order of the ids."""
@@ -94,6 +103,13 @@ class Run:
             return None
         index = int(np.argmin(np.abs(self.times - time)))
         return self.frame(index) if abs(self.times[index] - time) <= tolerance else None
+
+    def series(self, column: str) -> np.ndarray | None:
+        """A column of the history; the sum of the energies is made here."""
+        if column == "total_energy":
+            parts = [self.history.get(name) for name in ("kinetic_energy", "potential_energy")]
+            return None if any(part is None for part in parts) else parts[0] + parts[1]
+        return self.history.get(column)
 
     @property
     def name(self) -> str:

@@ -1,0 +1,44 @@
+"""Small runs of the built program, and their reports, for report_test.py."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+
+class Results:
+    """A folder with runs and pages."""
+
+    def __init__(self, source: Path, program: Path, work: Path):
+        self.source, self.program, self.work = source, program, work
+
+    def run(self, scene: str, name: str, *settings: str) -> Path:
+        """Runs a scene of scenes/ into the folder `name`; a run that fails has results, too."""
+        folder = self.work / name
+        sets = [part for setting in settings for part in ("--set", setting)]
+        command = [self.program, "run", self.source / f"scenes/{scene}.json", "--out", folder, "--threads", "1",
+                   "--quiet", *sets]
+        ended = subprocess.run(command, capture_output=True, text=True, check=False)
+        if ended.returncode not in (0, 3):
+            raise RuntimeError(f"{command}: {ended.stderr}")
+        return folder
+
+    def report(self, *arguments: object) -> subprocess.CompletedProcess[str]:
+        """tools/report with these arguments, the graph drawn by the program under test."""
+        command = [sys.executable, self.source / "tools/report", "--program", self.program, *arguments]
+        return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
+
+    def page(self, *folders: Path, name: str = "") -> Path:
+        """The page on these folders; under another name than report.html of the first folder if one is given."""
+        page = self.work / name if name else folders[0] / "report.html"
+        ended = self.report(*folders, *(["--out", page] if name else []))
+        if ended.returncode != 0 or ended.stderr:
+            raise RuntimeError(f"tools/report {folders}: {ended.stderr}")
+        return page
+
+
+def summary(folder: Path) -> dict[str, Any]:
+    return json.loads((folder / "summary.json").read_text())

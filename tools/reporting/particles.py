@@ -1,0 +1,134 @@
+"""The particles of a run for the page: which quantities there are, their ranges, all frames packed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from reporting.packing import Packed, pack_frames
+from reporting.runs import NoResults, Run
+
+AXES = "xyz"
+UNITS = {"velocity": "m/s", "pressure": "Pa", "velocity_gradient": "1/s"}
+COARSE_BITS = 12  # of a quantity where there are many particles: more shades than an eye tells apart
+MANY = 1 << 20  # particles times frames
+
+
+@dataclass
+class Quantity:
+    """What particles can be coloured by."""
+
+    name: str
+    unit: str
+    signed: bool = False  # zero is the middle of its colours
+    low: float = np.inf  # over all particles and frames
+    high: float = -np.inf
+    shown: list[np.ndarray] = field(default_factory=list)  # by frame, of the particles in the page
+
+    def add(self, values: np.ndarray, chosen: np.ndarray) -> None:
+        """Takes up the next frame."""
+        finite = values[np.isfinite(values)]
+        if len(finite):
+            self.low, self.high = min(self.low, float(finite.min())), max(self.high, float(finite.max()))
+        self.shown.append(values[chosen].astype(np.float32))
+
+
+def quantities(columns: dict[str, np.ndarray], dimension: int) -> dict[str, tuple[np.ndarray, str, bool]]:
+    """Scalars of a frame by name: values, unit, whether both signs matter. Whatever fields.h5 holds has a place here."""
+    found: dict[str, tuple[np.ndarray, str, bool]] = {}
+    for name, values in columns.items():
+        if name in ("id", "position"):
+            continue
+        unit, words = UNITS.get(name, ""), name.replace("_", " ")
+        if values.ndim == 1:
+            found[words] = values, unit, False
+            continue
+        size = np.linalg.norm(values, axis=1)
+        found["speed" if name == "velocity" else f"{words}, norm"] = size, unit, False
+        if values.shape[1] == dimension:
+            found |= {f"{words} {AXES[d]}": (values[:, d], unit, True) for d in range(dimension)}
+        elif name == "velocity_gradient":
+            found |= _of_gradient(values.reshape(-1, dimension, dimension), unit)
+    first = [name for name in ("speed", "pressure") if name in found]
+    return {name: found[name] for name in first + [name for name in found if name not in first]}
+
+
+def _of_gradient(gradient: np.ndarray, unit: str) -> dict[str, tuple[np.ndarray, str, bool]]:
+    """Rotation and divergence; gradient[p, i, j] = dv_i/dx_j."""
+    pairs = [(i, j) for i, j in ((0, 1), (1, 2), (2, 0)) if max(i, j) < gradient.shape[1]]
+    turning = [gradient[:, j, i] - gradient[:, i, j] for i, j in pairs]
+    vorticity = (turning[0], unit, True) if len(turning) == 1 else (np.linalg.norm(turning, axis=0), unit, False)
+    return {"vorticity": vorticity, "divergence": (np.trace(gradient, axis1=1, axis2=2), unit, True)}
+
+
+@dataclass(frozen=True)
+class Particles:
+    """All frames of a run, those that a page has room for."""
+
+    count: int  # in the run
+    chosen: np.ndarray  # rows that are in the page, ascending
+    position: np.ndarray  # [m], frames x chosen x dimension
+    quantities: list[Quantity]
+
+    @classmethod
+    def read(cls, run: Run, most: int) -> Particles | None:
+        """At most `most` particles, drawn by chance, always the same ones; None if no frame is written yet."""
+        if len(run.times) == 0:
+            return None
+        count = len(run.columns(0)["id"])
+        chosen = np.arange(count)
+        if count > most:
+            chosen = np.sort(np.random.default_rng(1).choice(count, most, replace=False))
+        position, found = [], {}
+        for index in range(len(run.times)):
+            columns = run.columns(index)
+            if len(columns["id"]) != count:
+                raise NoResults(f"{run.folder}/fields.h5: frame {index} has {len(columns['id'])} particles; expected: "
+                                f"{count}, as in frame 0")
+            position.append(columns["position"][chosen])
+            for name, (values, unit, signed) in quantities(columns, run.dimension).items():
+                found.setdefault(name, Quantity(name, unit, signed)).add(values, chosen)
+        return cls(count, chosen, np.array(position), list(found.values()))
+
+    def packed(self, add: Any) -> dict[str, Any]:
+        """What the page knows of them. `add(text)` keeps a packed column and gives the key to find it by."""
+        frames, rows, dimension = self.position.shape
+        axes = [self._axis(d) for d in range(dimension)]
+        bits = COARSE_BITS if frames * rows > MANY else 16
+        fields = [_packed_quantity(quantity, bits) for quantity in self.quantities]
+        return {
+            "count": self.count, "shown": rows,
+            "ids": [int(p) for p in self.chosen] if rows < self.count else None,
+            "position": {"low": [axis.low for axis in axes], "high": [axis.high for axis in axes],
+                         "step": max(axis.step for axis in axes), "keys": [add(axis.text) for axis in axes]},
+            "fields": [described | {"key": add(packed.text)} for described, packed in fields],
+        }
+
+    def _axis(self, axis: int) -> Packed:
+        values = self.position[:, :, axis]
+        finite = values[np.isfinite(values)]
+        low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
+        return pack_frames(values, low, high, 16, 2)
+
+
+def _packed_quantity(quantity: Quantity, bits: int) -> tuple[dict[str, Any], Packed]:
+    values = np.array(quantity.shown)
+    finite = values[np.isfinite(values)]
+    usual = np.percentile(finite, [0.5, 99.5]).tolist() if len(finite) else [0.0, 0.0]
+    low, high = _coded_range(quantity, *usual)
+    packed = pack_frames(values, low, high, bits, 1)
+    described = {"name": quantity.name, "unit": quantity.unit, "signed": quantity.signed, "low": low, "high": high,
+                 "bits": bits, "usual": usual, "least": _finite(quantity.low), "most": _finite(quantity.high)}
+    return described, packed
+
+
+def _coded_range(quantity: Quantity, low: float, high: float) -> tuple[float, float]:
+    """The whole range, unless a few wild particles would leave all others a handful of codes."""
+    reach = 30 * max(high - low, 1e-12 * max(abs(low), abs(high)))
+    return max(_finite(quantity.low), low - reach), min(_finite(quantity.high), high + reach)
+
+
+def _finite(value: float) -> float:
+    return value if np.isfinite(value) else 0.0
