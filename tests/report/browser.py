@@ -1,4 +1,4 @@
-"""A headless Chromium, spoken to through the pipe of --remote-debugging-pipe: messages are JSON, each ends with a NUL."""
+"""A headless Chromium at the other end of two pipes, --remote-debugging-pipe: JSON, each message ends with a NUL."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from typing import Any
 
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-extensions", "--disable-dev-shm-usage", "--mute-audio",
-         "--hide-scrollbars", "--force-color-profile=srgb")
+         "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-extensions",
+         "--disable-dev-shm-usage", "--mute-audio", "--hide-scrollbars", "--force-color-profile=srgb")
 PATIENCE = 60  # for one answer or condition [s]; a loaded machine takes some
 
 
@@ -95,7 +95,8 @@ class Browser:
         elif method == "Log.entryAdded" and parameters["entry"]["level"] in ("error", "warning"):
             self.complaints.append(parameters["entry"]["text"])
         elif method == "Runtime.consoleAPICalled" and parameters["type"] in ("error", "warning"):
-            self.complaints.append(" ".join(str(each.get("value", each.get("description"))) for each in parameters["args"]))
+            said = [str(each.get("value", each.get("description"))) for each in parameters["args"]]
+            self.complaints.append(" ".join(said))
 
     def open(self, page: Path, width: int = 1280, height: int = 900, dark: bool = False, pixels: float = 1) -> None:
         """Opens a file as a disk does, and waits until the report says that it is ready."""
@@ -118,7 +119,7 @@ class Browser:
         end = time.monotonic() + PATIENCE
         while not self.run(condition):
             if time.monotonic() > end:
-                raise RuntimeError(f"in {PATIENCE} s it did not come to: {condition}; the console says {self.complaints}")
+                raise RuntimeError(f"not within {PATIENCE} s: {condition}; the console says {self.complaints}")
             time.sleep(0.02)
 
     def settle(self) -> None:

@@ -1,8 +1,10 @@
-"""Small runs of the built program, and their reports, for report_test.py."""
+"""Small runs of the built program, and their reports. In the environment: PROGRAM, and WORK, a folder to start anew."""
 
 from __future__ import annotations
 
 import json
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,8 +14,11 @@ from typing import Any
 class Results:
     """A folder with runs and pages."""
 
-    def __init__(self, source: Path, program: Path, work: Path):
-        self.source, self.program, self.work = source, program, work
+    def __init__(self, program: Path, work: Path):
+        self.source = Path(__file__).resolve().parents[2]
+        self.program, self.work = program.resolve(), work.resolve()
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
 
     def run(self, scene: str, name: str, *settings: str) -> Path:
         """Runs a scene of scenes/ into the folder `name`; a run that fails has results, too."""
@@ -42,3 +47,7 @@ class Results:
 
 def summary(folder: Path) -> dict[str, Any]:
     return json.loads((folder / "summary.json").read_text())
+
+
+RESULTS = Results(Path(os.environ["PROGRAM"]), Path(os.environ["WORK"]))
+sys.path.insert(0, str(RESULTS.source / "tools"))

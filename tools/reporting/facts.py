@@ -97,26 +97,31 @@ def short(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def scene_section(runs: list[Run]) -> str:
-    """One run: facts in two columns. Several: a column each, rows that differ marked, then all keys that differ."""
-    if len(runs) == 1:
-        rows = "".join(f"<div><b>{name}</b><span>{escape(value)}</span></div>"
-                       for name, value in facts(runs[0]).items())
-        return f"<h2>Scene</h2><div class=\"facts\">{rows}</div>"
+def facts_list(run: Run) -> str:
+    """The facts on one run, to stand beside its picture."""
+    rows = "".join(f"<div><b>{name}</b><span>{escape(value)}</span></div>" for name, value in facts(run).items())
+    return f"<div class=\"facts\">{rows}</div>"
+
+
+def comparison_section(runs: list[Run]) -> str:
+    """Of several runs: all keys of the scenes that differ, then facts, a column per run, rows that differ marked."""
     differing = _differing_keys(runs)
     keys = table(["key of the scene", *labels(runs)], differing) if differing else "<p>The scenes are the same.</p>"
     columns = [facts(run) for run in runs]
     names = dict.fromkeys(name for column in columns for name in column)
     rows = [[name, *(column.get(name, NOTHING) for column in columns)] for name in names]
-    return f"<h2>What differs</h2><div id=\"differences\">{keys}</div><h2>Scenes</h2>{table(['', *labels(runs)], rows, True)}"
+    return (f"<h2>What differs</h2><div id=\"differences\">{keys}</div>"
+            f"<h2>Scenes</h2>{table(['', *labels(runs)], rows, mark=True)}")
 
 
 def table(head: list[str], rows: list[list[str]], mark: bool = False) -> str:
     """A table; `mark` marks the rows whose values differ."""
     marked = [" class=\"differs\"" if mark and len(set(row[1:])) > 1 else "" for row in rows]
-    body = "".join(f"<tr{each}><th>{escape(row[0])}</th>{''.join(f'<td>{escape(value)}</td>' for value in row[1:])}</tr>"
-                   for each, row in zip(marked, rows))
-    return f"<div class=\"wide\"><table><tr>{''.join(f'<th>{escape(name)}</th>' for name in head)}</tr>{body}</table></div>"
+    lines = ["<tr>" + "".join(f"<th>{escape(name)}</th>" for name in head) + "</tr>"]
+    for each, (name, *values) in zip(marked, rows):
+        cells = "".join(f"<td>{escape(value)}</td>" for value in values)
+        lines.append(f"<tr{each}><th>{escape(name)}</th>{cells}</tr>")
+    return f"<div class=\"wide\"><table>{''.join(lines)}</table></div>"
 
 
 def _differing_keys(runs: list[Run]) -> list[list[str]]:

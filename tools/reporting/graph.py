@@ -1,4 +1,4 @@
-"""The graph of the systems of a run as SVG: `minamo graph` says what it is, Graphviz' dot where things go."""
+"""The graph of the systems of a run as SVG: `minamo graph` says what it is, Graphviz' dot, if any, where things go."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from reporting.layered import WARM, Node, draw_layered
 from reporting.runs import Run
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -38,46 +39,44 @@ def find_program(given: Path | None) -> Path | None:
 def draw_graph(run: Run, program: Path | None) -> Drawing:
     """The graph of the systems of run's scene.json."""
     if program is None:
-        return Drawing(sentence="No graph of the systems: no program at build/minamo, build/test/minamo or in the PATH. "
-                                "Call tools/run, or name the program with --program.")
+        return Drawing(sentence="No graph of the systems: there is no program at build/minamo, at build/test/minamo or "
+                                "in the PATH. Call tools/run, or name the program with --program.")
     try:
         graph = json.loads(_output([str(program), "graph", str(run.folder / "scene.json"), "--format", "json"]))
     except (OSError, subprocess.CalledProcessError, json.JSONDecodeError) as problem:
         said = getattr(problem, "stderr", "") or str(problem)
         return Drawing(sentence=f"No graph of the systems: {program} graph says: {said.strip()}")
-    systems = tuple(graph["systems"])
-    if shutil.which("dot") is None:
-        return Drawing(systems=systems, sentence="No drawing of the graph: the program dot is missing. It comes with "
-                                                 "the package graphviz.")
-    return Drawing(_svg(graph, _shares(run)), systems)
+    draw = _by_dot if shutil.which("dot") else draw_layered
+    return Drawing(draw(_nodes(graph, run), graph["edges"]), tuple(graph["systems"]))
 
 
 def _output(command: list[str], text: str = "") -> str:
     return subprocess.run(command, input=text, capture_output=True, text=True, check=True, timeout=60).stdout
 
 
-def _shares(run: Run) -> dict[str, float]:
-    return {row["name"]: row["share"] for row in run.summary.get("systems", [])}
+def _nodes(graph: dict[str, Any], run: Run) -> list[Node]:
+    shares = {row["name"]: row["share"] for row in run.summary.get("systems", [])}
+    return [_node(system, shares.get(system["name"])) for system in graph["systems"]]
 
 
-def _svg(graph: dict[str, Any], shares: dict[str, float]) -> str:
-    """Colours come from page.css, by class; the warmth of a node, its share of the time, from here."""
+def _node(system: dict[str, Any], share: float | None) -> Node:
+    name = system["name"]
+    lines = [name] if share is None else [name, f"{100 * share:.1f} %"]
+    return Node(f"system-{name}", lines, describe(system), min(1.0, (share or 0.0) / WARMEST))
+
+
+def _by_dot(nodes: list[Node], edges: list[dict[str, Any]]) -> str:
+    """Colours come from page.css, by class; the warmth of a node from here."""
     lines = ["digraph systems {", "bgcolor=transparent; nodesep=0.18; ranksep=0.32;",
              'node [shape=box style="rounded,filled" fontname="Helvetica" fontsize=11 height=0.3 margin="0.1,0.04"];',
              "edge [arrowsize=0.6];"]
-    lines += [_node(index, system, shares.get(system["name"])) for index, system in enumerate(graph["systems"])]
+    lines += [f's{k} [id={_quoted(node.name)} class=system label={_quoted(chr(10).join(node.lines))} '
+              f'tooltip={_quoted(node.tooltip)} fillcolor="{WARM}{round(255 * node.warmth):02x}"];'
+              for k, node in enumerate(nodes)]
     lines += [f's{edge["from"]} -> s{edge["to"]} [class=data tooltip={_quoted(", ".join(edge["components"]))}];'
-              for edge in graph["edges"]]
+              for edge in edges]
     svg = _output(["dot", "-Tsvg"], "\n".join([*lines, "}"]))
     return svg[svg.index("<svg"):]
-
-
-def _node(index: int, system: dict[str, Any], share: float | None) -> str:
-    name = system["name"]
-    label = name if share is None else f"{name}\n{100 * share:.1f} %"
-    warmth = round(255 * min(1.0, (share or 0.0) / WARMEST))
-    return (f's{index} [id={_quoted("system-" + name)} class=system label={_quoted(label)} '
-            f'tooltip={_quoted(describe(system))} fillcolor="#e66100{warmth:02x}"];')
 
 
 def describe(system: dict[str, Any]) -> str:

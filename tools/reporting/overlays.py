@@ -64,9 +64,9 @@ def corner_paths(run: Run) -> dict[str, Any] | None:
     """Exact paths x + t v + t^2 b / 2 of the corners of boxes of liquid in the plane: {start, velocity, acceleration}.
 
     At a corner two free surfaces meet, the pressure gradient vanishes, and the liquid goes on as in free flight. For a
-    square of side L that rotates at the rate w: (L/2) (1 - wt, 1 + wt) and its turned copies. None unless every region is
-    a box that no wall and no other region touches, the body force is constant, and the velocity at the start is linear
-    and not everywhere zero.
+    square of side L that rotates at the rate w: (L/2) (1 - wt, 1 + wt) and its turned copies. None unless every region
+    is a box that no wall and no other region touches, the body force is constant, and the velocity at the start is
+    linear and not everywhere zero.
     """
     boxes = [region["shape"].get("box") for region in run.scene["particles"]]
     force = run.scene.get("body_force", [0, 0])

@@ -8,8 +8,8 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from reporting.facts import balance_section, headline, messages, scene_files, scene_section
-from reporting.graph import Drawing, describe, draw_graph
+from reporting.facts import balance_section, comparison_section, facts_list, headline, messages, scene_files
+from reporting.graph import describe, draw_graph
 from reporting.histories import Plot, packed_history, plots
 from reporting.overlays import corner_paths, references, walls
 from reporting.particles import Particles
@@ -21,7 +21,8 @@ STYLES = ("vendor/uPlot.min.css", "page.css")
 SCRIPTS = ("vendor/uPlot.iife.min.js", "data.js", "colours.js", "camera.js", "painter.js",
            "drawing.js", "panel.js", "colour_bar.js", "player.js", "strip.js", "plots.js", "systems.js", "theme.js",
            "app.js")
-MOST_SAMPLES = 5_000_000  # particles times frames of a page: 5 bytes each in the plane, 8 in space
+# Particles times frames of a page, by dimension: about 30 MB at the 5 and 9 bytes that violent flows need for each.
+MOST_SAMPLES = {2: 5_000_000, 3: 3_000_000}
 STRIP_LENGTH = 8  # pictures
 
 
@@ -43,21 +44,22 @@ class Packer:
 def write_page(path: Path, runs: list[Run], times: list[float] | None, program: Path | None) -> None:
     """Writes the page on these runs; `times` [s] are those of the strip, `program` draws the graph of the systems."""
     packer, shown = Packer(), plots([run for run in runs if run.history])
-    most = MOST_SAMPLES // max(1, sum(len(run.times) for run in runs))
-    particles = [Particles.read(run, most) for run in runs]
+    frames = max(1, sum(len(run.times) for run in runs))
+    particles = [Particles.read(run, MOST_SAMPLES[run.dimension] // frames) for run in runs]
     described = [_described(run, label, each, shown, packer)
                  for run, label, each in zip(runs, labels(runs), particles)]
     report = {"runs": described, "plots": [plot.as_json() for plot in shown],
               "strip": times or _strip_times(described, runs)}
     title = runs[0].title if len(runs) == 1 else "Comparison: " + ", ".join(labels(runs))
+    beside = facts_list(runs[0]) if len(runs) == 1 else ""
     page = _filled("template.html", {
         "title": escape(title), "headlines": "\n".join(map(headline, runs)), "messages": messages(runs),
         "style": "\n".join(_source(name) for name in STYLES), "script": "\n".join(_source(name) for name in SCRIPTS),
-        "particles": _filled("particles.html", {"stored": escape(_stored(described))}) if any(particles) else "",
+        "particles": _particles_section(described, beside) if any(particles) else beside,
         "histories": "<h2>History</h2><div id=\"plots\"></div><p class=\"soft\">Point at a plot for its values, "
                      "click to go to a time, drag over a span to zoom, double click to zoom out.</p>" if shown else "",
-        "sections": "\n".join([scene_section(runs), balance_section(runs), profile_section(runs),
-                               _graph_section(draw_graph(runs[0], program)), scene_files(runs)]),
+        "sections": "\n".join([comparison_section(runs) if len(runs) > 1 else "", balance_section(runs),
+                               profile_section(runs), _graph_section(runs, program), scene_files(runs)]),
         "footer": "Written by tools/report of minamo. Plots by uPlot, MIT licence.",
         "report": json.dumps(report, allow_nan=False, separators=(",", ":")).replace("</", "<\\/"),
         "packed": packer.html(),
@@ -112,6 +114,10 @@ def _strip_times(described: list[dict[str, Any]], runs: list[Run]) -> list[float
     return sorted(compared)[:STRIP_LENGTH] if len(compared) > 2 else telling_times(runs[first], STRIP_LENGTH)
 
 
+def _particles_section(described: list[dict[str, Any]], beside: str) -> str:
+    return _filled("particles.html", {"stored": escape(_stored(described)), "facts": beside})
+
+
 def _stored(described: list[dict[str, Any]]) -> str:
     """How exact the numbers of the page are."""
     shown = [run for run in described if run["particles"]]
@@ -127,12 +133,14 @@ def _stored(described: list[dict[str, Any]]) -> str:
     return text
 
 
-def _graph_section(drawing: Drawing) -> str:
-    """The drawing, and always, where the program could be asked, what every system reads and writes."""
-    parts = ["<h2>Systems of a step</h2><figure id=\"graph\">"]
+def _graph_section(runs: list[Run], program: Path | None) -> str:
+    """The graph of the first run, and in words what every system reads and writes; else why there is none."""
+    drawing = draw_graph(runs[0], program)
+    of_which = f": {escape(labels(runs)[0])}" if len(runs) > 1 else ""
+    parts = [f"<h2>Systems of a step{of_which}</h2><figure id=\"graph\">"]
     if drawing.svg:
-        parts.append("<p class=\"soft\">An arrow is data that waits for its writer; warm is expensive. Click a system."
-                     f"</p><pre hidden></pre><div class=\"wide\">{drawing.svg}</div>")
+        parts.append("<p class=\"soft\">Arrows are data that waits for its writer; the warmer a system, the larger its "
+                     f"share of the time. Click one.</p><pre hidden></pre><div class=\"wide\">{drawing.svg}</div>")
     if drawing.sentence:
         parts.append(f"<p>{escape(drawing.sentence)}</p>")
     if drawing.systems:

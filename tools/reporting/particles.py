@@ -12,7 +12,7 @@ from reporting.runs import NoResults, Run
 
 AXES = "xyz"
 UNITS = {"velocity": "m/s", "pressure": "Pa", "velocity_gradient": "1/s"}
-COARSE_BITS = 12  # of a quantity where there are many particles: more shades than an eye tells apart
+COARSE_BITS = 10  # of a quantity where there are many particles: four times as many shades as colours
 MANY = 1 << 20  # particles times frames
 
 
@@ -34,9 +34,24 @@ class Quantity:
             self.low, self.high = min(self.low, float(finite.min())), max(self.high, float(finite.max()))
         self.shown.append(values[chosen].astype(np.float32))
 
+    def packed(self, bits: int) -> tuple[dict[str, Any], Packed]:
+        """What the page knows of it, and its codes."""
+        values = np.array(self.shown)
+        finite = values[np.isfinite(values)]
+        usual = np.percentile(finite, [0.5, 99.5]).tolist() if len(finite) else [0.0, 0.0]
+        low, high = self._coded_range(*usual)
+        described = {"name": self.name, "unit": self.unit, "signed": self.signed, "low": low, "high": high,
+                     "bits": bits, "usual": usual, "least": _finite(self.low), "most": _finite(self.high)}
+        return described, pack_frames(values, low, high, bits, 1)
+
+    def _coded_range(self, low: float, high: float) -> tuple[float, float]:
+        """The whole range, unless a few wild particles would leave all others a handful of codes."""
+        reach = 30 * max(high - low, 1e-12 * max(abs(low), abs(high)))
+        return max(_finite(self.low), low - reach), min(_finite(self.high), high + reach)
+
 
 def quantities(columns: dict[str, np.ndarray], dimension: int) -> dict[str, tuple[np.ndarray, str, bool]]:
-    """Scalars of a frame by name: values, unit, whether both signs matter. Whatever fields.h5 holds has a place here."""
+    """Scalars of a frame by name: values, unit, whether both signs matter. All that fields.h5 holds is here."""
     found: dict[str, tuple[np.ndarray, str, bool]] = {}
     for name, values in columns.items():
         if name in ("id", "position"):
@@ -97,7 +112,7 @@ class Particles:
         frames, rows, dimension = self.position.shape
         axes = [self._axis(d) for d in range(dimension)]
         bits = COARSE_BITS if frames * rows > MANY else 16
-        fields = [_packed_quantity(quantity, bits) for quantity in self.quantities]
+        fields = [quantity.packed(bits) for quantity in self.quantities]
         return {
             "count": self.count, "shown": rows,
             "ids": [int(p) for p in self.chosen] if rows < self.count else None,
@@ -111,23 +126,6 @@ class Particles:
         finite = values[np.isfinite(values)]
         low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
         return pack_frames(values, low, high, 16, 2)
-
-
-def _packed_quantity(quantity: Quantity, bits: int) -> tuple[dict[str, Any], Packed]:
-    values = np.array(quantity.shown)
-    finite = values[np.isfinite(values)]
-    usual = np.percentile(finite, [0.5, 99.5]).tolist() if len(finite) else [0.0, 0.0]
-    low, high = _coded_range(quantity, *usual)
-    packed = pack_frames(values, low, high, bits, 1)
-    described = {"name": quantity.name, "unit": quantity.unit, "signed": quantity.signed, "low": low, "high": high,
-                 "bits": bits, "usual": usual, "least": _finite(quantity.low), "most": _finite(quantity.high)}
-    return described, packed
-
-
-def _coded_range(quantity: Quantity, low: float, high: float) -> tuple[float, float]:
-    """The whole range, unless a few wild particles would leave all others a handful of codes."""
-    reach = 30 * max(high - low, 1e-12 * max(abs(low), abs(high)))
-    return max(_finite(quantity.low), low - reach), min(_finite(quantity.high), high + reach)
 
 
 def _finite(value: float) -> float:

@@ -47,9 +47,9 @@ def _group(name: str, bars: list[tuple[float, float]], most: float) -> str:
     for k, (seconds, share) in enumerate(bars):
         first = f"<td rowspan=\"{len(bars)}\">{escape(name)}</td>" if k == 0 else ""
         colour = f";background:{COLOURS[k % len(COLOURS)]}" if len(bars) > 1 else ""
-        lines.append(f"<tr>{first}<td class=\"number\">{seconds:.3g} s</td><td class=\"number\">{100 * share:.1f} %</td>"
-                     f"<td style=\"width:60%\"><div class=\"bar\" style=\"width:{100 * seconds / most:.2f}%{colour}\">"
-                     "</div></td></tr>")
+        bar = f"<div class=\"bar\" style=\"width:{100 * seconds / most:.2f}%{colour}\"></div>"
+        numbers = f"<td class=\"number\">{seconds:.3g} s</td><td class=\"number\">{100 * share:.1f} %</td>"
+        lines.append(f"<tr>{first}{numbers}<td class=\"bars\">{bar}</td></tr>")
     return "".join(lines)
 
 

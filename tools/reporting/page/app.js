@@ -35,7 +35,14 @@ class App {
     this.strip = new Strip(this, report.strip);
     offerSlices(this);
     document.getElementById("reset").addEventListener("click", () => this.resetCamera());
-    await this.colourBar.chooseField([...this.colourBar.fields.keys()][0]);
+    document
+      .getElementById("save")
+      .addEventListener("click", () => savePicture(this.panels, this.theme, this.player.label.textContent));
+    const names = [...this.colourBar.fields.keys()];
+    document
+      .getElementById("viewer")
+      .classList.toggle("wide-run", this.panels.length === 1 && isWide(this.panels[0].run));
+    await this.colourBar.chooseField(names[0]);
     for (const panel of this.panels) panel.resize();
     this.setTime(this.time);
   }
@@ -45,8 +52,16 @@ class App {
   }
 
   look() {
-    return { camera: this.camera, painter: this.painter, theme: this.theme, field: this.field, range: this.range,
-      slice: this.slice, smooth: this.playing, scale: true };
+    return {
+      camera: this.camera,
+      painter: this.painter,
+      theme: this.theme,
+      field: this.field,
+      range: this.range,
+      slice: this.slice,
+      smooth: this.playing,
+      scale: true,
+    };
   }
 
   setTime(time) {
@@ -89,6 +104,12 @@ class App {
   }
 }
 
+/** Too wide to leave room beside it. */
+function isWide(run) {
+  const [across, up] = extentOf(run);
+  return across > 1.7 * up;
+}
+
 /** All output times of all runs; those that differ by rounding are one. */
 function timesOf(runs) {
   const all = runs.flatMap((run) => (run.particles ? run.times : [])).sort((a, b) => a - b);
@@ -100,7 +121,8 @@ function timesOf(runs) {
 function offerSlices(app) {
   const holder = document.getElementById("slice-controls");
   holder.hidden = !app.shownRuns().some((run) => run.dimension === 3);
-  const axis = document.getElementById("slice-axis"), at = document.getElementById("slice-at");
+  const axis = document.getElementById("slice-axis"),
+    at = document.getElementById("slice-at");
   const change = () => {
     app.slice = axis.value === "none" ? null : { axis: "xyz".indexOf(axis.value), at: Number(at.value) };
     at.disabled = app.slice === null;
@@ -110,12 +132,32 @@ function offerSlices(app) {
   for (const control of [axis, at]) control.addEventListener("input", change);
 }
 
+/** Downloads the panels, side by side, as a PNG. */
+function savePicture(panels, theme, name) {
+  const canvas = document.createElement("canvas");
+  canvas.width = panels.reduce((sum, panel) => sum + panel.canvas.width, 0);
+  canvas.height = Math.max(...panels.map((panel) => panel.canvas.height));
+  const context = canvas.getContext("2d");
+  context.fillStyle = theme.canvas;
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  let left = 0;
+  for (const panel of panels) {
+    context.drawImage(panel.canvas, left, 0);
+    left += panel.canvas.width;
+  }
+  const link = document.createElement("a");
+  link.download = `${document.title}, ${name}.png`;
+  link.href = canvas.toDataURL("image/png");
+  link.click();
+}
+
 const app = new App();
 app.start().catch((problem) => {
   const box = document.getElementById("problem");
   box.hidden = false;
-  box.textContent = typeof DecompressionStream === "undefined"
-    ? "This browser cannot unpack the results: it has no DecompressionStream. Firefox 113, Chromium 80, Safari 16.4 have."
-    : `The page failed: ${problem.message}`;
+  box.textContent =
+    typeof DecompressionStream === "undefined"
+      ? "This browser cannot unpack the results; Firefox 113, Chromium 80 and Safari 16.4 have the DecompressionStream."
+      : `The page failed: ${problem.message}`;
   console.error(problem);
 });

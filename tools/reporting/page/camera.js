@@ -39,23 +39,34 @@ class Camera {
 
   /** Rows: to the right, upwards, away from the eye. */
   directions(run) {
-    if (run.dimension === 2) return [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-    const right = unit(run.up === 0 ? 1 : 0), up = unit(run.up);
-    const into = [up[1] * right[2] - up[2] * right[1], up[2] * right[0] - up[0] * right[2], up[0] * right[1] - up[1] * right[0]];
+    if (run.dimension === 2)
+      return [
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+      ];
+    const right = unit(run.up === 0 ? 1 : 0),
+      up = unit(run.up);
+    const into = [
+      up[1] * right[2] - up[2] * right[1],
+      up[2] * right[0] - up[0] * right[2],
+      up[0] * right[1] - up[1] * right[0],
+    ];
     const [ct, st, ch, sh] = [Math.cos(this.turn), Math.sin(this.turn), Math.cos(this.tilt), Math.sin(this.tilt)];
     const across = right.map((r, d) => ct * r + st * into[d]);
     const away = right.map((r, d) => ct * into[d] - st * r);
     return [across, up.map((u, d) => ch * u + sh * away[d]), away.map((a, d) => ch * a - sh * up[d])];
   }
 
-  /** How a panel of `width` x `height` pixels shows a run. */
-  projection(run, width, height) {
+  /** How a panel of `width` x `height` pixels shows a run; `below` is left free for the scale. */
+  projection(run, width, height, below = 0) {
     const rows = this.directions(run);
     const [low, high] = run.view;
     const middle = low.map((l, d) => (l + high[d]) / 2);
     const [across, up] = extentOf(run);
-    const scale = this.zoom * Math.min((width - 2 * margin) / across, (height - 2 * margin) / up);
-    return new Projection(rows, middle, scale, [width / 2 + this.move[0] * width, height / 2 - this.move[1] * width]);
+    const scale = this.zoom * Math.min((width - 2 * margin) / across, (height - 2 * margin - below) / up);
+    const centre = [width / 2 + this.move[0] * width, (height - below) / 2 - this.move[1] * width];
+    return new Projection(rows, middle, scale, centre);
   }
 }
 
@@ -79,7 +90,9 @@ class Projection {
   }
 
   point(place) {
-    const [x, y] = [0, 1].map((k) => this.rows[k].reduce((sum, r, d) => sum + r * ((place[d] ?? 0) - (this.middle[d] ?? 0)), 0));
+    const [x, y] = [0, 1].map((k) =>
+      this.rows[k].reduce((sum, r, d) => sum + r * ((place[d] ?? 0) - (this.middle[d] ?? 0)), 0),
+    );
     return [this.centre[0] + this.scale * x, this.centre[1] - this.scale * y];
   }
 

@@ -13,7 +13,8 @@ class ColourBar {
     fillChoice(this.mapChoice, Object.keys(colourMaps));
     this.fieldChoice.addEventListener("change", () => this.chooseField(this.fieldChoice.value));
     this.mapChoice.addEventListener("change", () => this.chooseMap(this.mapChoice.value));
-    for (const end of this.ends) end.addEventListener("change", () => this.setRange(this.ends.map((input) => Number(input.value))));
+    for (const end of this.ends)
+      end.addEventListener("change", () => this.setRange(this.ends.map((input) => Number(input.value))));
     document.getElementById("range-usual").addEventListener("click", () => this.setRange(this.usualRange()));
     document.getElementById("range-full").addEventListener("click", () => this.setRange(this.fullRange()));
   }
@@ -25,9 +26,15 @@ class ColourBar {
     for (const field of first) {
       const all = [field, ...others.map((fields) => fields.find((other) => other.name === field.name))];
       if (all.includes(undefined)) continue;
-      const least = (pick) => Math.min(...all.map(pick)), most = (pick) => Math.max(...all.map(pick));
-      found.set(field.name, { ...field, least: least((f) => f.least), most: most((f) => f.most),
-        usual: [least((f) => f.usual[0]), most((f) => f.usual[1])], step: most((f) => (f.high - f.low) / (2 ** f.bits - 1)) });
+      const least = (pick) => Math.min(...all.map(pick)),
+        most = (pick) => Math.max(...all.map(pick));
+      found.set(field.name, {
+        ...field,
+        least: least((f) => f.least),
+        most: most((f) => f.most),
+        usual: [least((f) => f.usual[0]), most((f) => f.usual[1])],
+        step: most((f) => (f.high - f.low) / (2 ** f.bits - 1)),
+      });
     }
     return found;
   }
@@ -81,8 +88,9 @@ class ColourBar {
     const margin = 0.02 * (high - low);
     this.element.classList.toggle("beyond-low", least < low - margin);
     this.element.classList.toggle("beyond-high", most > high + margin);
-    this.element.querySelector(".true-range").textContent =
-      `all particles and times: ${shown(least)} … ${withUnit(shown(most), unit)} · stored to ${withUnit(shown(step, 2), unit)}`;
+    const [mostText, stepText] = [shown(most), shown(step, 2)].map((text) => withUnit(text, unit));
+    this.element.querySelector(".true-range span").textContent =
+      `all particles and times: ${shown(least)} … ${mostText} · stored to ${stepText}`;
   }
 }
 

@@ -96,7 +96,8 @@ class Particles {
 
 /** Index of the entry of an ascending list that is nearest to a value. */
 function nearest(list, value) {
-  let low = 0, high = list.length - 1;
+  let low = 0,
+    high = list.length - 1;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     if (list[middle] <= value) low = middle;

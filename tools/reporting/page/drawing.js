@@ -11,22 +11,44 @@ function momentOf(particles, time, smooth) {
   return { frame: before, part: (time - times[before]) / (times[before + 1] - times[before]) };
 }
 
+const finest = 1.8; // of a particle, in pixels of the page: two pixels of the device at least
+
 /** Draws into a context, `width` x `height` pixels of the page, `look` says how; returns the projection. */
 function drawRun(context, width, height, particles, time, look) {
   const { run } = particles;
   const pixels = context.canvas.width / width;
-  const projection = look.camera.projection(run, width, height);
+  const projection = look.camera.projection(run, width, height, look.scale ? scaleHeight : 0);
   const moment = momentOf(particles, time, look.smooth);
   const edges = boxEdges(run, projection);
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.fillStyle = look.theme.canvas;
   context.fillRect(0, 0, context.canvas.width, context.canvas.height);
-  inPagePixels(context, pixels, () => drawEdges(context, edges.filter((edge) => edge.behind), projection, look.theme));
-  const diameter = Math.max(1.1 * run.particle_size * crowding(run) * projection.scale, 1.4);
-  look.painter.paint(context, { particles, projection, pixels, diameter, field: particles.fields.get(look.field),
-    range: look.range, slice: sliceOf(run, look.slice), ...moment });
+  inPagePixels(context, pixels, () =>
+    drawEdges(
+      context,
+      edges.filter((edge) => edge.behind),
+      projection,
+      look.theme,
+    ),
+  );
+  const diameter = Math.max(1.1 * run.particle_size * crowding(run) * projection.scale, finest);
+  look.painter.paint(context, {
+    particles,
+    projection,
+    pixels,
+    diameter,
+    field: particles.fields.get(look.field),
+    range: look.range,
+    slice: sliceOf(run, look.slice),
+    ...moment,
+  });
   inPagePixels(context, pixels, () => {
-    drawEdges(context, edges.filter((edge) => !edge.behind), projection, look.theme);
+    drawEdges(
+      context,
+      edges.filter((edge) => !edge.behind),
+      projection,
+      look.theme,
+    );
     drawReferences(context, run, projection, time, look.theme);
     drawCorners(context, run, projection, moment.part ? time : run.times[moment.frame], look.theme);
     if (look.scale) drawScale(context, projection, height, look.theme);
@@ -47,8 +69,10 @@ const crowding = (run) => (run.particles.count / run.particles.shown) ** (1 / ru
 /** The slab of two particles' thickness around the chosen place, or nothing. */
 function sliceOf(run, slice) {
   if (!slice || run.dimension !== 3) return null;
-  const low = run.box.low[slice.axis], high = run.box.high[slice.axis];
-  const middle = low + slice.at * (high - low), half = Math.max(run.particle_size, run.spacing / 2) * crowding(run);
+  const low = run.box.low[slice.axis],
+    high = run.box.high[slice.axis];
+  const middle = low + slice.at * (high - low),
+    half = Math.max(run.particle_size, run.spacing / 2) * crowding(run);
   return { axis: slice.axis, low: middle - half, high: middle + half };
 }
 
@@ -65,8 +89,12 @@ function boxEdges(run, projection) {
       const b = a | (1 << d);
       if (b === a) continue;
       const solid = run.dimension === 3;
-      edges.push({ ends: [corner(a), corner(b)], behind: solid && (a === farthest || b === farthest), solid,
-        wall: solid ? "slip" : run.walls[1 - d][(a >> (1 - d)) & 1] });
+      edges.push({
+        ends: [corner(a), corner(b)],
+        behind: solid && (a === farthest || b === farthest),
+        solid,
+        wall: solid ? "slip" : run.walls[1 - d][(a >> (1 - d)) & 1],
+      });
     }
   }
   return edges;
@@ -77,7 +105,10 @@ function drawEdges(context, edges, projection, theme) {
     context.strokeStyle = behind ? theme.faint : theme.wall;
     context.lineWidth = solid ? 0.8 : wall === "no_slip" ? 2.5 : 1.2;
     context.setLineDash(wall === "periodic" ? [2, 4] : []);
-    line(context, ends.map((end) => projection.point(end)));
+    line(
+      context,
+      ends.map((end) => projection.point(end)),
+    );
   }
   context.setLineDash([]);
 }
@@ -93,7 +124,8 @@ function referenceAt(run, time) {
   const times = run.references.map((curves) => curves.time);
   if (times.length === 0) return null;
   const curves = run.references[nearest(times, time)];
-  const off = Math.abs(curves.time - time), duration = run.times[run.times.length - 1];
+  const off = Math.abs(curves.time - time),
+    duration = run.times[run.times.length - 1];
   const strength = off < 0.002 * duration ? 1 : 1 - off / (0.02 * duration);
   return strength > 0 ? { curves, strength } : null;
 }
@@ -104,7 +136,11 @@ function drawReferences(context, run, projection, time, theme) {
   context.globalAlpha = found.strength;
   context.strokeStyle = theme.reference;
   context.lineWidth = 1.6;
-  for (const segment of found.curves.segments) line(context, segment.map((place) => projection.point(place)));
+  for (const segment of found.curves.segments)
+    line(
+      context,
+      segment.map((place) => projection.point(place)),
+    );
   context.globalAlpha = 1;
 }
 
@@ -119,7 +155,10 @@ function drawCorners(context, run, projection, time, theme) {
     const path = Array.from({ length: 33 }, (_, j) => at((j / 32) * time)).filter(inside);
     context.lineWidth = 0.9;
     context.setLineDash([3, 3]);
-    line(context, path.map((place) => projection.point(place)));
+    line(
+      context,
+      path.map((place) => projection.point(place)),
+    );
     context.setLineDash([]);
     if (inside(at(time))) drawCross(context, projection.point(at(time)));
   });
@@ -127,23 +166,35 @@ function drawCorners(context, run, projection, time, theme) {
 
 function drawCross(context, [x, y]) {
   context.lineWidth = 1.6;
-  line(context, [[x - 5, y - 5], [x + 5, y + 5]]);
-  line(context, [[x - 5, y + 5], [x + 5, y - 5]]);
+  line(context, [
+    [x - 5, y - 5],
+    [x + 5, y + 5],
+  ]);
+  line(context, [
+    [x - 5, y + 5],
+    [x + 5, y - 5],
+  ]);
 }
 
-/** A bar of a round length. */
+const scaleHeight = 24; // pixels of the page
+
+/** A bar of a round length, below the picture. */
 function drawScale(context, projection, height, theme) {
-  const length = roundStep(110 / projection.scale, 1.4);
+  const length = roundStep(110 / projection.scale, finest);
   const wide = length * projection.scale;
   const text = length < 0.01 ? `${shown(length * 1e3)} mm` : `${shown(length)} m`;
   context.font = "11px system-ui, sans-serif";
-  context.textAlign = "center";
   context.fillStyle = theme.canvas;
-  context.globalAlpha = 0.75;
-  context.fillRect(12, height - 32, Math.max(wide, context.measureText(text).width) + 12, 24);
+  context.globalAlpha = 0.8;
+  context.fillRect(0, height - scaleHeight, wide + 34 + context.measureText(text).width, scaleHeight);
   context.globalAlpha = 1;
   context.fillStyle = context.strokeStyle = theme.ink;
   context.lineWidth = 1;
-  line(context, [[18, height - 16], [18, height - 12], [18 + wide, height - 12], [18 + wide, height - 16]]);
-  context.fillText(text, 18 + wide / 2, height - 18);
+  line(context, [
+    [12, height - 15],
+    [12, height - 9],
+    [12 + wide, height - 9],
+    [12 + wide, height - 15],
+  ]);
+  context.fillText(text, 20 + wide, height - 8);
 }

@@ -12,9 +12,16 @@ class Painter {
 
   /** Colours by value, and by value and light. */
   setColours(table) {
-    const word = (k, light) => ((255 << 24) | ((table[4 * k + 2] * light) << 16) | ((table[4 * k + 1] * light) << 8) | (table[4 * k] * light)) >>> 0;
+    const word = (k, light) =>
+      ((255 << 24) |
+        ((table[4 * k + 2] * light) << 16) |
+        ((table[4 * k + 1] * light) << 8) |
+        (table[4 * k] * light)) >>>
+      0;
     this.colours = Uint32Array.from({ length: 256 }, (_, k) => word(k, 1));
-    this.lit = Uint32Array.from({ length: 256 * lights }, (_, k) => word(Math.floor(k / lights), 0.45 + (0.55 * (k % lights)) / (lights - 1)));
+    this.lit = Uint32Array.from({ length: 256 * lights }, (_, k) =>
+      word(Math.floor(k / lights), 0.45 + (0.55 * (k % lights)) / (lights - 1)),
+    );
   }
 
   /** Paints a moment of a run over a panel's context. */
@@ -22,8 +29,12 @@ class Painter {
     const { width, height } = context.canvas;
     const picture = this.blank(width, height, view.particles.dimension === 3);
     const radius = (view.diameter * view.pixels) / 2;
-    const stamp = radius < 1.25 ? dotStamp(picture, this.colours, radius) : view.particles.dimension === 3
-      ? ballStamp(picture, this.lit, radius) : discStamp(picture, this.colours, radius);
+    const stamp =
+      radius < 1.25
+        ? dotStamp(picture, this.colours, radius)
+        : view.particles.dimension === 3
+          ? ballStamp(picture, this.lit, radius)
+          : discStamp(picture, this.colours, radius);
     forEachSeen(view, radius, width, height, stamp);
     this.context.putImageData(picture.image, 0, 0);
     context.drawImage(this.canvas, 0, 0, width, height, 0, 0, width, height);
@@ -44,9 +55,18 @@ class Painter {
 }
 
 /** Calls stamp(x, y, colour 0 ... 255, depth) [pixels of the device] for every particle that is in the picture. */
-function forEachSeen({ particles, projection, pixels, slice, frame, part, field, range }, radius, width, height, stamp) {
+function forEachSeen(
+  { particles, projection, pixels, slice, frame, part, field, range },
+  radius,
+  width,
+  height,
+  stamp,
+) {
   const { places, rows, dimension } = particles;
-  const toPixels = linearIn(particles, (place) => [...projection.point(place).map((x) => x * pixels), projection.distance(place) * projection.scale * pixels]);
+  const toPixels = linearIn(particles, (place) => [
+    ...projection.point(place).map((x) => x * pixels),
+    projection.distance(place) * projection.scale * pixels,
+  ]);
   const along = slice && linearIn(particles, (place) => [place[slice.axis]]);
   const frames = framesAround(frame, particles.frames).map((k) => k * rows * dimension);
   const weights = catmullRom(part);
@@ -58,7 +78,8 @@ function forEachSeen({ particles, projection, pixels, slice, frame, part, field,
       const at = along[0](code);
       if (at < slice.low || at > slice.high) continue;
     }
-    const x = toPixels[0](code), y = toPixels[1](code);
+    const x = toPixels[0](code),
+      y = toPixels[1](code);
     if (x < -radius || y < -radius || x > width + radius || y > height + radius) continue;
     stamp(x, y, colourOf(p), dimension === 3 ? toPixels[2](code) : 0);
   }
@@ -88,8 +109,11 @@ function catmullRom(part) {
 /** A curve may swing beyond the places at the frames, but not out of their range. */
 function codeBetween(places, frames, weights, at, part) {
   if (part === 0) return places[frames[1] + at];
-  const code = weights[0] * places[frames[0] + at] + weights[1] * places[frames[1] + at] +
-    weights[2] * places[frames[2] + at] + weights[3] * places[frames[3] + at];
+  const code =
+    weights[0] * places[frames[0] + at] +
+    weights[1] * places[frames[1] + at] +
+    weights[2] * places[frames[2] + at] +
+    weights[3] * places[frames[3] + at];
   return code < 0 ? 0 : code > 65535 ? 65535 : code;
 }
 
@@ -109,7 +133,8 @@ function colourIn(field, range, here, next, part) {
 function dotStamp({ words, depths, width, height }, colours, radius) {
   const side = Math.max(1, Math.round(2 * radius));
   return (x, y, colour, depth) => {
-    const left = Math.round(x - side / 2), top = Math.round(y - side / 2);
+    const left = Math.round(x - side / 2),
+      top = Math.round(y - side / 2);
     for (let row = Math.max(top, 0); row < Math.min(top + side, height); ++row) {
       for (let column = Math.max(left, 0); column < Math.min(left + side, width); ++column) {
         const at = row * width + column;
@@ -123,11 +148,14 @@ function dotStamp({ words, depths, width, height }, colours, radius) {
 
 /** Discs with smooth rims, later ones over earlier ones. */
 function discStamp({ words, width, height }, colours, radius) {
-  const inner = (radius - 0.5) ** 2, outer = (radius + 0.5) ** 2;
+  const inner = (radius - 0.5) ** 2,
+    outer = (radius + 0.5) ** 2;
   return (x, y, colour) => {
     const word = colours[colour];
-    const top = Math.max(Math.floor(y - radius), 0), bottom = Math.min(Math.ceil(y + radius), height);
-    const left = Math.max(Math.floor(x - radius), 0), right = Math.min(Math.ceil(x + radius), width);
+    const top = Math.max(Math.floor(y - radius), 0),
+      bottom = Math.min(Math.ceil(y + radius), height);
+    const left = Math.max(Math.floor(x - radius), 0),
+      right = Math.min(Math.ceil(x + radius), width);
     for (let row = top; row < bottom; ++row) {
       const dy = (row + 0.5 - y) ** 2;
       for (let column = left; column < right; ++column) {
@@ -154,14 +182,17 @@ function over(below, colour, share) {
 /** Balls lit from the eye; the nearest surface is seen. */
 function ballStamp({ words, depths, width, height }, lit, radius) {
   return (x, y, colour, depth) => {
-    const top = Math.max(Math.round(y - radius), 0), bottom = Math.min(Math.round(y + radius), height);
-    const left = Math.max(Math.round(x - radius), 0), right = Math.min(Math.round(x + radius), width);
+    const top = Math.max(Math.round(y - radius), 0),
+      bottom = Math.min(Math.round(y + radius), height);
+    const left = Math.max(Math.round(x - radius), 0),
+      right = Math.min(Math.round(x + radius), width);
     for (let row = top; row < bottom; ++row) {
       const dy = (row + 0.5 - y) ** 2;
       for (let column = left; column < right; ++column) {
         const square = radius * radius - dy - (column + 0.5 - x) ** 2;
         if (square <= 0) continue;
-        const bulge = Math.sqrt(square), at = row * width + column;
+        const bulge = Math.sqrt(square),
+          at = row * width + column;
         if (depths[at] <= depth - bulge) continue;
         depths[at] = depth - bulge;
         words[at] = lit[colour * lights + Math.floor((bulge / radius) * (lights - 0.01))];

@@ -9,7 +9,10 @@ class Panel {
     this.tip = this.element.querySelector(".tip");
     this.note = this.element.querySelector(".note");
     this.element.querySelector(".name").textContent = this.run.label;
-    this.canvas.setAttribute("aria-label", `Particles of ${this.run.label}. ${document.getElementById("keys").textContent}`);
+    this.canvas.setAttribute(
+      "aria-label",
+      `Particles of ${this.run.label}. ${document.getElementById("keys").textContent}`,
+    );
     this.context = this.canvas.getContext("2d");
     const [wide, high] = extentOf(this.run);
     this.canvas.style.aspectRatio = `${wide} / ${high}`;
@@ -39,13 +42,24 @@ class Panel {
   describe(time) {
     const parts = [];
     const reference = referenceAt(this.run, time);
-    if (reference) parts.push(`red: ${reference.curves.name} at ${shown(reference.curves.time)} s`);
-    else if (this.run.references.length) parts.push(`${this.run.references[0].name} at ${this.referenceTimes()} s`);
-    if (this.run.corners) parts.push("red crosses: corners in free flight, exact");
-    const [first, last] = [this.run.times[0], this.run.times[this.run.times.length - 1]];
-    if (time > last * (1 + 1e-9) || time < first) parts.push(`no output after ${shown(last)} s`);
-    const text = parts.join(" · ");
-    if (this.note.textContent !== text) this.note.textContent = text;
+    if (reference) parts.push(["―", `${reference.curves.name} at ${shown(reference.curves.time)} s`]);
+    else if (this.run.references.length)
+      parts.push(["", `${this.run.references[0].name} at ${this.referenceTimes()} s`]);
+    if (this.run.corners) parts.push(["×", "where the corners are in theory: in free flight"]);
+    const last = this.run.times[this.run.times.length - 1];
+    if (time > last * (1 + 1e-6)) parts.push(["", `ended at ${shown(last)} s`]);
+    const text = parts.flat().join();
+    if (text === this.described) return;
+    this.described = text;
+    this.note.replaceChildren(
+      ...parts.map(([mark, words]) => {
+        const part = document.createElement("span");
+        const symbol = document.createElement("i");
+        symbol.textContent = mark;
+        part.append(symbol, ` ${words}  `);
+        return part;
+      }),
+    );
   }
 
   referenceTimes() {
@@ -83,7 +97,10 @@ class Panel {
     if (held.size > 1) {
       const other = [...held].find(([id]) => id !== event.pointerId)[1];
       const spread = (a) => Math.hypot(a[0] - other[0], a[1] - other[1]);
-      camera.zoomAt(spread(at) / Math.max(spread(from), 1), this.fromMiddle([(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]));
+      camera.zoomAt(
+        spread(at) / Math.max(spread(from), 1),
+        this.fromMiddle([(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]),
+      );
       camera.shift(moved[0] / 2, -moved[1] / 2);
     } else if (this.run.dimension === 3 && !event.shiftKey && event.buttons !== 2) {
       camera.orbit(-moved[0] * Math.PI, moved[1] * Math.PI);
@@ -112,7 +129,10 @@ class Panel {
     const found = this.projection && !this.app.playing ? this.particleAt(at, frame) : null;
     this.tip.hidden = found === null;
     if (found === null) return;
-    const place = this.particles.place(frame, found).map((x) => shown(x, 5)).join(", ");
+    const place = this.particles
+      .place(frame, found)
+      .map((x) => shown(x, 5))
+      .join(", ");
     const lines = [`particle ${this.particles.id(found)}`, `at (${place}) m`];
     for (const field of this.particles.fields.values()) {
       const value = this.particles.value(field.name, frame, found);
@@ -127,7 +147,8 @@ class Panel {
   particleAt([x, y], frame) {
     const slice = sliceOf(this.run, this.app.slice);
     const radius = Math.max(5, 0.6 * this.run.particle_size * this.projection.scale);
-    let best = null, least = Infinity;
+    let best = null,
+      least = Infinity;
     for (let p = 0; p < this.particles.rows; ++p) {
       const place = this.particles.place(frame, p);
       if (slice && (place[slice.axis] < slice.low || place[slice.axis] > slice.high)) continue;

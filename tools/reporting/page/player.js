@@ -12,7 +12,9 @@ class Player {
     this.label = document.getElementById("time-label");
     this.speed = document.getElementById("speed");
     this.loop = document.getElementById("loop");
-    this.decimals = Math.max(...this.times.map((time) => (String(Number(time.toPrecision(4))).split(".")[1] ?? "").length));
+    this.decimals = Math.max(
+      ...this.times.map((time) => (String(Number(time.toPrecision(4))).split(".")[1] ?? "").length),
+    );
     this.slider.max = this.times.length - 1;
     fillChoice(this.speed, speeds.map(String));
     for (const option of this.speed.options) option.textContent = `${option.value}×`;
@@ -99,11 +101,23 @@ class Player {
     const { camera } = this.app;
     const pan = (x, y) => camera.shift(x, y);
     const actions = {
-      " ": () => this.toggle(), ArrowRight: () => this.step(1), ArrowLeft: () => this.step(-1),
-      Home: () => this.jump(this.times[0]), End: () => this.jump(this.end),
-      "+": () => camera.zoomAt(1.25, [0, 0]), "=": () => camera.zoomAt(1.25, [0, 0]), "-": () => camera.zoomAt(0.8, [0, 0]),
-      0: () => camera.reset(), w: () => pan(0, -0.05), a: () => pan(0.05, 0), s: () => pan(0, 0.05), d: () => pan(-0.05, 0),
-      q: () => camera.orbit(0.1, 0), e: () => camera.orbit(-0.1, 0), r: () => camera.orbit(0, 0.1), f: () => camera.orbit(0, -0.1),
+      " ": () => this.toggle(),
+      ArrowRight: () => this.step(1),
+      ArrowLeft: () => this.step(-1),
+      Home: () => this.jump(this.times[0]),
+      End: () => this.jump(this.end),
+      "+": () => camera.zoomAt(1.25, [0, 0]),
+      "=": () => camera.zoomAt(1.25, [0, 0]),
+      "-": () => camera.zoomAt(0.8, [0, 0]),
+      0: () => camera.reset(),
+      w: () => pan(0, -0.05),
+      a: () => pan(0.05, 0),
+      s: () => pan(0, 0.05),
+      d: () => pan(-0.05, 0),
+      q: () => camera.orbit(0.1, 0),
+      e: () => camera.orbit(-0.1, 0),
+      r: () => camera.orbit(0, 0.1),
+      f: () => camera.orbit(0, -0.1),
     };
     const action = actions[event.key];
     if (!action) return;

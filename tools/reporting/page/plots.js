@@ -45,7 +45,8 @@ class Plots {
   }
 
   curves(plot) {
-    const tables = [], series = [{}];
+    const tables = [],
+      series = [{}];
     const several = this.histories.length > 1;
     this.histories.forEach((history, k) => {
       const columns = Object.keys(plot.columns).filter((name) => history?.has(name));
@@ -54,8 +55,15 @@ class Plots {
       columns.forEach((name) => {
         const at = several ? k : Object.keys(plot.columns).indexOf(name);
         const label = several ? report.runs[k].label : plot.columns[name] || plot.title;
-        series.push({ label, stroke: curveColour(at), width: 1.2, spanGaps: true, points: { show: false },
-          dash: at >= curveColours.length ? [6, 3] : undefined, value: (_, value) => shown(value, 6) });
+        series.push({
+          label,
+          stroke: curveColour(at),
+          width: 1.2,
+          spanGaps: true,
+          points: { show: false },
+          dash: at >= curveColours.length ? [6, 3] : undefined,
+          value: (_, value) => shown(value, 6),
+        });
       });
     });
     return { data: tables.length > 1 ? uPlot.join(tables) : tables[0], series };
@@ -63,15 +71,31 @@ class Plots {
 
   options(plot, series, holder) {
     const theme = this.app.theme;
-    const axis = { stroke: theme.ink, grid: { stroke: theme.grid, width: 1 }, ticks: { stroke: theme.grid, width: 1, size: 4 },
-      font: "11px system-ui, sans-serif", gap: 3 };
+    const axis = {
+      stroke: theme.ink,
+      grid: { stroke: theme.grid, width: 1 },
+      ticks: { stroke: theme.grid, width: 1, size: 4 },
+      font: "11px system-ui, sans-serif",
+      gap: 3,
+    };
     series[0] = { label: "t", value: (_, value) => (value === null ? "–" : `${shown(value, 5)} s`) };
     return {
-      ...this.sizeIn(holder), series, legend: { live: true, isolate: true },
-      scales: { x: { time: false }, y: { distr: plot.logarithmic ? 3 : 1, range: plot.logarithmic ? undefined : comfortable } },
-      axes: [{ ...axis, size: 24, values: (_, values) => values.map((v) => shown(v)) },
-        { ...axis, size: widthOfLabels, values: (_, values) => values.map((v) => (v === null ? "" : shown(v, 5))) }],
-      cursor: { sync: { key: "histories", setSeries: false }, points: { size: 5 }, drag: { x: true, y: false, dist: 5 } },
+      ...this.sizeIn(holder),
+      series,
+      legend: { live: true, isolate: true },
+      scales: {
+        x: { time: false },
+        y: { distr: plot.logarithmic ? 3 : 1, range: plot.logarithmic ? undefined : comfortable },
+      },
+      axes: [
+        { ...axis, size: 24, values: (_, values) => values.map((v) => shown(v)) },
+        { ...axis, size: widthOfLabels, values: (_, values) => values.map((v) => (v === null ? "" : shown(v, 5))) },
+      ],
+      cursor: {
+        sync: { key: "histories", setSeries: false },
+        points: { size: 5 },
+        drag: { x: true, y: false, dist: 5 },
+      },
       hooks: { setCursor: [(u) => this.pointed(u)], setScale: [(u, key) => key === "x" && this.zoomed(u)] },
     };
   }
@@ -114,7 +138,10 @@ class Plots {
 }
 
 /** A logarithm has no place for zero. */
-const positive = (values, logarithmic) => (logarithmic ? Array.from(values, (v) => (v > 0 ? v : null)) : Array.from(values, (v) => (Number.isFinite(v) ? v : null)));
+const positive = (values, logarithmic) =>
+  logarithmic
+    ? Array.from(values, (v) => (v > 0 ? v : null))
+    : Array.from(values, (v) => (Number.isFinite(v) ? v : null));
 
 /** Room above and below; something to see where all values are the same. */
 function comfortable(_, low, high) {

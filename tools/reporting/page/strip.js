@@ -6,8 +6,23 @@ class Strip {
     this.app = app;
     this.element = document.getElementById("strip");
     this.frames = times.map((time) => this.frame(time));
-    this.element.replaceChildren(...this.frames.map((frame) => frame.button));
+    this.more = document.getElementById("pin");
+    this.more.addEventListener("click", () => this.pin(this.app.time));
+    this.show();
     new ResizeObserver(() => this.draw()).observe(this.element);
+  }
+
+  show() {
+    this.element.replaceChildren(...this.frames.map((frame) => frame.button));
+    this.showTime(this.app.time);
+  }
+
+  /** Takes up a moment that is not there yet. */
+  pin(time) {
+    if (this.frames.some((frame) => frame.time === time)) return;
+    this.frames = [...this.frames, this.frame(time)].sort((a, b) => a.time - b.time);
+    this.show();
+    this.draw();
   }
 
   frame(time) {
@@ -43,10 +58,8 @@ class Strip {
   }
 
   showTime(time) {
-    const times = this.frames.map((frame) => frame.time);
-    const at = times.length ? nearest(times, time) : -1;
-    this.frames.forEach(({ button, time: own }, k) => {
-      const current = k === at && Math.abs(own - time) < 1e-6 * (1 + Math.abs(own));
+    this.frames.forEach(({ button, time: own }) => {
+      const current = Math.abs(own - time) < 1e-6 * (1 + Math.abs(own));
       if (button.classList.contains("current") !== current) button.classList.toggle("current", current);
     });
   }

@@ -7,7 +7,10 @@ function followGraph(svg) {
   const details = svg.closest("figure").querySelector("pre");
   const choose = (name) => {
     const touching = edges.filter(({ ends }) => ends.includes(name));
-    const marked = new Set([nodes.get(name), ...touching.flatMap(({ edge, ends }) => [edge, ...ends.map((end) => nodes.get(end))])]);
+    const marked = new Set([
+      nodes.get(name),
+      ...touching.flatMap(({ edge, ends }) => [edge, ...ends.map((end) => nodes.get(end))]),
+    ]);
     for (const each of svg.querySelectorAll(".node, .edge")) {
       each.classList.toggle("dim", name !== null && !marked.has(each));
       each.classList.toggle("chosen", name !== null && marked.has(each));
@@ -24,6 +27,8 @@ function followGraph(svg) {
     });
   }
   svg.addEventListener("click", () => choose(null));
+  const holder = svg.parentElement;
+  holder.scrollLeft = (holder.scrollWidth - holder.clientWidth) / 2; // the middle, where it is wider than the page
 }
 
 const titleOf = (group) => group.querySelector("title").textContent;

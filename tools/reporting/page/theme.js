@@ -9,7 +9,9 @@ const isDark = () => (document.documentElement.dataset.theme ?? (darkSystem.matc
 function readTheme() {
   const style = getComputedStyle(document.documentElement);
   const colour = (name) => style.getPropertyValue(`--${name}`).trim();
-  return Object.fromEntries(["canvas", "wall", "faint", "ink", "grid", "reference"].map((name) => [name, colour(name)]));
+  return Object.fromEntries(
+    ["canvas", "wall", "faint", "ink", "grid", "reference"].map((name) => [name, colour(name)]),
+  );
 }
 
 function followTheme(changed) {

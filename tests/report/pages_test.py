@@ -1,0 +1,142 @@
+"""Pages on runs in space, on several runs, on runs that went wrong, seen in a browser."""
+
+from __future__ import annotations
+
+import h5py
+import numpy as np
+from page_case import PageTest, main
+from results import RESULTS, summary
+
+
+class InSpace(PageTest):
+    """A ball that flattens: no walls near, an exact solution."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        cls.folder = RESULTS.run("drop_3d", "drop_3d", "/grid/cells=[12,12,12]", "/particles/0/per_cell=2",
+                                 "/time/step=0.05", "/time/end=0.2")
+        cls.page = RESULTS.page(cls.folder)
+
+    def test_a_drag_turns_the_picture(self) -> None:
+        self.open(self.page)
+        before = self.picture()
+        x, y = self.js("(({left, top, width, height}) => [left + width/2, top + height/2])"
+                       "(app.panels[0].canvas.getBoundingClientRect())")
+        for kind, at in (("mousePressed", x), ("mouseMoved", x + 120), ("mouseReleased", x + 120)):
+            self.browser.call("Input.dispatchMouseEvent", type=kind, x=at, y=y, button="left", buttons=1, clickCount=1)
+        self.browser.settle()
+        after = self.picture()
+        self.assertNotEqual(before["hash"], after["hash"])
+        self.assertNotEqual(0, self.js("app.camera.turn - new Camera().turn"))
+        self.assertGreater(after["drawn"], 5000)
+
+    def test_a_slice_shows_less(self) -> None:
+        self.open(self.page)
+        whole = self.picture()["drawn"]
+        self.choose("slice-axis", "x", "input")
+        thin = self.picture()["drawn"]
+        self.assertLess(thin, 0.7 * whole)
+        self.choose("slice-at", "0", "input")  # at the wall, where no liquid is
+        self.assertLess(self.picture()["drawn"], 0.5 * thin)
+
+    def test_errors_against_the_exact_solution_are_shown(self) -> None:
+        self.open(self.page)
+        errors = summary(self.folder)["errors"]
+        for field in ("velocity", "pressure"):
+            self.assertIn(f"error of the {field}", self.text("#balance"))
+            self.assertIn(f"{errors[field]:.6g}", self.text("#balance"))
+            self.assertIn(f"error of the {field}", self.js("report.plots.map((plot) => plot.title)"))
+
+
+class SideBySide(PageTest):
+    """TPIC and FLIP."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        settings = ("/time/end=0.1", "/time/step=0.005", "/output/every=0.02")
+        cls.folders = [RESULTS.run(scene, f"both/{scene}", *settings) for scene in ("dam_break", "dam_break_flip")]
+        cls.page = RESULTS.page(*cls.folders, name="both.html")
+
+    def test_two_runs_move_together(self) -> None:
+        self.open(self.page)
+        names = self.js("[...document.querySelectorAll('.panel .name')].map((name) => name.textContent)")
+        self.assertEqual(["TPIC", "FLIP"], names)
+        before = [self.picture(0)["hash"], self.picture(1)["hash"]]
+        self.choose("time", "5", "input")
+        after = [self.picture(0)["hash"], self.picture(1)["hash"]]
+        self.assertTrue(before[0] != after[0] and before[1] != after[1] and after[0] != after[1])
+
+    def test_the_scale_of_colours_covers_both(self) -> None:
+        self.open(self.page)
+        speeds = []
+        for folder in self.folders:
+            with h5py.File(folder / "fields.h5") as file:
+                speeds += [np.linalg.norm(frame["velocity"][:], axis=1).max() for frame in file["particles"].values()]
+        self.assertAlmostEqual(max(speeds), self.js("app.colourBar.field.most"), delta=1e-9)
+
+    def test_what_differs_between_the_scenes_is_listed(self) -> None:
+        self.open(self.page)
+        keys = self.js("[...document.querySelectorAll('#differences th')].map((cell) => cell.textContent)")
+        self.assertIn("/transfer/scheme", keys)
+        self.assertNotIn("/grid/cells", keys)
+
+    def test_every_history_has_a_curve_per_run(self) -> None:
+        self.open(self.page)
+        self.assertTrue(all(self.js("app.plots.drawn.map((plot) => plot.series.length === 3)")))
+
+
+class WithCorners(PageTest):
+    """The rotating square."""
+
+    def test_the_corners_of_the_rotating_square_are_marked_where_theory_has_them(self) -> None:
+        folder = RESULTS.run("rotating_square", "square", "/time/step=0.05", "/grid/cells=[50,50]",
+                             "/particles/0/per_cell=3", "/time/end=1")
+        self.open(RESULTS.page(folder))
+        corners = self.js("report.runs[0].corners")
+        at_end = np.array(corners["start"]) + np.array(corners["velocity"])
+        # (L/2) (1 - wt, 1 + wt) at wt = 1, and its turned copies, about (2.5, 2.5).
+        expected = {(2.5, 3.5), (2.5, 1.5), (1.5, 2.5), (3.5, 2.5)}
+        self.assertEqual(expected, {tuple(np.round(place, 6)) for place in at_end})
+        self.js("app.player.jump(1)")
+        self.browser.settle()
+        self.assertGreater(self.reds(), 40)
+
+
+class WithoutResults(PageTest):
+    """What a run that went wrong leaves, or none."""
+
+    def test_a_folder_without_results_is_an_error_of_one_line(self) -> None:
+        ended = RESULTS.report(RESULTS.work / "nothing")
+        self.assertEqual(2, ended.returncode)
+        self.assertIn("no results of minamo here", ended.stderr)
+        self.assertEqual(1, len(ended.stderr.splitlines()))
+
+    def test_a_failed_run_shows_its_message_and_what_it_wrote(self) -> None:
+        folder = RESULTS.run("dam_break", "failed", '/body_force=[0, "-9.81/(t < 0.0032)"]', "/output/every=1e-3")
+        self.open(RESULTS.page(folder))
+        self.assertIn(summary(folder)["message"], self.text("pre.failed"))
+        self.assertGreater(self.picture()["drawn"], 5000)
+
+    def test_a_run_that_has_written_a_scene_alone_is_shown_as_that(self) -> None:
+        folder = RESULTS.run("dam_break", "bare", "/time/end=0.001")
+        for path in folder.iterdir():
+            if path.name != "scene.json":
+                path.unlink()
+        self.open(RESULTS.page(folder))
+        said = self.js("[...document.querySelectorAll('p.failed')].map((p) => p.textContent).join()")
+        for part in ("no summary.json", "no frame in fields.h5", "no rows in history.csv"):
+            self.assertIn(part, said)
+        self.assertEqual(0, self.js("document.querySelectorAll('canvas').length"))
+
+    def test_a_broken_fields_h5_is_named(self) -> None:
+        folder = RESULTS.run("dam_break", "broken", "/time/end=0.01")
+        (folder / "fields.h5").write_bytes(b"not HDF5")
+        self.open(RESULTS.page(folder))
+        self.assertIn("fields.h5 cannot be read", self.text("p.failed:not(#problem)"))
+        self.assertGreater(self.js("document.querySelectorAll('#plots canvas').length"), 5)
+
+
+if __name__ == "__main__":
+    main()

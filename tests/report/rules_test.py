@@ -1,0 +1,123 @@
+"""What tools/report decides before any page is there: what is packed how, what fits a scene, what is drawn."""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import shutil
+import unittest
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from results import RESULTS
+
+from reporting.graph import draw_graph
+from reporting.overlays import corner_paths, fits, references
+from reporting.packing import pack_frames
+from reporting.particles import Particles, Quantity
+from reporting.runs import Run
+
+
+def unpacked(text: str, frames: int, order: int) -> np.ndarray:
+    """Codes by frame, by other means than those of the page."""
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(text)), np.uint8).astype(np.int64).reshape(2, frames, -1)
+    folded = planes[0] + 256 * planes[1]
+    codes = np.where(folded % 2, -(folded + 1) // 2, folded // 2)
+    for _ in range(order):
+        codes = np.cumsum(codes, axis=0)
+    return codes % 65536
+
+
+class Packing(unittest.TestCase):
+    """reporting.packing."""
+
+    def test_a_number_comes_back_to_half_a_step(self) -> None:
+        values = np.random.default_rng(7).uniform(-3, 5, (9, 50))
+        for bits, order in ((16, 2), (10, 1), (16, 0)):
+            with self.subTest(bits=bits, order=order):
+                packed = pack_frames(values, -3, 5, bits, order)
+                back = -3 + unpacked(packed.text, 9, order) * packed.step
+                self.assertLessEqual(abs(back - values).max(), 0.5 * packed.step * (1 + 1e-9))
+
+    def test_numbers_outside_the_range_and_those_that_are_none_become_its_ends(self) -> None:
+        packed = pack_frames(np.array([[-9.0, 9.0, np.nan, np.inf, -np.inf]]), 0, 1, 8, 0)
+        self.assertEqual([[0, 255, 0, 255, 0]], unpacked(packed.text, 1, 0).tolist())
+
+    def test_one_wild_particle_leaves_the_others_their_codes(self) -> None:
+        quantity = Quantity("speed", "m/s")
+        quantity.add(np.append(np.linspace(0, 1, 1000), 1e9), np.arange(1001))
+        described, packed = quantity.packed(16)
+        self.assertEqual(1e9, described["most"])
+        self.assertLess(packed.step, 1e-3)  # 1/1000 of the others' range
+
+
+class Choice(unittest.TestCase):
+    """Which particles are in a page."""
+
+    def test_too_many_particles_are_thinned_and_those_left_are_where_they_were(self) -> None:
+        run = Run(RESULTS.run("dam_break", "thin", "/time/end=0.01", "/output/every=0.005"))
+        few, all_of_them = Particles.read(run, 100), Particles.read(run, 10**6)
+        self.assertEqual((800, 100), (few.count, len(few.chosen)))
+        np.testing.assert_array_equal(all_of_them.position[:, few.chosen], few.position)
+        self.assertEqual(*(next(each.high for each in some.quantities if each.name == "speed")
+                           for some in (few, all_of_them)))
+
+
+class Fitting(unittest.TestCase):
+    """Which reference is drawn over which run, and where corners have exact paths."""
+
+    def scene(self, name: str) -> dict[str, Any]:
+        return json.loads((RESULTS.source / f"scenes/{name}.json").read_text())
+
+    def run_of(self, name: str, *settings: str) -> Run:
+        folder = f"fitting/{name}{len(settings)}"
+        return Run(RESULTS.run(name, folder, "/time/end=0.001", "/time/step=0.001", *settings))
+
+    def test_interfoam_fits_the_dam_breaks_it_was_made_for_and_no_others(self) -> None:
+        for name, expected in (("dam_break", True), ("dam_break_pic", True), ("dam_break_large", False),
+                               ("hydrostatic", False)):
+            with self.subTest(scene=name):
+                self.assertEqual(expected, bool(references(self.run_of(name))))
+        self.assertFalse(references(self.run_of("dam_break", "/fluid/viscosity=1")))
+
+    def test_walls_are_the_same_however_they_are_written(self) -> None:
+        scene = self.scene("dam_break")
+        for walls, expected in (("slip", True), ({"x": "slip", "y": ["slip", "slip"]}, True),
+                                ({"x": "no_slip"}, False)):
+            with self.subTest(walls=walls):
+                self.assertEqual(expected, fits({"walls": "slip"}, scene | {"walls": walls}))
+
+    def test_only_boxes_in_free_flight_have_exact_corners(self) -> None:
+        for name, expected in (("rotating_square", True), ("ballistic_block", True), ("dam_break", False),
+                               ("elliptical_drop", False), ("gresho", False), ("drop_3d", False)):
+            with self.subTest(scene=name):
+                self.assertEqual(expected, corner_paths(self.run_of(name)) is not None)
+
+
+class Graphs(unittest.TestCase):
+    """The graph of the systems."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.run_ = Run(RESULTS.run("dam_break", "graph", "/time/end=0.001"))
+
+    def test_it_is_drawn_without_graphviz_too(self) -> None:
+        empty = RESULTS.work / "empty"
+        empty.mkdir()
+        path, os.environ["PATH"] = os.environ["PATH"], str(empty)
+        self.addCleanup(os.environ.__setitem__, "PATH", path)
+        drawing = draw_graph(self.run_, RESULTS.program)
+        self.assertEqual(len(drawing.systems), drawing.svg.count('class="node system"'))
+        self.assertIn("<title>s0-&gt;s1</title>", drawing.svg)
+
+    def test_a_program_that_is_not_there_or_refuses_is_said(self) -> None:
+        self.assertIn("--program", draw_graph(self.run_, None).sentence)
+        self.assertIn("/nowhere/minamo", draw_graph(self.run_, Path("/nowhere/minamo")).sentence)
+        self.assertIn("false graph", draw_graph(self.run_, Path(shutil.which("false"))).sentence)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
