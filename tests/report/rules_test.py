@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import json
 import os
 import shutil
+import subprocess
+import time
 import unittest
 import zlib
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 from results import RESULTS
 
@@ -18,7 +22,7 @@ from reporting.graph import draw_graph
 from reporting.overlays import corner_paths, fits, references
 from reporting.packing import pack_frames
 from reporting.particles import Particles, Quantity
-from reporting.runs import Run
+from reporting.runs import NoResults, Run
 
 
 def unpacked(text: str, frames: int, order: int) -> np.ndarray:
@@ -95,6 +99,27 @@ class Fitting(unittest.TestCase):
                                ("elliptical_drop", False), ("gresho", False), ("drop_3d", False)):
             with self.subTest(scene=name):
                 self.assertEqual(expected, corner_paths(self.run_of(name)) is not None)
+
+
+class WhileItRuns(unittest.TestCase):
+    """A report of a run that goes on."""
+
+    def test_who_reads_does_not_make_the_run_fail(self) -> None:
+        folder = RESULTS.work / "live"
+        command = [RESULTS.program, "run", RESULTS.source / "scenes/dam_break.json", "--out", folder, "--quiet",
+                   "--threads", "1", "--set", "/time/end=1", "--set", "/output/every=0.01"]
+        with subprocess.Popen(command) as going_on, self.fields_of(folder) as file:
+            frames = len(file["particles"])
+            self.assertEqual(0, going_on.wait())
+        self.assertLess(frames, 101)
+
+    def fields_of(self, folder: Path) -> contextlib.AbstractContextManager[h5py.File]:
+        """As soon as there is a frame to read."""
+        while True:
+            with contextlib.suppress(NoResults):
+                if len((run := Run(folder)).times) > 0:
+                    return run.fields()
+            time.sleep(0.002)
 
 
 class Graphs(unittest.TestCase):

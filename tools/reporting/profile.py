@@ -8,15 +8,14 @@ from typing import Any
 from reporting.runs import Run, labels
 
 MOST = 14  # bars; the other systems share the last one
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#888888")  # those of page/colours.js
+COLOURS = 7  # --curve-0 ... of page/page.css
 
 
 def profile_section(runs: list[Run]) -> str:
     """The dearest systems first, in seconds and as a share of the wall time of their run."""
-    runs = [run for run in runs if run.summary.get("systems")]
-    if not runs:
+    rows = [{row["name"]: row for row in run.summary.get("systems", [])} for run in runs]
+    if not any(rows):
         return ""
-    rows = [{row["name"]: row for row in run.summary["systems"]} for run in runs]
     names = sorted({name for each in rows for name in each}, key=lambda name: -max(_seconds(e, name) for e in rows))
     groups = [(name, [name]) for name in names[:MOST]]
     if names[MOST:]:
@@ -34,7 +33,7 @@ def _seconds(rows: dict[str, Any], name: str) -> float:
 
 def _bar(run: Run, rows: dict[str, Any], members: list[str]) -> tuple[float, float]:
     """Seconds and share of some systems; of no system, what is left of the wall time."""
-    wall = run.summary["wall_s"]
+    wall = run.summary.get("wall_s", 0.0)
     if members:
         seconds = sum(_seconds(rows, name) for name in members)
     else:
@@ -46,8 +45,8 @@ def _group(name: str, bars: list[tuple[float, float]], most: float) -> str:
     lines = []
     for k, (seconds, share) in enumerate(bars):
         first = f"<td rowspan=\"{len(bars)}\">{escape(name)}</td>" if k == 0 else ""
-        colour = f";background:{COLOURS[k % len(COLOURS)]}" if len(bars) > 1 else ""
-        bar = f"<div class=\"bar\" style=\"width:{100 * seconds / most:.2f}%{colour}\"></div>"
+        colour = f"background:var(--curve-{k % COLOURS})"
+        bar = f"<div class=\"bar\" style=\"width:{100 * seconds / most:.2f}%;{colour}\"></div>"
         numbers = f"<td class=\"number\">{seconds:.3g} s</td><td class=\"number\">{100 * share:.1f} %</td>"
         lines.append(f"<tr>{first}{numbers}<td class=\"bars\">{bar}</td></tr>")
     return "".join(lines)
@@ -56,6 +55,6 @@ def _group(name: str, bars: list[tuple[float, float]], most: float) -> str:
 def _legend(runs: list[Run]) -> str:
     if len(runs) == 1:
         return ""
-    marks = [f"<span style=\"color:{COLOURS[k % len(COLOURS)]}\">■</span> {escape(label)}"
+    marks = [f"<span style=\"color:var(--curve-{k % COLOURS})\">■</span> {escape(label)}"
              for k, label in enumerate(labels(runs))]
     return f"<p>{' &nbsp; '.join(marks)}</p>"

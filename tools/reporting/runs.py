@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+# Before HDF5 is loaded: who reads with a lock makes a run fail that wants to write its next frame meanwhile.
+os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"
 
 import h5py
 import numpy as np
@@ -55,26 +60,31 @@ class Run:
 
     def _history(self) -> dict[str, np.ndarray]:
         path = self.folder / "history.csv"
-        if not path.is_file():
+        lines = path.read_text().splitlines() if path.is_file() else []
+        if not lines:
             return {}
-        header, *rows = path.read_text().splitlines()
+        header, *rows = lines
         names = header.split(",")
         # The last row may be half written while the run goes on.
         cells = [row.split(",") for row in rows if row.count(",") == len(names) - 1]
         values = np.array([[float(cell or "nan") for cell in row] for row in cells]).reshape(-1, len(names))
         return dict(zip(names, values.T))
 
-    def _open_fields(self) -> h5py.File:
+    @contextmanager
+    def fields(self) -> Iterator[h5py.File]:
+        """fields.h5, open for reading. What goes wrong meanwhile, as while a run writes it, is a NoResults."""
         try:
-            return h5py.File(self.folder / "fields.h5", "r")
-        except OSError as error:
-            raise NoResults(f"{self.folder}: fields.h5 cannot be read ({error})") from error
+            with h5py.File(self.folder / "fields.h5", "r") as file:
+                yield file
+        except (OSError, KeyError, RuntimeError) as error:
+            hint = "" if self.summary else "; a run that goes on may be writing it: try again"
+            raise NoResults(f"{self.folder}: fields.h5 cannot be read ({error}){hint}") from error
 
     def _times(self) -> np.ndarray:
         if not (self.folder / "fields.h5").is_file():
             return np.empty(0)
         try:
-            with self._open_fields() as file:
+            with self.fields() as file:
                 particles = file.get("particles", {})
                 return np.array([float(particles[key].attrs["time"]) for key in sorted(particles, key=int)])
         except NoResults as problem:
@@ -83,7 +93,7 @@ class Run:
 
     def columns(self, index: int) -> dict[str, np.ndarray]:
         """All that frame `index` of fields.h5 holds, particles x width or particles, in the order of the ids."""
-        with self._open_fields() as file:
+        with self.fields() as file:
             group = file[f"particles/{index}"]
             order = np.argsort(group["id"][:])
             return {name: values[:][order] for name, values in group.items()}

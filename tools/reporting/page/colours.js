@@ -23,10 +23,6 @@ const colourMaps = {
     fce8cd fed59f fdbc6b ee9b39 d97b12 bd6109 9e4c07 7f3b08`,
 };
 
-/** Colours of runs and curves, told apart by all eyes; the last one follows the theme. */
-const curveColours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#888888"];
-const curveColour = (k) => curveColours[k % curveColours.length];
-
 /** 256 colours, red, green, blue and alpha of each. */
 function colourTable(name) {
   const stops = colourMaps[name].split(/\s+/).map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));

@@ -95,8 +95,9 @@ class Player {
   }
 
   key(event) {
-    const inControl = event.target.closest("input, select, button, summary, textarea");
-    if (inControl && !(event.target === this.slider && event.key === " ")) return;
+    const typing = event.target.closest("input, select") && !(event.target === this.slider && event.key === " ");
+    const pressing = event.target.closest("button, summary") && event.key === " ";
+    if (typing || pressing) return;
     if (event.altKey || event.ctrlKey || event.metaKey) return;
     const { camera } = this.app;
     const pan = (x, y) => camera.shift(x, y);

@@ -57,11 +57,11 @@ class Plots {
         const label = several ? report.runs[k].label : plot.columns[name] || plot.title;
         series.push({
           label,
-          stroke: curveColour(at),
+          stroke: this.app.theme.curves[at % curveCount],
           width: 1.2,
           spanGaps: true,
           points: { show: false },
-          dash: at >= curveColours.length ? [6, 3] : undefined,
+          dash: at >= curveCount ? [6, 3] : undefined,
           value: (_, value) => shown(value, 6),
         });
       });

@@ -3,21 +3,33 @@
 
 const darkSystem = window.matchMedia("(prefers-color-scheme: dark)");
 
-const isDark = () => (document.documentElement.dataset.theme ?? (darkSystem.matches ? "dark" : "light")) === "dark";
+/** The attribute that page.css looks at. */
+function setTheme(dark) {
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+}
+
+setTheme(darkSystem.matches);
+
+const curveCount = 7; // colours of runs and curves; further ones are dashed
 
 /** Colours of page.css for what is drawn on canvases. */
 function readTheme() {
   const style = getComputedStyle(document.documentElement);
   const colour = (name) => style.getPropertyValue(`--${name}`).trim();
-  return Object.fromEntries(
-    ["canvas", "wall", "faint", "ink", "grid", "reference"].map((name) => [name, colour(name)]),
-  );
+  const names = ["canvas", "wall", "faint", "ink", "grid", "reference"];
+  const curves = Array.from({ length: curveCount }, (_, k) => colour(`curve-${k}`));
+  return { ...Object.fromEntries(names.map((name) => [name, colour(name)])), curves };
 }
 
 function followTheme(changed) {
-  darkSystem.addEventListener("change", changed);
-  document.getElementById("theme").addEventListener("click", () => {
-    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+  const change = (dark) => {
+    setTheme(dark);
     changed();
+  };
+  const follow = () => change(darkSystem.matches);
+  darkSystem.addEventListener("change", follow);
+  document.getElementById("theme").addEventListener("click", () => {
+    darkSystem.removeEventListener("change", follow);
+    change(document.documentElement.dataset.theme !== "dark");
   });
 }
