@@ -27,7 +27,7 @@ def messages(runs: list[Run]) -> str:
     found = []
     for run in runs:
         if run.summary.get("message"):
-            found.append(f"<pre class=\"failed\">{escape(run.summary['message'])}</pre>")
+            found.append(f"<pre class=\"failed\">{escape(str(run.folder))}: {escape(run.summary['message'])}</pre>")
         missing = [*run.problems]
         if not run.summary:
             missing.append("no summary.json: the run goes on, or was ended from outside")

@@ -98,20 +98,20 @@ def _view(run: Run, particles: Particles | None) -> list[list[float]]:
         reach = particles.position.reshape(-1, 2)
         least, most, near = reach.min(axis=0), reach.max(axis=0), 3 * run.spacing
         if (least > low + near).all() and (most < high - near).all():
-            half, middle = 0.55 * (most - least).max(), 0.5 * (most + least)
-            low, high = middle - half, middle + half
+            margin = 0.05 * (most - least).max()
+            low, high = least - margin, most + margin
     return [low.tolist(), high.tolist()]
 
 
 def _strip_times(described: list[dict[str, Any]], runs: list[Run]) -> list[float]:
-    """The times of a reference that fits the first run with frames, else output times that tell most. [s]"""
-    first = next((k for k, run in enumerate(runs) if len(run.times)), None)
-    if first is None:
+    """Of the run that goes farthest: the times of a reference that fits, else output times that tell most. [s]"""
+    farthest = max(range(len(runs)), key=lambda k: runs[k].times[-1] if len(runs[k].times) else -1.0)
+    times = runs[farthest].times
+    if len(times) == 0:
         return []
-    times = runs[first].times
-    compared = {float(times[abs(times - curves["time"]).argmin()]) for curves in described[first]["references"]
+    compared = {float(times[abs(times - curves["time"]).argmin()]) for curves in described[farthest]["references"]
                 if abs(times - curves["time"]).min() < 2e-3 * times[-1]}
-    return sorted(compared)[:STRIP_LENGTH] if len(compared) > 2 else telling_times(runs[first], STRIP_LENGTH)
+    return sorted(compared)[:STRIP_LENGTH] if len(compared) > 2 else telling_times(runs[farthest], STRIP_LENGTH)
 
 
 def _particles_section(described: list[dict[str, Any]], beside: str) -> str:

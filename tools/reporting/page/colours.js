@@ -63,7 +63,7 @@ function ticks(low, high, count) {
 function roundRange(low, high, signed) {
   if (signed) {
     const most = Math.max(Math.abs(low), Math.abs(high)) || 1;
-    const step = roundStep(most, 3);
+    const step = roundStep(most, 5);
     const end = Number((Math.ceil(most / step - 1e-6) * step).toPrecision(12));
     return [-end, end];
   }

@@ -31,7 +31,7 @@ function drawRun(context, width, height, particles, time, look) {
       look.theme,
     ),
   );
-  const diameter = Math.max(1.1 * run.particle_size * crowding(run) * projection.scale, finest);
+  const diameter = Math.max(overlap(run) * run.particle_size * crowding(run) * projection.scale, finest);
   look.painter.paint(context, {
     particles,
     projection,
@@ -62,6 +62,9 @@ function inPagePixels(context, pixels, draw) {
   draw();
   context.restore();
 }
+
+/** Discs hide the gaps of a lattice, but not those of a flow that tears; balls just touch. */
+const overlap = (run) => (run.dimension === 2 ? 1.3 : 1.1);
 
 /** Fewer particles in the page than in the run are drawn larger. */
 const crowding = (run) => (run.particles.count / run.particles.shown) ** (1 / run.dimension);

@@ -62,7 +62,7 @@ class Plots {
           spanGaps: true,
           points: { show: false },
           dash: at >= curveCount ? [6, 3] : undefined,
-          value: (_, value) => shown(value, 6),
+          value: (_, value) => shown(value, 5),
         });
       });
     });
@@ -89,10 +89,16 @@ class Plots {
       },
       axes: [
         { ...axis, size: 24, values: (_, values) => values.map((v) => shown(v)) },
-        { ...axis, size: widthOfLabels, values: (_, values) => values.map((v) => (v === null ? "" : shown(v, 5))) },
+        {
+          ...axis,
+          size: widthOfLabels,
+          values: (_, values) => values.map((v) => (v === null ? "" : shown(v, 5))),
+          ...(plot.logarithmic && { filter: decades, grid: { ...axis.grid, filter: decades } }),
+        },
       ],
       cursor: {
         sync: { key: "histories", setSeries: false },
+        y: false,
         points: { size: 5 },
         drag: { x: true, y: false, dist: 5 },
       },
@@ -148,6 +154,12 @@ function comfortable(_, low, high) {
   if (low === null) return [0, 1];
   const room = high > low ? 0.06 * (high - low) : Math.abs(high) * 0.1 || 1;
   return [low - room, high + room];
+}
+
+/** Of the marks of a logarithmic axis, the powers of ten; if there are none, all. */
+function decades(_, values) {
+  const isPower = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-6;
+  return values.some(isPower) ? values.map((value) => (isPower(value) ? value : null)) : values;
 }
 
 /** Of the numbers beside an axis, in pixels. */
