@@ -8,6 +8,8 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from reporting.facts import balance_section, comparison_section, facts_list, headline, messages, scene_files
 from reporting.graph import describe, draw_graph
 from reporting.histories import Plot, packed_history, plots
@@ -46,10 +48,10 @@ def write_page(path: Path, runs: list[Run], times: list[float] | None, program: 
     packer, shown = Packer(), plots([run for run in runs if run.history])
     frames = max(1, sum(len(run.times) for run in runs))
     particles = [Particles.read(run, MOST_SAMPLES[run.dimension] // frames) for run in runs]
-    described = [_described(run, label, each, shown, packer)
-                 for run, label, each in zip(runs, labels(runs), particles)]
+    described = [{"label": label, "view": view} | _described(run, each, shown, packer)
+                 for run, label, view, each in zip(runs, labels(runs), _views(runs, particles), particles)]
     report = {"runs": described, "plots": [plot.as_json() for plot in shown],
-              "strip": times or _strip_times(described, runs)}
+              "strip": _strip_times(described, runs, times)}
     title = runs[0].title if len(runs) == 1 else "Comparison: " + ", ".join(labels(runs))
     beside = facts_list(runs[0]) if len(runs) == 1 else ""
     page = _filled("template.html", {
@@ -76,14 +78,13 @@ def _filled(name: str, parts: dict[str, str]) -> str:
     return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _source(name))
 
 
-def _described(run: Run, label: str, particles: Particles | None, shown: list[Plot], packer: Packer) -> dict[str, Any]:
-    """What the page knows of a run."""
+def _described(run: Run, particles: Particles | None, shown: list[Plot], packer: Packer) -> dict[str, Any]:
+    """What the page knows of a run on its own."""
     low, high = run.box
     sides = walls(run.scene.get("walls", "slip"), run.dimension)
-    view = _view(run, particles)
     return {
-        "label": label, "dimension": run.dimension, "up": run.up, "spacing": run.spacing,
-        "particle_size": run.particle_size, "box": {"low": low.tolist(), "high": high.tolist()}, "view": view,
+        "dimension": run.dimension, "up": run.up, "spacing": run.spacing,
+        "particle_size": run.particle_size, "box": {"low": low.tolist(), "high": high.tolist()},
         "walls": sides, "periodic": any("periodic" in each for each in sides), "times": run.times.tolist(),
         "particles": particles.packed(packer.add) if particles else None,
         "references": references(run), "corners": corner_paths(run),
@@ -91,24 +92,34 @@ def _described(run: Run, label: str, particles: Particles | None, shown: list[Pl
     }
 
 
-def _view(run: Run, particles: Particles | None) -> list[list[float]]:
-    """Low and high corner of what is shown: the box, or, in the plane, far from all walls, the reach of the liquid."""
+def _views(runs: list[Run], particles: list[Particles | None]) -> list[list[list[float]]]:
+    """Low and high corner of what is shown, by run, the same for all runs in the same box. [m]"""
+    boxes = [run.box for run in runs]
+    reaches = [None if each is None else each.reach for each in particles]
+    return [_view(run, [reach for other, reach in zip(boxes, reaches) if reach and np.array_equal(other, box)])
+            for run, box in zip(runs, boxes)]
+
+
+def _view(run: Run, reaches: list[tuple[np.ndarray, np.ndarray]]) -> list[list[float]]:
+    """The box, or, in the plane and far from all walls, the reach of the liquid."""
     low, high = run.box
-    if particles is not None and run.dimension == 2:
-        reach = particles.position.reshape(-1, 2)
-        least, most, near = reach.min(axis=0), reach.max(axis=0), 3 * run.spacing
-        if (least > low + near).all() and (most < high - near).all():
-            margin = 0.05 * (most - least).max()
+    if reaches and run.dimension == 2:
+        least = np.min([reach[0] for reach in reaches], axis=0)
+        most = np.max([reach[1] for reach in reaches], axis=0)
+        near, margin = 3 * run.spacing, 0.05 * (most - least).max()
+        if np.all(least > low + near) and np.all(most < high - near):
             low, high = least - margin, most + margin
     return [low.tolist(), high.tolist()]
 
 
-def _strip_times(described: list[dict[str, Any]], runs: list[Run]) -> list[float]:
-    """Of the run that goes farthest: the times of a reference that fits, else output times that tell most. [s]"""
+def _strip_times(described: list[dict[str, Any]], runs: list[Run], wanted: list[float] | None) -> list[float]:
+    """Output times of the run that goes farthest: next to those wanted, else those of a reference, else telling ones."""
     farthest = max(range(len(runs)), key=lambda k: runs[k].times[-1] if len(runs[k].times) else -1.0)
     times = runs[farthest].times
     if len(times) == 0:
         return []
+    if wanted:
+        return sorted({float(times[abs(times - time).argmin()]) for time in wanted})
     compared = {float(times[abs(times - curves["time"]).argmin()]) for curves in described[farthest]["references"]
                 if abs(times - curves["time"]).min() < 2e-3 * times[-1]}
     return sorted(compared)[:STRIP_LENGTH] if len(compared) > 2 else telling_times(runs[farthest], STRIP_LENGTH)

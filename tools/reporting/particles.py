@@ -107,6 +107,12 @@ class Particles:
                 found.setdefault(name, Quantity(name, unit, signed)).add(values, chosen)
         return cls(count, chosen, np.array(position), list(found.values()))
 
+    @property
+    def reach(self) -> tuple[np.ndarray, np.ndarray]:
+        """Low and high corner of all places at all times. [m]"""
+        places = self.position.reshape(-1, self.position.shape[-1])
+        return places.min(axis=0), places.max(axis=0)
+
     def packed(self, add: Any) -> dict[str, Any]:
         """What the page knows of them. `add(text)` keeps a packed column and gives the key to find it by."""
         frames, rows, dimension = self.position.shape
