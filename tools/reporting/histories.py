@@ -70,6 +70,8 @@ def _unit(column: str) -> str:
 def _with_columns(plot: Plot, runs: list[Run]) -> Plot:
     columns = {column: name for column, name in plot.columns.items()
                if any(_says_something(run.series(column), column) for run in runs)}
+    if "potential_energy" not in columns:
+        columns.pop("total_energy", None)  # is the kinetic one
     return Plot(plot.title, columns, plot.unit, plot.logarithmic)
 
 

@@ -40,7 +40,7 @@ class App {
       .addEventListener("click", () => savePicture(this.panels, this.theme, this.player.label.textContent));
     const names = [...this.colourBar.fields.keys()];
     document
-      .getElementById("viewer")
+      .getElementById("particles")
       .classList.toggle("wide-run", this.panels.length === 1 && isWide(this.panels[0].run));
     await this.colourBar.chooseField(names[0]);
     for (const panel of this.panels) panel.resize();
