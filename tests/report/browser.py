@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import select
 import shutil
 import subprocess
 import tempfile
@@ -16,7 +17,7 @@ PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--no-first-run", "--disable-extensions",
          "--disable-dev-shm-usage", "--mute-audio", "--hide-scrollbars", "--force-color-profile=srgb")
-PATIENCE = 60  # for one answer or condition [s]; a loaded machine takes some
+PATIENCE = 120  # for one answer or condition [s]; a loaded machine takes some
 
 
 def find_browser() -> str | None:
@@ -80,6 +81,8 @@ class Browser:
 
     def _receive(self) -> dict[str, Any]:
         while b"\0" not in self._rest:
+            if not select.select([self._theirs], [], [], PATIENCE)[0]:
+                raise RuntimeError(f"the browser has not answered for {PATIENCE} s")
             part = os.read(self._theirs, 1 << 20)
             if not part:
                 raise RuntimeError("the browser has ended")

@@ -13,6 +13,9 @@ function momentOf(particles, time, smooth) {
 
 const finest = 1.8; // of a particle, in pixels of the page: two pixels of the device at least
 
+/** Of the device per pixel of the page; more than 2 cost time and show nothing. */
+const devicePixels = () => Math.min(window.devicePixelRatio || 1, 2);
+
 /** Draws into a context, `width` x `height` pixels of the page, `look` says how; returns the projection. */
 function drawRun(context, width, height, particles, time, look) {
   const { run } = particles;

@@ -13,13 +13,9 @@ class Painter {
   /** Colours by value, and by value and light. */
   setColours(table) {
     const word = (k, light) =>
-      ((255 << 24) |
-        ((table[4 * k + 2] * light) << 16) |
-        ((table[4 * k + 1] * light) << 8) |
-        (table[4 * k] * light)) >>>
-      0;
-    this.colours = Uint32Array.from({ length: 256 }, (_, k) => word(k, 1));
-    this.lit = Uint32Array.from({ length: 256 * lights }, (_, k) =>
+      (255 << 24) | ((table[4 * k + 2] * light) << 16) | ((table[4 * k + 1] * light) << 8) | (table[4 * k] * light);
+    this.colours = Int32Array.from({ length: 256 }, (_, k) => word(k, 1));
+    this.lit = Int32Array.from({ length: 256 * lights }, (_, k) =>
       word(Math.floor(k / lights), 0.45 + (0.55 * (k % lights)) / (lights - 1)),
     );
   }
@@ -46,7 +42,7 @@ class Painter {
       this.canvas.width = width;
       this.canvas.height = height;
       const image = this.context.createImageData(width, height);
-      this.picture = { width, height, image, words: new Uint32Array(image.data.buffer), depths: null };
+      this.picture = { width, height, image, words: new Int32Array(image.data.buffer), depths: null };
     }
     this.picture.words.fill(0);
     if (deep) (this.picture.depths ??= new Float32Array(width * height)).fill(Infinity);
@@ -146,24 +142,24 @@ function dotStamp({ words, depths, width, height }, colours, radius) {
   };
 }
 
-/** Discs with smooth rims, later ones over earlier ones. */
+/** Discs, later ones over earlier ones: a run of pixels per row, whose ends are covered in part. */
 function discStamp({ words, width, height }, colours, radius) {
-  const inner = (radius - 0.5) ** 2,
-    outer = (radius + 0.5) ** 2;
   return (x, y, colour) => {
     const word = colours[colour];
     const top = Math.max(Math.floor(y - radius), 0),
       bottom = Math.min(Math.ceil(y + radius), height);
-    const left = Math.max(Math.floor(x - radius), 0),
-      right = Math.min(Math.ceil(x + radius), width);
     for (let row = top; row < bottom; ++row) {
-      const dy = (row + 0.5 - y) ** 2;
-      for (let column = left; column < right; ++column) {
-        const square = dy + (column + 0.5 - x) ** 2;
-        if (square >= outer) continue;
-        const at = row * width + column;
-        words[at] = square <= inner ? word : over(words[at], word, radius + 0.5 - Math.sqrt(square));
-      }
+      const square = radius * radius - (row + 0.5 - y) ** 2;
+      if (square <= 0) continue;
+      const left = Math.max(x - Math.sqrt(square), 0),
+        right = Math.min(x + Math.sqrt(square), width);
+      const first = Math.ceil(left),
+        last = Math.floor(right),
+        start = row * width;
+      if (first > last) continue; // no pixel has an edge within
+      for (let at = start + first; at < start + last; ++at) words[at] = word;
+      if (first > left) words[start + first - 1] = over(words[start + first - 1], word, first - left);
+      if (right > last) words[start + last] = over(words[start + last], word, right - last);
     }
   };
 }
@@ -171,12 +167,11 @@ function discStamp({ words, width, height }, colours, radius) {
 /** A colour that covers part of a pixel: mixed into what is there, or thinner where nothing is. */
 function over(below, colour, share) {
   const alpha = below >>> 24;
-  if (alpha < 255) return ((Math.max(alpha, Math.round(255 * share)) << 24) | (colour & 0xffffff)) >>> 0;
-  const mix = (shift) => {
-    const from = (below >>> shift) & 255;
-    return Math.round(from + share * (((colour >>> shift) & 255) - from)) << shift;
-  };
-  return ((255 << 24) | mix(16) | mix(8) | mix(0)) >>> 0;
+  if (alpha < 255) return (Math.max(alpha, Math.round(255 * share)) << 24) | (colour & 0xffffff);
+  const part = Math.round(256 * share), rest = 256 - part;
+  const redBlue = ((colour & 0xff00ff) * part + (below & 0xff00ff) * rest) >>> 8;
+  const green = ((colour & 0x00ff00) * part + (below & 0x00ff00) * rest) >>> 8;
+  return (255 << 24) | (redBlue & 0xff00ff) | (green & 0x00ff00);
 }
 
 /** Balls lit from the eye; the nearest surface is seen. */

@@ -22,7 +22,7 @@ class Panel {
   }
 
   resize() {
-    const pixels = window.devicePixelRatio || 1;
+    const pixels = devicePixels();
     this.width = this.canvas.clientWidth;
     this.height = this.canvas.clientHeight;
     const [width, height] = [this.width, this.height].map((size) => Math.max(1, Math.round(size * pixels)));

@@ -46,7 +46,7 @@ class Strip {
   draw() {
     if (!this.app.range) return;
     const look = { ...this.app.look(), camera: new Camera(), smooth: false, scale: false };
-    const pixels = window.devicePixelRatio || 1;
+    const pixels = devicePixels();
     for (const { time, canvases } of this.frames) {
       canvases.forEach((canvas, k) => {
         const { clientWidth: width, clientHeight: height } = canvas;
