@@ -113,6 +113,20 @@ class WithoutResults(PageTest):
         self.assertIn("no results of minamo here", ended.stderr)
         self.assertEqual(1, len(ended.stderr.splitlines()))
 
+    def test_a_scene_that_is_none_and_a_place_that_cannot_be_written_are_errors_of_one_line(self) -> None:
+        wrong = RESULTS.work / "wrong"
+        wrong.mkdir()
+        (wrong / "scene.json").write_text('{"dimension": 2}')
+        (RESULTS.work / "broken_json").mkdir()
+        (RESULTS.work / "broken_json/scene.json").write_text("{")
+        good = RESULTS.run("dam_break", "short", "/time/end=0.001")
+        for arguments, part in (([wrong], "no /grid"), ([RESULTS.work / "broken_json"], "cannot be read as JSON"),
+                                ([good, "--out", RESULTS.work / "no/folder.html"], "no/folder.html")):
+            with self.subTest(part):
+                ended = RESULTS.report(*arguments)
+                self.assertEqual((2, 1), (ended.returncode, len(ended.stderr.splitlines())), ended.stderr)
+                self.assertIn(part, ended.stderr)
+
     def test_a_failed_run_shows_its_message_and_what_it_wrote(self) -> None:
         folder = RESULTS.run("dam_break", "failed", '/body_force=[0, "-9.81/(t < 0.0032)"]', "/output/every=1e-3")
         self.open(RESULTS.page(folder))

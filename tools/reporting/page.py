@@ -63,7 +63,7 @@ def write_page(path: Path, runs: list[Run], times: list[float] | None, program: 
         "sections": "\n".join([comparison_section(runs) if len(runs) > 1 else "", balance_section(runs),
                                profile_section(runs), _graph_section(runs, program), scene_files(runs)]),
         "footer": "Written by tools/report of minamo. Plots by uPlot, MIT licence.",
-        "report": json.dumps(report, allow_nan=False, separators=(",", ":")).replace("</", "<\\/"),
+        "report": json.dumps(report, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
         "packed": packer.html(),
     })
     path.write_text(page, encoding="utf-8")
@@ -113,7 +113,7 @@ def _view(run: Run, reaches: list[tuple[np.ndarray, np.ndarray]]) -> list[list[f
 
 
 def _strip_times(described: list[dict[str, Any]], runs: list[Run], wanted: list[float] | None) -> list[float]:
-    """Output times of the run that goes farthest: next to those wanted, else those of a reference, else telling ones."""
+    """Output times of the run that goes farthest: next to those wanted, or of a reference, or telling ones."""
     farthest = max(range(len(runs)), key=lambda k: runs[k].times[-1] if len(runs[k].times) else -1.0)
     times = runs[farthest].times
     if len(times) == 0:

@@ -46,6 +46,10 @@ class Run:
                             "expected: a folder that `minamo run SCENE --out DIR` wrote")
         self.problems: list[str] = []  # of files that are there and cannot be read
         self.scene = self._json("scene.json")
+        missing = [key for key in ("dimension", "grid", "fluid", "particles", "time") if key not in self.scene]
+        if missing:
+            raise NoResults(f"{self.folder}/scene.json: no /{missing[0]}; expected: the scene that "
+                            "`minamo run SCENE --out DIR` wrote")
         self.summary = self._json("summary.json")
         self.history = self._history()
         self.times = self._times()

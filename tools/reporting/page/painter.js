@@ -168,7 +168,8 @@ function discStamp({ words, width, height }, colours, radius) {
 function over(below, colour, share) {
   const alpha = below >>> 24;
   if (alpha < 255) return (Math.max(alpha, Math.round(255 * share)) << 24) | (colour & 0xffffff);
-  const part = Math.round(256 * share), rest = 256 - part;
+  const part = Math.round(256 * share),
+    rest = 256 - part;
   const redBlue = ((colour & 0xff00ff) * part + (below & 0xff00ff) * rest) >>> 8;
   const green = ((colour & 0x00ff00) * part + (below & 0x00ff00) * rest) >>> 8;
   return (255 << 24) | (redBlue & 0xff00ff) | (green & 0x00ff00);

@@ -19,6 +19,8 @@ function followGraph(svg) {
     details.hidden = name === null;
   };
   for (const [name, node] of nodes) {
+    node.setAttribute("tabindex", "0");
+    node.addEventListener("keydown", (event) => event.key === "Enter" && node.dispatchEvent(new MouseEvent("click")));
     node.addEventListener("click", (event) => {
       event.preventDefault();
       event.stopPropagation();
