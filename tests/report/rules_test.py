@@ -19,6 +19,7 @@ import numpy as np
 from results import RESULTS
 
 from reporting.graph import draw_graph
+from reporting.histories import MOST_ROWS, packed_history, plots
 from reporting.overlays import corner_paths, fits, references
 from reporting.packing import pack_frames
 from reporting.particles import Particles, Quantity
@@ -68,6 +69,14 @@ class Choice(unittest.TestCase):
         np.testing.assert_array_equal(all_of_them.position[:, few.chosen], few.position)
         self.assertEqual(*(next(each.high for each in some.quantities if each.name == "speed")
                            for some in (few, all_of_them)))
+
+
+    def test_a_long_history_is_thinned_and_says_so(self) -> None:
+        run = Run(RESULTS.run("dam_break", "long", "/time/end=0.01"))
+        rows = 2 * MOST_ROWS + 1
+        run.history = {name: np.resize(values, rows) for name, values in run.history.items()}
+        packed = packed_history(run, plots([run]), lambda text: 0)
+        self.assertEqual((3, -(-rows // 3)), (packed["every"], packed["rows"]))
 
 
 class Fitting(unittest.TestCase):

@@ -58,8 +58,7 @@ def write_page(path: Path, runs: list[Run], times: list[float] | None, program: 
         "title": escape(title), "headlines": "\n".join(map(headline, runs)), "messages": messages(runs),
         "style": "\n".join(_source(name) for name in STYLES), "script": "\n".join(_source(name) for name in SCRIPTS),
         "particles": _particles_section(described, beside) if any(particles) else beside,
-        "histories": "<h2>History</h2><div id=\"plots\"></div><p class=\"soft\">Point at a plot for its values, "
-                     "click to go to a time, drag over a span to zoom, double click to zoom out.</p>" if shown else "",
+        "histories": _histories_section(described) if shown else "",
         "sections": "\n".join([comparison_section(runs) if len(runs) > 1 else "", balance_section(runs),
                                profile_section(runs), _graph_section(runs, program), scene_files(runs)]),
         "footer": "Written by tools/report of minamo. Plots by uPlot, MIT licence.",
@@ -123,6 +122,14 @@ def _strip_times(described: list[dict[str, Any]], runs: list[Run], wanted: list[
     compared = {float(times[abs(times - curves["time"]).argmin()]) for curves in described[farthest]["references"]
                 if abs(times - curves["time"]).min() < 2e-3 * times[-1]}
     return sorted(compared)[:STRIP_LENGTH] if len(compared) > 2 else telling_times(runs[farthest], STRIP_LENGTH)
+
+
+def _histories_section(described: list[dict[str, Any]]) -> str:
+    text = "Point at a plot for its values, click to go to a time, drag over a span to zoom, double click to zoom out."
+    for run in described:
+        if run["history"] and run["history"]["every"] > 1:
+            text += f" {run['label']}: one of {run['history']['every']} steps is in the page."
+    return f"<h2>History</h2><div id=\"plots\"></div><p class=\"soft\">{escape(text)}</p>"
 
 
 def _particles_section(described: list[dict[str, Any]], beside: str) -> str:
