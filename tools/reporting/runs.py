@@ -30,11 +30,6 @@ class Frame:
     velocity: np.ndarray  # [m/s], particles x dimension
     pressure: np.ndarray  # [Pa]
 
-    @property
-    def speed(self) -> np.ndarray:
-        """Magnitude of the velocity. [m/s]"""
-        return np.linalg.norm(self.velocity, axis=1)
-
 
 class Run:
     """A folder with results. What a run that failed or still goes on has not written yet is empty."""
