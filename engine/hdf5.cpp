@@ -42,13 +42,16 @@ hid_t open(const std::string& path, Hdf5File::Access access) {
   static_cast<void>(never_again);
   require_memory(memory_for_a_file);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
+  // Someone who looks at the results of a run does not stop it.
+  const Handle options(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
+  H5Pset_file_locking(options, false, true);
   switch (access) {
   case Hdf5File::Access::create:
-    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, options);
   case Hdf5File::Access::extend:
-    return H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    return H5Fopen(path.c_str(), H5F_ACC_RDWR, options);
   case Hdf5File::Access::read:
-    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    return H5Fopen(path.c_str(), H5F_ACC_RDONLY, options);
   }
   return -1;
 }

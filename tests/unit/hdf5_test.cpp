@@ -8,6 +8,9 @@
 
 #include <cstring>
 
+#include <fcntl.h>
+#include <sys/file.h>
+
 using namespace minamo;
 
 namespace {
@@ -97,4 +100,14 @@ TEST_CASE("what is wrong with an HDF5 file names file and dataset", "[unit]") {
   Hdf5File file(folder / "a.h5", Hdf5File::Access::create);
   file.write("/values", six);
   CHECK_THROWS_WITH(file.write("/values", six), Catch::Contains("a.h5") && Catch::Contains("/values"));
+}
+
+TEST_CASE("an HDF5 file that a reader has locked can be extended", "[unit]") {
+  const Folder folder;
+  Hdf5File(folder / "a.h5", Hdf5File::Access::create).write("/first", six);
+  // As readers lock by default; a lock of the library is one of the file, so that one process is enough.
+  const int file = ::open((folder / "a.h5").c_str(), O_RDONLY | O_CLOEXEC);
+  REQUIRE(flock(file, LOCK_SH | LOCK_NB) == 0);
+  CHECK_NOTHROW(Hdf5File(folder / "a.h5", Hdf5File::Access::extend).write("/second", six));
+  ::close(file);
 }
