@@ -157,14 +157,28 @@ std::int64_t Input::integer(std::string_view key, const Integer& rule) {
       .value_or(harmless(rule));
 }
 
+namespace {
+
+std::optional<std::string> read_text(InputPlace& place, KeyShape shape, const std::optional<std::string>& fallback) {
+  return read_key(place, std::move(shape), fallback,
+                  [&](const std::string& at, const Json& value) -> std::optional<std::string> {
+                    if (value.is_string()) return value.get<std::string>();
+                    place.note(at, "wrong type", "a string", value);
+                    return {};
+                  });
+}
+
+}  // namespace
+
 std::string Input::text(std::string_view key, const Text& rule) {
-  const auto check = [&](const std::string& at, const Json& value) -> std::optional<std::string> {
-    if (value.is_string()) return value.get<std::string>();
-    place_->note(at, "wrong type", "a string", value);
-    return {};
-  };
   KeyShape shape = key_shape(key, "a string", {{"type", "string"}}, rule.doc, json_of(rule.fallback));
-  return read_key(*place_, std::move(shape), rule.fallback, check).value_or(rule.fallback.value_or(""));
+  return read_text(*place_, std::move(shape), rule.fallback).value_or(rule.fallback.value_or(""));
+}
+
+std::optional<std::string> Input::optional_text(std::string_view key, std::string_view doc) {
+  KeyShape shape = key_shape(key, "a string", {{"type", "string"}}, doc, {});
+  shape.presence = KeyShape::Presence::optional;
+  return read_text(*place_, std::move(shape), {});
 }
 
 bool Input::flag(std::string_view key, std::string_view doc, std::optional<bool> fallback) {
@@ -178,7 +192,8 @@ bool Input::flag(std::string_view key, std::string_view doc, std::optional<bool>
 }
 
 std::optional<std::string> read_name(InputPlace& place, std::string_view key, std::span<const std::string> names,
-                                     std::string_view doc, const std::optional<std::string>& fallback) {
+                                     const Json& schema, std::string_view doc,
+                                     const std::optional<std::string>& fallback) {
   const std::string expected = one_of_text(names);
   const auto check = [&](const std::string& at, const Json& value) -> std::optional<std::string> {
     const std::string name = value.is_string() ? value.get<std::string>() : std::string();
@@ -190,13 +205,18 @@ std::optional<std::string> read_name(InputPlace& place, std::string_view key, st
       return name;
     return {};
   };
-  const Json schema{{"enum", Json(std::vector<std::string>(names.begin(), names.end()))}};
   return read_key(place, key_shape(key, expected, schema, doc, json_of(fallback)), fallback, check);
 }
 
 std::string Input::choice(std::string_view key, std::span<const std::string> names, std::string_view doc,
                           const std::optional<std::string>& fallback) {
-  return read_name(*place_, key, names, doc, fallback).value_or(fallback.value_or(names.front()));
+  const Json schema{{"enum", Json(std::vector(names.begin(), names.end()))}};
+  return read_name(*place_, key, names, schema, doc, fallback).value_or(fallback.value_or(names.front()));
+}
+
+std::string Input::known_name(std::string_view key, std::span<const std::string> names, std::string_view doc) {
+  const Json schema{{"type", "string"}, {"examples", Json(std::vector(names.begin(), names.end()))}};
+  return read_name(*place_, key, names, schema, doc, {}).value_or(names.front());
 }
 
 std::vector<double> Input::numbers(std::string_view key, std::size_t size, const Number& rule) {

@@ -40,10 +40,14 @@ class Input {
   std::optional<double> optional_number(std::string_view key, const Number& rule);
   std::int64_t integer(std::string_view key, const Integer& rule);
   std::string text(std::string_view key, const Text& rule);
+  /// Like text(), for a key that may be absent without a default.
+  std::optional<std::string> optional_text(std::string_view key, std::string_view doc);
   bool flag(std::string_view key, std::string_view doc, std::optional<bool> fallback);
   /// One of a few names.
   std::string choice(std::string_view key, std::span<const std::string> names, std::string_view doc,
                      const std::optional<std::string>& fallback = {});
+  /// One of many names, to which another program may have added: the schema proposes them and takes others.
+  std::string known_name(std::string_view key, std::span<const std::string> names, std::string_view doc);
   /// Exactly `size` numbers, all within the rule; `rule.fallback` fills all of them.
   std::vector<double> numbers(std::string_view key, std::size_t size, const Number& rule);
   std::vector<std::int64_t> integers(std::string_view key, std::size_t size, const Integer& rule);

@@ -122,8 +122,10 @@ Json json_number(double value);
 std::string one_line(const Json& value);
 
 /// The name under a key, one of a few; nothing, with the problem noted, if it is missing or wrong.
+/// \param schema  without the description.
 std::optional<std::string> read_name(InputPlace& place, std::string_view key, std::span<const std::string> names,
-                                     std::string_view doc, const std::optional<std::string>& fallback);
+                                     const Json& schema, std::string_view doc,
+                                     const std::optional<std::string>& fallback);
 
 /// The shape as JSON Schema, and as rows of a Markdown table.
 Json object_schema(const ObjectShape& shape);

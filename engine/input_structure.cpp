@@ -168,7 +168,7 @@ void Input::named_objects(std::string_view key, std::string_view doc,
 std::string Input::variant(std::string_view key, std::string_view doc, const std::optional<std::string>& fallback,
                            const Variants& variants) {
   const auto names = names_of(variants);
-  const auto name = read_name(*place_, key, names, doc, fallback);
+  const auto name = read_name(*place_, key, names, {{"enum", Json(names)}}, doc, fallback);
   if (!name) place_->unknown_keys_pass = true;
   if (name) place_->decided.append(fmt::format(" with {} \"{}\"", key, *name));
   const auto chosen = describing() ? names : name ? std::vector{*name} : std::vector<std::string>{};

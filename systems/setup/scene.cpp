@@ -114,7 +114,7 @@ void read_systems(Input& input, const SystemRegistry& registry, Scene& scene) {
   if (const auto count = input.elements("systems"); count > most)
     input.problem("systems", "too many", fmt::format("at most {}", most), std::to_string(*count));
   input.list("systems", "extra systems in the step", 0, [&](Input& extra, std::size_t) {
-    const std::string use = extra.choice("use", registry.names(), "name of the system, see `minamo list systems`");
+    const std::string use = extra.known_name("use", registry.names(), "name of the system, see `minamo list systems`");
     const std::string after = extra.choice("after", slot_names(), "slot of the step that it follows");
     if (extra.describing() || !extra.sound("use")) return;
     scene.systems.push_back({registry.make(use, scene.dimension, &extra), after});
@@ -142,6 +142,7 @@ int read_dimension(Input& input) {
 /// \param described  the dimension in description mode, where the document does not tell.
 Scene read_scene(Input& input, const SystemRegistry& registry, std::optional<int> described) {
   Scene scene;
+  input.optional_text("$schema", "JSON Schema of scenes, for editors; a run takes no notice");
   scene.title = input.text("title", {.doc = "shown in pictures and reports", .fallback = ""});
   scene.dimension = read_dimension(input);
   if (described) scene.dimension = *described;

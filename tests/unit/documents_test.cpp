@@ -1,6 +1,7 @@
 /// \file
 /// What the README files say of the program is what the program says of itself. `tools/catalogue` writes it anew.
 
+#include "engine/input_text.hpp"
 #include "support/program_output.hpp"
 #include "systems/pipeline.hpp"
 
@@ -47,6 +48,20 @@ TEST_CASE("tables in the README files are those that the program prints", "[unit
   command += " -->";
   CAPTURE(file, command);
   CHECK(block(text_of(source + "/" + file), command) == output_of_program("/", arguments).out);
+}
+
+TEST_CASE("the schema that the scenes name is the one that the program prints", "[unit]") {
+  CHECK(text_of(source + "/scenes/schema/scene.schema.json") == output_of_program("/", {"schema"}).out);
+}
+
+TEST_CASE("every scene names the schema, which is there", "[unit]") {
+  const std::string folder = GENERATE("/scenes", "/tools/example_system");
+  for (const auto& entry : std::filesystem::directory_iterator(source + folder)) {
+    if (entry.path().extension() != ".json") continue;
+    CAPTURE(entry.path().string());
+    const std::filesystem::path schema = read_json(entry.path().string()).value("$schema", "missing");
+    CHECK(std::filesystem::exists(entry.path().parent_path() / schema));
+  }
 }
 
 TEST_CASE("systems/README.md has the slots of a step in order", "[unit]") {

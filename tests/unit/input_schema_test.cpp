@@ -67,6 +67,25 @@ TEST_CASE("the schema admits no further keys", "[unit]") {
   CHECK(schema["properties"]["bodies"]["items"]["additionalProperties"] == false);
 }
 
+TEST_CASE("the schema proposes names that other programs may add to, and takes others", "[unit]") {
+  const std::vector<std::string> names{"apic", "flip"};
+  Input::Document document = Input::Document::describe();
+  document.root().known_name("use", names, "a name");
+  CHECK(document.schema()["properties"]["use"].dump() ==
+        R"({"type":"string","examples":["apic","flip"],"description":"a name"})");
+}
+
+TEST_CASE("an optional text may be absent, and then stands neither in the echo nor among the required keys", "[unit]") {
+  const auto rule = [](Input& in) { return in.optional_text("a", "a text"); };
+  CHECK(read("{}", rule).echo == Json::object());
+  CHECK(read(R"({"a": "b"})", rule).echo == Json{{"a", "b"}});
+  CHECK(messages(R"({"a": 1})", rule) ==
+        Messages{"a.json: /a: wrong type\n  expected  a string\n  got       1 (number)"});
+  Input::Document document = Input::Document::describe();
+  rule(document.root());
+  CHECK(document.schema()["required"] == Json::array());
+}
+
 TEST_CASE("the schema has an alternative for every variant", "[unit]") {
   const Json alternatives = description().schema()["properties"]["transfer"]["allOf"][0]["oneOf"];
   REQUIRE(alternatives.size() == 3);
