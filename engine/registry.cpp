@@ -1,7 +1,5 @@
 #include "engine/registry.hpp"
 
-#include <stdexcept>
-
 namespace minamo {
 
 System SystemRegistry::make(std::string_view name, int dimension, Input* options) const {

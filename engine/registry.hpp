@@ -1,12 +1,16 @@
 #pragma once
 /// \file
-/// Systems by name, for two and three dimensions at once. Registration is explicit: systems/register.cpp lists the
-/// built-in ones, a program that links minamo adds its own.
+/// What scenes choose by name: systems, for two and three dimensions at once, and whatever else is added as a type of
+/// its own. Registration is explicit: systems/register.cpp lists what is built in, a program that links minamo adds its
+/// own.
 
 #include "engine/input.hpp"
 #include "engine/system.hpp"
 
+#include <any>
 #include <map>
+#include <stdexcept>
+#include <typeindex>
 
 namespace minamo {
 
@@ -30,6 +34,23 @@ class SystemRegistry {
             }});
   }
 
+  /// Adds something that is chosen by its member `name`, like a transfer scheme.
+  /// \throws std::logic_error if another one of this type has the name.
+  template <class Choice>
+  void add(Choice choice) {
+    std::any& all = choices_.try_emplace(typeid(Choice), Named<Choice>()).first->second;
+    const auto [position, is_new] = std::any_cast<Named<Choice>&>(all).try_emplace(choice.name, std::move(choice));
+    if (!is_new) throw std::logic_error("\"" + position->first + "\" is registered twice");
+  }
+  template <class Choice>
+  using Named = std::map<std::string, Choice, std::less<>>;
+  template <class Choice>
+  const Named<Choice>& choices() const {
+    static const Named<Choice> none;
+    const auto found = choices_.find(typeid(Choice));
+    return found == choices_.end() ? none : std::any_cast<const Named<Choice>&>(found->second);
+  }
+
   bool contains(std::string_view name) const { return entries_.contains(name); }
 
   /// \pre `dimension` is 2 or 3.
@@ -51,6 +72,7 @@ class SystemRegistry {
   void insert(Entry entry);
 
   std::map<std::string, Entry, std::less<>> entries_;
+  std::map<std::type_index, std::any> choices_;  ///< Named<Choice> per type
 };
 
 }  // namespace minamo

@@ -1,7 +1,5 @@
 #include "systems/pipeline.hpp"
 
-#include "systems/transfer/scheme.hpp"
-
 #include <algorithm>
 
 namespace minamo {
@@ -29,7 +27,7 @@ struct Needs {
   bool probes;
 
   explicit Needs(const Scene& scene)
-      : transfer(transfer_scheme(scene.transfer)),
+      : transfer(scene.transfer_scheme),
         stabilization(scene.stabilization),
         volume(scene.volume),
         solver(scene.solver),
@@ -106,19 +104,29 @@ std::vector<std::string> with(std::vector<std::string> systems, bool needed, con
   return systems;
 }
 
+void append(std::vector<std::string>& systems, const std::vector<std::string>& more) {
+  systems.insert(systems.end(), more.begin(), more.end());
+}
+
+std::vector<std::string> p2g_systems(const Needs& needs) {
+  std::vector<std::string> systems{"p2g_mass"};
+  append(systems, needs.transfer.p2g_velocity);
+  if (needs.newmark) append(systems, needs.transfer.p2g_acceleration);
+  return systems;
+}
+
 std::vector<std::string> g2p_systems(const Needs& needs) {
   std::vector<std::string> systems = needs.transfer.g2p_velocity;
-  if (needs.newmark) systems.push_back(needs.transfer.g2p_acceleration);
+  if (needs.newmark) append(systems, needs.transfer.g2p_acceleration);
   if (needs.corrected_inertia) systems.emplace_back("g2p_force_gradient");
   return systems;
 }
 
 std::vector<Slot> step_slots(const Needs& needs) {
-  const TransferScheme& transfer = needs.transfer;
   return {
       {"configure", {needs.newmark ? "configure_at_start" : "configure_at_middle"}},
       {"bin", {"bin", "number_nodes"}},
-      {"p2g", with({"p2g_mass", transfer.p2g_velocity}, needs.newmark, transfer.p2g_acceleration)},
+      {"p2g", p2g_systems(needs)},
       {"walls",
        with({"activate", "find_neighbours", "hold_velocity_at_walls"}, needs.newmark, "hold_acceleration_at_walls")},
       {"predict", with({needs.newmark ? "predict_newmark" : "predict_midpoint"}, needs.ode, "integrate_ode")},
@@ -136,40 +144,30 @@ std::vector<Slot> step_slots(const Needs& needs) {
 
 /// A backward Euler step on a configuration beside x^0 that leaves the particles where they are.
 std::vector<std::string> standing_step(const Needs& needs, const std::string& configure) {
-  std::vector<std::string> systems{configure,
-                                   "bin",
-                                   "number_nodes",
-                                   "p2g_mass",
-                                   needs.transfer.p2g_velocity,
-                                   "activate",
-                                   "find_neighbours",
-                                   "hold_velocity_at_walls",
-                                   "predict_backward_euler"};
-  for (const auto& part : {force_systems(needs), assemble_systems(needs), solve_systems(needs)}) {
-    systems.insert(systems.end(), part.begin(), part.end());
-  }
+  std::vector<std::string> systems{configure, "bin", "number_nodes", "p2g_mass"};
+  append(systems, needs.transfer.p2g_velocity);
+  append(systems, {"activate", "find_neighbours", "hold_velocity_at_walls", "predict_backward_euler"});
+  for (const auto& part : {force_systems(needs), assemble_systems(needs), solve_systems(needs)}) append(systems, part);
   return systems;
 }
 
 std::vector<std::string> start_systems(const Needs& needs) {
   std::vector<std::string> systems;
-  const auto append = [&](const std::vector<std::string>& more) {
-    systems.insert(systems.end(), more.begin(), more.end());
-  };
   const std::string beside = needs.newmark ? "configure_step_before" : "configure_step_ahead";
-  if (needs.ode) append({"hold_ode"});
+  if (needs.ode) append(systems, {"hold_ode"});
   if (needs.corrected_inertia) {
-    append(standing_step(needs, beside));
-    append({"correct_backward_euler_velocity", "g2p_force_gradient"});
+    append(systems, standing_step(needs, beside));
+    append(systems, {"correct_backward_euler_velocity", "g2p_force_gradient"});
   }
   if (needs.newmark) {
-    append(standing_step(needs, beside));
-    append({"correct_backward_euler", needs.transfer.g2p_acceleration});
+    append(systems, standing_step(needs, beside));
+    append(systems, {"correct_backward_euler"});
+    append(systems, needs.transfer.g2p_acceleration);
   }
   // The pressure that the first frame shows.
-  append(standing_step(needs, "configure_step_ahead"));
-  append(measure_systems(needs, "measure_probes_at_start"));
-  append({"write_history"});
+  append(systems, standing_step(needs, "configure_step_ahead"));
+  append(systems, measure_systems(needs, "measure_probes_at_start"));
+  append(systems, {"write_history"});
   return systems;
 }
 
@@ -191,7 +189,10 @@ const std::vector<std::string>& slot_names() {
 Pipeline make_pipeline(const Scene& scene, const SystemRegistry& registry) {
   const Needs needs(scene);
   const auto make = [&](const std::vector<std::string>& names, std::vector<System>& into) {
-    for (const std::string& name : names) into.push_back(registry.make(name, scene.dimension));
+    for (const std::string& name : names) {
+      const auto configured = scene.configured.find(name);
+      into.push_back(configured != scene.configured.end() ? configured->second : registry.make(name, scene.dimension));
+    }
   };
   Pipeline pipeline;
   make(start_systems(needs), pipeline.start);

@@ -29,6 +29,7 @@
 #include "systems/transfer/apic.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/pic_flip.hpp"
+#include "systems/transfer/scheme.hpp"
 #include "systems/transfer/tpic.hpp"
 #include "systems/transfer/xpic.hpp"
 #include "systems/volume/delta.hpp"
@@ -132,6 +133,8 @@ void register_systems(SystemRegistry& registry) {
   registry.add<WriteFrame>("write_frame");
   registry.add<WriteVelocityGradient>("write_velocity_gradient");
   registry.add<WriteXdmf>("write_xdmf");
+
+  for (const TransferScheme& scheme : built_in_transfer_schemes()) registry.add(scheme);
 }
 
 }  // namespace minamo

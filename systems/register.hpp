@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The one list of built-in systems.
+/// The one list of built-in systems and transfer schemes.
 
 #include "engine/registry.hpp"
 

@@ -1,7 +1,6 @@
 #include "tools/commands.hpp"
 
 #include "engine/schedule.hpp"
-#include "systems/transfer/scheme.hpp"
 #include "tools/scene_file.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -88,10 +87,11 @@ int list(const std::string& what, const SystemRegistry& registry) {
   } else if (what == "components") {
     list_components(registry);
   } else if (what == "schemes") {
-    for (const TransferScheme& scheme : transfer_schemes())
-      std::cout << fmt::format("{:6} {}\n", scheme.name, scheme.doc);
+    for (const auto& [name, scheme] : registry.choices<TransferScheme>())
+      std::cout << fmt::format("{:8} {}\n", name, scheme.doc);
   } else {
-    std::cout << "umfpack  monolithic sparse LU, the reference\n";
+    std::cout << "block    block elimination and GMRES, preconditioned by sparse Cholesky factors\n"
+                 "umfpack  monolithic sparse LU, the reference\n";
   }
   return exit_done;
 }

@@ -13,6 +13,7 @@
 #include "engine/clock.hpp"
 #include "engine/registry.hpp"
 #include "engine/system.hpp"
+#include "systems/transfer/scheme.hpp"
 
 #include <functional>
 

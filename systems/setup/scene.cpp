@@ -162,7 +162,7 @@ Scene read_scene(Input& input, const SystemRegistry& registry, std::optional<int
       read_vector(input, "body_force", scene, {.unit = "m/s^2", .doc = "force per unit mass", .fallback = 0});
   input.list("particles", "regions filled with liquid", 1,
              [&](Input& particles, std::size_t) { scene.particles.push_back(read_particles(particles, scene)); });
-  read_method(input, scene);
+  read_method(input, registry, scene);
   input.object("time", "how far and how fast", Input::Presence::required,
                [&](Input& time) { scene.time = read_time(time); });
   input.object("output", "what is written when", Input::Presence::optional,

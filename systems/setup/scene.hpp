@@ -5,6 +5,7 @@
 
 #include "engine/input.hpp"
 #include "engine/registry.hpp"
+#include "systems/transfer/scheme.hpp"
 
 #include <array>
 #include <map>
@@ -93,6 +94,7 @@ struct Scene {
   std::vector<Expression> body_force;      ///< in x, y, z, t [m/s^2]
   std::vector<ParticleScene> particles;
   std::string transfer;
+  TransferScheme transfer_scheme;  ///< of that name
   double flip_blend = 1;
   int xpic_order = 2;
   bool corrected_inertia = false;
@@ -109,6 +111,7 @@ struct Scene {
   ExactScene exact;
   std::vector<ProbeScene> probes;
   std::vector<ExtraSystem> systems;
+  std::map<std::string, System> configured;  ///< systems of its schemes that read options
 };
 
 /// Reads a scene; problems are noted in the document that `input` belongs to.

@@ -1,29 +1,39 @@
 #include "systems/setup/scene_method.hpp"
 
-#include "systems/transfer/scheme.hpp"
-
 namespace minamo {
 
 namespace {
 
-void read_transfer(Input& input, Scene& scene) {
+/// The options of the systems of a transfer scheme.
+void configure_transfer(Input& input, const TransferScheme& scheme, const SystemRegistry& registry, Scene& scene) {
+  for (const auto* names :
+       {&scheme.p2g_velocity, &scheme.p2g_acceleration, &scheme.g2p_velocity, &scheme.g2p_acceleration}) {
+    for (const std::string& name : *names) {
+      scene.configured.insert_or_assign(name, registry.make(name, scene.dimension, &input));
+    }
+  }
+}
+
+void read_transfer(Input& input, const SystemRegistry& registry, Scene& scene) {
   Input::Variants variants;
-  for (const std::string& name : transfer_scheme_names()) {
-    variants.emplace_back(name, [&, name](Input& in) {
-      if (transfer_scheme(name).carries_gradient) {
+  for (const auto& named : registry.choices<TransferScheme>()) {
+    variants.emplace_back(named.first, [&, &scheme = named.second](Input& in) {
+      configure_transfer(in, scheme, registry, scene);
+      if (scheme.carries_gradient) {
         scene.corrected_inertia = in.choice("inertia", std::vector<std::string>{"corrected", "lumped"},
                                             "lumped mass, with or without the first moment that lumping leaves out",
                                             "corrected") == "corrected";
-      } else if (name == "flip") {
+      } else if (scheme.name == "flip") {
         scene.flip_blend =
             in.number("blend", {.doc = "share of FLIP, the rest is PIC", .fallback = 1, .at_least = 0, .at_most = 1});
-      } else if (name == "xpic") {
+      } else if (scheme.name == "xpic") {
         scene.xpic_order = static_cast<int>(
             in.integer("order", {.doc = "order m; 1 is PIC", .fallback = 2, .at_least = 1, .at_most = 20}));
       }
     });
   }
   scene.transfer = input.variant("scheme", "transfer scheme", "tpic", variants);
+  scene.transfer_scheme = registry.choices<TransferScheme>().at(scene.transfer);
 }
 
 void read_integrator(Input& input, Scene& scene) {
@@ -56,11 +66,12 @@ void read_volume(Input& input, Scene& scene) {
 
 }  // namespace
 
-void read_method(Input& input, Scene& scene) {
-  const auto block = [&](std::string_view key, std::string_view doc, void (*read)(Input&, Scene&)) {
+void read_method(Input& input, const SystemRegistry& registry, Scene& scene) {
+  const auto block = [&](std::string_view key, std::string_view doc, const auto& read) {
     input.object(key, doc, Input::Presence::optional, [&](Input& in) { read(in, scene); });
   };
-  block("transfer", "transfer between particles and grid", read_transfer);
+  block("transfer", "transfer between particles and grid",
+        [&](Input& in, Scene& s) { read_transfer(in, registry, s); });
   block("integrator", "time integration", read_integrator);
   block("stabilization", "pressure stabilization", [](Input& in, Scene& s) {
     s.stabilization = in.choice("scheme", std::vector<std::string>{"oss", "pspg", "vms"}, "stabilization", "pspg");

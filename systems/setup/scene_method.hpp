@@ -6,6 +6,6 @@
 
 namespace minamo {
 
-void read_method(Input& input, Scene& scene);
+void read_method(Input& input, const SystemRegistry& registry, Scene& scene);
 
 }  // namespace minamo

@@ -6,7 +6,6 @@
 #include "components/step.hpp"
 #include "systems/setup/lattice.hpp"
 #include "systems/setup/seed_measure.hpp"
-#include "systems/transfer/scheme.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -124,7 +123,7 @@ template <int Dim>
 void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& seeds, const std::string& file,
                    World& world, std::vector<Problem>& problems) {
   world.resize<Particles>(seeds.position.size());
-  const bool with_gradient = transfer_scheme(scene.transfer).carries_gradient;
+  const bool with_gradient = scene.transfer_scheme.carries_gradient;
   const auto x_p = world.column<particle::Position<Dim>>();
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const auto m_p = world.column<particle::Mass>();

@@ -2,28 +2,24 @@
 /// \file
 /// A transfer scheme is a name for the systems that go into the slots `p2g` and `g2p`.
 
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace minamo {
 
-/// Names of registered systems. The acceleration is transferred only by integrators that carry one.
+/// Names of registered systems, in their order. They read their options, if any, beside `scheme`. Accelerations are
+/// transferred only by integrators that carry them; those of PIC suit every scheme.
 struct TransferScheme {
-  std::string name;
-  std::string doc;
-  std::string p2g_velocity;
-  std::string p2g_acceleration;
-  std::vector<std::string> g2p_velocity;
-  std::string g2p_acceleration;
-  bool carries_gradient;  ///< of velocity, and of acceleration where there is one
+  std::string name = {};
+  std::string doc = {};  ///< one line
+  std::vector<std::string> p2g_velocity = {};
+  std::vector<std::string> p2g_acceleration = {"p2g_acceleration_pic"};
+  std::vector<std::string> g2p_velocity = {};
+  std::vector<std::string> g2p_acceleration = {"g2p_acceleration_pic"};
+  bool carries_gradient =
+      false;  ///< in particle.velocity_gradient, and with p2g_acceleration_tpic that of acceleration
 };
 
-std::span<const TransferScheme> transfer_schemes();
-std::vector<std::string> transfer_scheme_names();
-
-/// \pre `name` is one of transfer_scheme_names().
-const TransferScheme& transfer_scheme(std::string_view name);
+std::vector<TransferScheme> built_in_transfer_schemes();
 
 }  // namespace minamo

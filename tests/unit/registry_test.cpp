@@ -67,6 +67,42 @@ TEST_CASE("a registry contains what was added and nothing else", "[unit]") {
   CHECK_FALSE(two_systems().contains("with_option"));
 }
 
+namespace {
+
+struct Recipe {
+  std::string name;
+  int spoons = 0;
+};
+struct Tool {
+  std::string name;
+};
+
+}  // namespace
+
+TEST_CASE("what is chosen by name is kept by its type, in alphabetical order", "[unit]") {
+  SystemRegistry registry = two_systems();
+  registry.add(Recipe{"tea", 2});
+  registry.add(Recipe{"coffee", 3});
+  registry.add(Tool{"tea"});
+  const auto& recipes = registry.choices<Recipe>();
+  CHECK(recipes.size() == 2);
+  CHECK(recipes.begin()->first == "coffee");
+  CHECK(recipes.at("tea").spoons == 2);
+  CHECK(registry.choices<Tool>().size() == 1);
+  CHECK(registry.names().size() == 2);
+}
+
+TEST_CASE("there are no choices of a type of which none was added", "[unit]") {
+  CHECK(two_systems().choices<Recipe>().empty());
+}
+
+TEST_CASE("a choice cannot be added twice, and the first one stays", "[unit][error]") {
+  SystemRegistry registry;
+  registry.add(Recipe{"tea", 2});
+  CHECK_THROWS_WITH(registry.add(Recipe{"tea", 3}), "\"tea\" is registered twice");
+  CHECK(registry.choices<Recipe>().at("tea").spoons == 2);
+}
+
 TEST_CASE("an unknown name is answered with the known ones and the closest", "[unit][error]") {
   CHECK_THROWS_AS(two_systems().make("with_option", 2), std::out_of_range);
   CHECK_THROWS_WITH(two_systems().make("with_option", 2),
