@@ -1,20 +1,20 @@
-# Installs minamo into a folder of its own, builds tools/example_system against it there, as a user would, and runs it.
-# In: MINAMO_BUILD, EXAMPLE, WORK, GENERATOR, BUILD_TYPE.
+# Builds tools/example_system and runs its systems in the plane and in space. In: see example.cmake, and SCENES.
 
-function(run)
-  execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+include(${CMAKE_CURRENT_LIST_DIR}/example.cmake)
+
+function(expect_systems folder)
+  file(READ ${folder}/summary.json summary)
+  foreach(system mean_height log_mean_height)
+    if(NOT summary MATCHES "\"${system}\"")
+      message(FATAL_ERROR "summary.json does not know the system ${system}:\n${summary}")
+    endif()
+  endforeach()
 endfunction()
 
-file(REMOVE_RECURSE ${WORK})
-run(${CMAKE_COMMAND} --install ${MINAMO_BUILD} --prefix ${WORK}/prefix)
-run(${CMAKE_COMMAND} -S ${EXAMPLE} -B ${WORK}/build -G ${GENERATOR}
-  -D CMAKE_BUILD_TYPE=${BUILD_TYPE} -D CMAKE_PREFIX_PATH=${WORK}/prefix)
-run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/example_system run ${EXAMPLE}/scene.json --steps 5 --out ${WORK}/out)
+set(program ${WORK}/build/example_system)
+run(${program} run ${EXAMPLE}/scene.json --steps 5 --out ${WORK}/plane)
+expect_systems(${WORK}/plane)
 
-file(READ ${WORK}/out/summary.json summary)
-foreach(system mean_height log_mean_height)
-  if(NOT summary MATCHES "\"${system}\"")
-    message(FATAL_ERROR "summary.json does not know the system ${system}:\n${summary}")
-  endif()
-endforeach()
+set(systems [=[[{"use": "mean_height", "after": "g2p"}, {"use": "log_mean_height", "after": "g2p"}]]=])
+run(${program} run ${SCENES}/hydrostatic_3d.json --steps 2 --out ${WORK}/space --set "/systems=${systems}")
+expect_systems(${WORK}/space)
