@@ -1,10 +1,9 @@
 #include "tools/commands.hpp"
 #include "tools/minamo.hpp"
+#include "tools/version.hpp"
 
 #include "engine/schedule.hpp"
 #include "systems/register.hpp"
-
-#include "minamo_version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -109,7 +108,7 @@ void add_showing(CLI::App& app, ShowOptions& options) {
 
 int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) {
   CLI::App app("minamo: incompressible free-surface flow with the material point method");
-  app.set_version_flag("--version", std::string(version));
+  app.set_version_flag("--version", version_text);
   app.require_subcommand(1);
 
   RunOptions run_options;

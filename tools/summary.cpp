@@ -5,6 +5,7 @@
 #include "components/step.hpp"
 #include "engine/step_control.hpp"
 #include "systems/output/history.hpp"
+#include "tools/version.hpp"
 
 #include "minamo_version.hpp"
 
@@ -84,6 +85,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
                   {"threads", threads},
                   {"cpu_model", cpu_model()},
                   {"version", version},
+                  {"build", build_facts()},
                   {"particles", world.rows<Particles>()},
                   {"put_back", world.resource<PutBack>().count},
                   {"active_nodes_max", totals.active_nodes_max},

@@ -19,10 +19,12 @@ if(MINAMO_NATIVE)
   endif()
 endif()
 
+# Nobody reads errno after sqrt; without it the call becomes one instruction.
+set(minamo_private_options -fno-math-errno)
+
 function(minamo_compile_options target)
   target_compile_options(${target} PUBLIC ${minamo_public_options})
-  # Nobody reads errno after sqrt; without it the call becomes one instruction.
-  target_compile_options(${target} PRIVATE -fno-math-errno)
+  target_compile_options(${target} PRIVATE ${minamo_private_options})
   if(NOT MINAMO_SANITIZE)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
       $<$<BOOL:${MINAMO_DEVELOPER}>:-Werror>)
