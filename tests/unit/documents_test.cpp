@@ -25,6 +25,25 @@ std::string block(const std::string& text, const std::string& begin) {
   return text.substr(first, text.find("<!-- end -->", first) - first);
 }
 
+/// The code blocks of a Markdown text in one of the languages.
+std::vector<std::string> code_blocks(const std::string& text, const std::set<std::string>& languages) {
+  std::istringstream lines(text);
+  std::vector<std::string> blocks;
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_fence = line.starts_with("```");
+    if (is_fence && !inside && languages.contains(line.substr(3))) {
+      blocks.emplace_back();
+      inside = true;
+    } else if (is_fence) {
+      inside = false;
+    } else if (inside) {
+      blocks.back() += line + "\n";
+    }
+  }
+  return blocks;
+}
+
 /// What stands in the first column of a Markdown table, without backticks.
 std::vector<std::string> first_column(const std::string& table) {
   std::istringstream lines(table);
@@ -66,6 +85,18 @@ TEST_CASE("every scene names the schema, which is there", "[unit]") {
 
 TEST_CASE("systems/README.md has the slots of a step in order", "[unit]") {
   CHECK(first_column(block(text_of(source + "/systems/README.md"), "<!-- slots -->")) == slot_names());
+}
+
+TEST_CASE("the code in systems/README.md is that of the examples, which are built and run", "[unit]") {
+  std::string examples;
+  for (const std::string folder : {"/tools/example_system/", "/tools/example_scheme/"}) {
+    for (const std::string file : {"main.cpp", "scene.json", "CMakeLists.txt"}) {
+      examples += text_of(source + folder + file);
+    }
+  }
+  const auto blocks = code_blocks(text_of(source + "/systems/README.md"), {"cpp", "json", "cmake"});
+  CHECK(blocks.size() >= 10);
+  for (const std::string& code : blocks) CHECK_THAT(examples, Catch::Contains(code));
 }
 
 TEST_CASE("the example in scenes/README.md is valid", "[unit]") {

@@ -41,12 +41,9 @@ struct GatherVelocity {
   double strain = 0;    // [1]
 
   GatherVelocity() = default;
-  explicit GatherVelocity(Input& in)
-      : rotation(
-            in.number("rotation",
-                      {.doc = "share of the turning that particles keep", .fallback = 1, .at_least = 0, .at_most = 1})),
-        strain(in.number(
-            "strain", {.doc = "share of the strain that particles keep", .fallback = 0, .at_least = 0, .at_most = 1})) {
+  explicit GatherVelocity(Input& in) {
+    rotation = in.number("rotation", {.doc = "share of the turning kept", .fallback = 1, .at_least = 0, .at_most = 1});
+    strain = in.number("strain", {.doc = "share of the strain kept", .fallback = 0, .at_least = 0, .at_most = 1});
   }
 
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
