@@ -99,14 +99,15 @@ TEST_CASE("the code in systems/README.md is that of the examples, which are buil
   for (const std::string& code : blocks) CHECK_THAT(examples, Catch::Contains(code));
 }
 
-TEST_CASE("the example in scenes/README.md is valid", "[unit]") {
+TEST_CASE("the scene to begin with in scenes/README.md is valid, has as many particles as it says, and runs",
+          "[unit]") {
   const std::string text = text_of(source + "/scenes/README.md");
-  const auto from = text.find("```json\n") + 8;
   const Folder folder;
-  std::ofstream(folder / "example.json") << text.substr(from, text.find("```", from) - from);
-  const ProgramOutput check = output_of_program(folder / "", {"check", "example.json"});
+  std::ofstream(folder / "pool.json") << code_blocks(text, {"json"}).at(0);
+  const ProgramOutput check = output_of_program(folder / "", {"check", "pool.json"});
   CHECK(check.err.empty());
-  CHECK(check.code == 0);
+  CHECK_THAT(text, Catch::Contains("`" + check.out.substr(0, check.out.find('\n')) + "`"));
+  CHECK(output_of_program(folder / "", {"run", "pool.json", "--steps", "3", "--quiet"}).code == 0);
 }
 
 TEST_CASE("scenes/README.md names every function of expressions", "[unit]") {
