@@ -110,6 +110,23 @@ TEST_CASE("the scene to begin with in scenes/README.md is valid, has as many par
   CHECK(output_of_program(folder / "", {"run", "pool.json", "--steps", "3", "--quiet"}).code == 0);
 }
 
+TEST_CASE("scenes/README.md names every column and every key that a run writes", "[unit]") {
+  const std::string text = text_of(source + "/scenes/README.md");
+  const Folder folder;
+  REQUIRE(output_of_program(folder / "",
+                            {"run", source + "/scenes/poiseuille.json", "--steps", "0", "--quiet", "--out", "out"})
+              .code == 0);
+  std::istringstream history(text_of(folder / "out/history.csv"));
+  std::string header;
+  std::getline(history, header);
+  std::istringstream columns(header);
+  for (std::string name; std::getline(columns, name, ',');) CHECK_THAT(text, Catch::Contains("`" + name + "`"));
+  const Json summary = read_json(folder / "out/summary.json");
+  for (const Json& object : {summary, summary["build"], summary["conservation"], summary["systems"][0]}) {
+    for (const auto& [key, value] : object.items()) CHECK_THAT(text, Catch::Contains("`" + key + "`"));
+  }
+}
+
 TEST_CASE("scenes/README.md names every function of expressions", "[unit]") {
   const std::string text = text_of(source + "/scenes/README.md");
   std::set<std::string> words;
