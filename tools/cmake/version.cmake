@@ -8,7 +8,7 @@ string(JOIN " " minamo_flags
   ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${minamo_configuration}} ${minamo_public_options} ${minamo_private_options})
 
 if(MINAMO_SANITIZE)
-  string(APPEND minamo_flags " -fsanitize=address,undefined")
+  string(APPEND minamo_flags " sanitizer: ${MINAMO_SANITIZE}")
 endif()
 
 # What -march=native means here; other compilers than GCC do not tell.
