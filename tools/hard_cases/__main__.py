@@ -27,7 +27,7 @@ except ModuleNotFoundError as missing:
 
 from case import Case
 from catalogue import CASES, SECTIONS
-from judge import Judged, judge
+from judge import Judged, judge, packed, unpacked
 from methods import INTEGRATORS, METHODS, SCHEMES, VOLUMES, Method
 from page import lines_of, page, version
 from runs import ROOT, SuiteFailed
@@ -86,10 +86,29 @@ def judge_all(cases: list[Case], options: argparse.Namespace, folder: Path) -> d
         for method in methods(case, options):
             of_method[method.name] = judge(case, method, options.program.resolve(), folder)
         results[case.name] = {"version": version(options.program), "methods": of_method,
-                              "wall_s": time.monotonic() - begin}
+                              "wall_s": round(time.monotonic() - begin, 1)}
         print(f"{case.name} ({results[case.name]['wall_s']:.1f} s)", *lines_of(case, of_method), sep="\n  ",
               file=sys.stderr, flush=True)
     return results
+
+
+def load(path: Path) -> dict[str, Any]:
+    """results.json, if there is one."""
+    known = json.loads(path.read_text()) if path.is_file() else {}
+    for result in known.values():
+        result["methods"] = {name: unpacked(entry) for name, entry in result["methods"].items()}
+    return known
+
+
+def dump(results: dict[str, Any]) -> str:
+    """A line per case and method."""
+    lines = []
+    for case, result in results.items():
+        methods = ",\n".join(f"  {json.dumps(name)}: {json.dumps(packed(judged))}"
+                             for name, judged in result["methods"].items())
+        head = json.dumps({key: result[key] for key in ("version", "wall_s")})[1:-1]
+        lines.append(f"{json.dumps(case)}: {{{head}, \"methods\": {{\n{methods}}}}}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
 def write(path: Path, text: str) -> None:
@@ -111,9 +130,9 @@ def main() -> None:
         results = judge_all(chosen(options), options, options.keep.resolve() if options.keep else Path(folder))
     if options.scheme or options.integrator or options.volume:
         return
-    known = json.loads(NUMBERS.read_text()) if NUMBERS.is_file() else {}
+    known = load(NUMBERS)
     results = {case.name: (known | results)[case.name] for case in CASES if case.name in known | results}
-    write(NUMBERS, json.dumps(results, indent=1) + "\n")
+    write(NUMBERS, dump(results))
     write(RESULTS, page(results))
     print(RESULTS.relative_to(ROOT))
 

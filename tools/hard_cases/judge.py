@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -10,30 +11,53 @@ from case import Case
 from methods import Method
 from runs import DONE, run
 
-Judged = dict[str, Any]
+NOTHING = 1e308  # stands for a number that is not finite
+
+
+@dataclass
+class Judged:
+    """What became of it."""
+
+    ended: list[str]  # a word per run
+    steps: int = 0
+    rejected: int = 0  # steps taken back and repeated
+    said: str = ""  # by the first run that did not come to its end
+    values: dict[str, float] = field(default_factory=dict)  # by check
+    notes: dict[str, float] = field(default_factory=dict)
+    broken: list[str] = field(default_factory=list)  # checks
+    silent: bool = False
+
+    @property
+    def kept_all(self) -> bool:
+        return not self.broken and set(self.ended) == {"done"}
 
 
 def judge(case: Case, method: Method, program: Path, folder: Path) -> Judged:
-    """What results.json holds of it."""
     runs = [run(program, scene, method, folder / f"{case.name}_{method.name}_{k}", case.seconds)
             for k, scene in enumerate(case.scenes)]
-    judged: Judged = {
-        "ended": [one.ended for one in runs],
-        "said": [one.message.splitlines()[0] if one.message else "" for one in runs if one.exit != DONE],
-        "time": [float(one.history["time"][-1]) if one.history else 0.0 for one in runs],
-        "steps": sum(one.summary.get("steps", 0) for one in runs),
-        "put_back": sum(one.summary.get("put_back", 0) for one in runs),
-        "rejected": sum(one.summary.get("rejected_steps", 0) for one in runs),
-        "wall_s": sum(one.summary.get("wall_s", 0.0) for one in runs),
-        "values": {check.name: number(check.measure(runs)) for check in case.checks},
-        "notes": {name: number(note(runs)) for name, note in case.notes.items()},
-    }
-    judged["broken"] = [check.name for check in case.checks if not judged["values"][check.name] <= check.limit]
-    garbage = any(check.garbage and check.name in judged["broken"] for check in case.checks)
-    judged["silent"] = garbage and all(ended == "done" for ended in judged["ended"])
+    values = {check.name: number(check.measure(runs)) for check in case.checks}
+    broken = [check for check in case.checks if not values[check.name] <= check.limit]
+    judged = Judged([one.ended for one in runs],
+                    steps=sum(one.summary.get("steps", 0) for one in runs),
+                    rejected=sum(one.summary.get("rejected_steps", 0) for one in runs),
+                    said=next((one.message.split("\n")[0] for one in runs if one.exit != DONE), ""),
+                    values=values,
+                    notes={name: number(note(runs)) for name, note in case.notes.items()},
+                    broken=[check.name for check in broken])
+    judged.silent = any(check.garbage for check in broken) and set(judged.ended) == {"done"}
     return judged
 
 
 def number(value: float) -> float:
-    """What JSON has a word for."""
-    return value if math.isfinite(value) else 1e308
+    """Three digits, and what JSON has a word for."""
+    return float(f"{value:.3g}") if math.isfinite(value) else NOTHING
+
+
+def packed(judged: Judged) -> dict[str, Any]:
+    """For results.json: what is neither empty nor zero."""
+    full = asdict(judged) | {"values": {name: value for name, value in judged.values.items() if value != 0}}
+    return {key: value for key, value in full.items() if value}
+
+
+def unpacked(entry: dict[str, Any]) -> Judged:
+    return Judged(**entry)

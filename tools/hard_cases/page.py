@@ -8,12 +8,11 @@ from typing import Any
 
 from case import Case, Check
 from catalogue import ABOUT, CASES, SECTIONS
-from judge import Judged
+from judge import NOTHING, Judged
 from methods import METHODS, SCHEMES, Method, listed
 
-Results = dict[str, Any]  # by case: version, methods, wall_s
+Results = dict[str, Any]  # by case: version, wall_s, methods (name: Judged)
 BY_NAME = {method.name: method for method in METHODS}
-NOTHING = 1e308  # what stands for infinity in results.json
 
 
 def version(program: Path) -> str:
@@ -26,14 +25,14 @@ def shown(value: float) -> str:
 
 
 def worst_of(check: Check, of_method: dict[str, Judged]) -> float:
-    return max(judged["values"][check.name] for judged in of_method.values())
+    return max(judged.values.get(check.name, 0.0) for judged in of_method.values())
 
 
 def broken_lines(case: Case, of_method: dict[str, Judged]) -> list[str]:
     """A sentence per check that some method broke."""
     lines = []
     for check in case.checks:
-        broken = {name: judged for name, judged in of_method.items() if check.name in judged["broken"]}
+        broken = {name: judged for name, judged in of_method.items() if check.name in judged.broken}
         if broken:
             methods = listed(BY_NAME[name] for name in broken)
             lines.append(f"{methods}: {check.broken}, {shown(worst_of(check, broken))} {check.unit} "
@@ -45,16 +44,16 @@ def ending_lines(case: Case, of_method: dict[str, Judged]) -> list[str]:
     """A sentence per way to end that is not the end of the scene."""
     lines = []
     for ended in ("stopped", "crashed", "hung"):
-        some = {name: judged for name, judged in of_method.items() if ended in judged["ended"]}
+        some = {name: judged for name, judged in of_method.items() if ended in judged.ended}
         if some:
-            said = next((line for judged in some.values() for line in judged["said"] if line), "")
+            said = next(iter(some.values())).said
             lines.append(f"{listed(BY_NAME[name] for name in some)}: {ended}, \"{said}\"")
     return lines
 
 
 def lines_of(case: Case, of_method: dict[str, Judged]) -> list[str]:
     lines = ending_lines(case, of_method) + broken_lines(case, of_method)
-    silent = [BY_NAME[name] for name, judged in of_method.items() if judged["silent"]]
+    silent = [BY_NAME[name] for name, judged in of_method.items() if judged.silent]
     if silent:
         lines.append(f"in silence: {listed(silent)}")
     return lines
@@ -75,16 +74,12 @@ names them. What is checked, and why the limits are what they are: [checks.py](.
 """
 
 
-def keeps_all(judged: Judged) -> bool:
-    return not judged["broken"] and set(judged["ended"]) == {"done"}
-
-
 def cell(scheme: str, of_method: dict[str, Judged]) -> str:
     """How many methods with a scheme kept everything, of how many."""
     some = [judged for name, judged in of_method.items() if BY_NAME[name].scheme == scheme]
     if not some:
         return ""
-    kept = sum(map(keeps_all, some))
+    kept = sum(judged.kept_all for judged in some)
     return f"{kept}" if kept == len(some) else f"**{kept} of {len(some)}**"
 
 
@@ -100,9 +95,9 @@ def note_lines(case: Case, of_method: dict[str, Judged]) -> list[str]:
     """From the least to the most of what has no limit."""
     lines = []
     for name in case.notes:
-        values = [judged["notes"][name] for judged in of_method.values()]
+        values = [judged.notes.get(name, 0.0) for judged in of_method.values()]
         lines.append(f"{name}: {shown(min(values))} to {shown(max(values))}")
-    rejected = sum(judged["rejected"] for judged in of_method.values())
+    rejected = sum(judged.rejected for judged in of_method.values())
     return lines + ([f"steps taken back and repeated with a shorter one: {rejected}"] if rejected else [])
 
 
@@ -122,17 +117,17 @@ def section(name: str, results: Results) -> str:
 def totals(results: Results) -> str:
     """Runs and their ends, over all cases."""
     all_judged = [judged for result in results.values() for judged in result["methods"].values()]
-    ended = [end for judged in all_judged for end in judged["ended"]]
-    finite = sum(judged["values"].get("finite", 0) > 0 for judged in all_judged)
+    ended = [end for judged in all_judged for end in judged.ended]
+    finite = sum(judged.values.get("finite", 0) > 0 for judged in all_judged)
     lines = [("cases", len(results)), ("cases with a method", len(all_judged)),
-             ("... that kept everything", sum(map(keeps_all, all_judged))),
-             ("... that failed in silence", sum(judged["silent"] for judged in all_judged)),
+             ("... that kept everything", sum(judged.kept_all for judged in all_judged)),
+             ("... that failed in silence", sum(judged.silent for judged in all_judged)),
              ("... that left values that are not finite", finite),
-             ("... that lost particles", sum("particles" in judged["broken"] for judged in all_judged)),
+             ("... that lost particles", sum("particles" in judged.broken for judged in all_judged)),
              ("runs", len(ended)), ("runs that stopped and said so", ended.count("stopped")),
              ("runs that crashed", ended.count("crashed")), ("runs that did not end in time", ended.count("hung")),
-             ("steps", sum(judged["steps"] for judged in all_judged)),
-             ("steps taken back and repeated", sum(judged["rejected"] for judged in all_judged))]
+             ("steps", sum(judged.steps for judged in all_judged)),
+             ("steps taken back and repeated", sum(judged.rejected for judged in all_judged))]
     table = "".join(f"| {name} | {count} |\n" for name, count in lines)
     versions = sorted({result["version"] for result in results.values()})
     seconds = sum(result["wall_s"] for result in results.values())
