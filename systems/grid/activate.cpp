@@ -2,27 +2,47 @@
 
 namespace minamo {
 
-namespace {
-
-double mean_mass(Read<node::Mass> m_i) {
+double light_mass(std::span<const double> m_i) {
   double mass = 0;
   std::size_t count = 0;
   for (const double m : m_i) {
     mass += m;
     count += m > 0;
   }
-  return count == 0 ? 0 : mass / static_cast<double>(count);
+  return count == 0 ? 0 : 1e-4 * mass / static_cast<double>(count);
+}
+
+namespace {
+
+/// The node of a wall, or of a corner, that a node lies next to; the node itself where there is none.
+template <int Dim>
+Index<Dim> on_wall(const Grid<Dim>& grid, Index<Dim> site) {
+  for (std::size_t d = 0; d < Dim; ++d) {
+    if (grid.periodic[d]) continue;
+    if (site[d] == 1) site[d] = 0;
+    if (site[d] == grid.cells[d] - 1) site[d] = grid.cells[d];
+  }
+  return site;
 }
 
 }  // namespace
 
 template <int Dim>
-void Activate<Dim>::operator()(Read<node::Mass> m_i, Resize<ActiveNodes> rows, Write<node::Row> row,
+void Activate<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> wet, Read<node::Site<Dim>> site,
+                               Read<node::Mass> m_i, Resize<ActiveNodes> rows, Write<node::Row> row,
                                Write<matrix::Node> node) const {
-  // (E7): the rows of lighter nodes are noise to the solver and their accelerations are noise to the particles.
-  const double light = 1e-4 * mean_mass(m_i);
+  // (E7): the rows of lighter nodes are noise to the solver and their accelerations are noise to the particles. Not so
+  // next to a wall: water that lies flat on it gives the first node inside hardly any mass but all of its thickening,
+  // since the slope of its weight does not vanish, (E2). In free flight it would thin the water out for ever.
+  const double light = light_mass(m_i.span());
+  const auto lies_on_wall = [&](std::size_t i) {
+    const Index<Dim> wall = on_wall<Dim>(*grid, site[i]);
+    if (wall == site[i] || m_i[i] == 0) return false;
+    const auto at_wall = wet->find(wall);
+    return at_wall && m_i[*at_wall] > light;
+  };
   std::int32_t count = 0;
-  for (std::size_t i = 0; i < m_i.size(); ++i) row[i] = m_i[i] > light ? count++ : -1;
+  for (std::size_t i = 0; i < m_i.size(); ++i) row[i] = m_i[i] > light || lies_on_wall(i) ? count++ : -1;
   rows.resize(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < m_i.size(); ++i) {
     if (row[i] >= 0) node[static_cast<std::size_t>(row[i])] = static_cast<std::uint32_t>(i);

@@ -130,6 +130,21 @@ inline Vec<Dim> fold(const Grid<Dim>& grid, const Vec<Dim>& y) {
   return stays ? y : fold_back<Dim>(grid, y);
 }
 
+/// Particles keep off walls by this share of h. On a wall they would give the nodes next to it weight zero and a slope;
+/// and those that come to it again and again would be closer to each other than rounding.
+constexpr double off_wall = 1e-6;
+
+/// A point, moved off the walls that it is too near to or beyond.
+template <int Dim>
+inline Vec<Dim> keep_off_walls(const Grid<Dim>& grid, Vec<Dim> y) {
+  const double margin = off_wall * grid.spacing;
+  for (int d = 0; d < Dim; ++d) {
+    if (grid.periodic[static_cast<std::size_t>(d)]) continue;
+    y[d] = std::clamp(y[d], grid.low[d] + margin, grid.high[d] - margin);
+  }
+  return y;
+}
+
 /// Calls body(place in cells.cells, cell), side by side. For kernels that write rows of their particles or cells only.
 template <int Dim, class Body>
 void for_each_cell(const OccupiedCells<Dim>& cells, const Body& body) {

@@ -9,7 +9,9 @@ namespace {
 template <int Dim>
 void configure(double time, const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, std::span<const Vec<Dim>> v_p,
                std::span<Vec<Dim>> y_p) {
-  for_each_row(x_p.size(), [&](std::size_t p) { y_p[p] = fold<Dim>(grid, Vec<Dim>(x_p[p] + time * v_p[p])); });
+  for_each_row(x_p.size(), [&](std::size_t p) {
+    y_p[p] = keep_off_walls<Dim>(grid, fold<Dim>(grid, Vec<Dim>(x_p[p] + time * v_p[p])));
+  });
 }
 
 }  // namespace

@@ -6,8 +6,6 @@ namespace minamo {
 
 template <int Dim>
 Placed<Dim> inside_box(const Grid<Dim>& grid, Vec<Dim> x) {
-  // Not on the wall itself, so that particles that come back again and again stay apart from it by more than rounding.
-  const double margin = 1e-6 * grid.spacing;
   bool put_back = false;
   for (int d = 0; d < Dim; ++d) {
     if (x[d] >= grid.low[d] && x[d] <= grid.high[d]) continue;
@@ -16,10 +14,9 @@ Placed<Dim> inside_box(const Grid<Dim>& grid, Vec<Dim> x) {
       x[d] -= length * std::floor((x[d] - grid.low[d]) / length);
     } else {
       put_back = true;
-      x[d] = std::clamp(x[d], grid.low[d] + margin, grid.high[d] - margin);
     }
   }
-  return {x, put_back};
+  return {keep_off_walls<Dim>(grid, x), put_back};
 }
 
 template <int Dim>

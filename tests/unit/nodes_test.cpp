@@ -27,6 +27,21 @@ TEST_CASE("nodes with more than 1e-4 of the mean mass of nodes with mass are act
   CHECK(rows({2, 0, 0.9e-4, 2, 1.1e-4, 0}, world) == std::vector<std::int32_t>{0, -1, -1, 1, 2, -1});
 }
 
+TEST_CASE("a node with hardly any mass is active next to a node of a wall that has some", "[unit]") {
+  World world;
+  set_grid<2>(world, small_grid<2>());
+  const Grid<2>& grid = world.resource<Grid<2>>();
+  std::vector<double> masses(grid.node_count(), 0);
+  const auto at = [&](int i, int j) { return grid.row({i, j}); };
+  for (const std::size_t heavy : {at(3, 0), at(0, 0), at(3, 3)}) masses[heavy] = 1;
+  for (const std::size_t light : {at(3, 1), at(1, 1), at(4, 3), at(6, 3)}) masses[light] = 1e-12;
+  const auto row = rows(masses, world);
+  CHECK(row[at(3, 1)] >= 0);   // beside the floor
+  CHECK(row[at(1, 1)] >= 0);   // in a corner
+  CHECK(row[at(4, 3)] == -1);  // inside, where light nodes are at the edge of a support
+  CHECK(row[at(6, 3)] == -1);  // beside a wall that is dry
+}
+
 TEST_CASE("a row of the matrix knows its node", "[unit]") {
   World world;
   rows({0, 1, 0, 1}, world);
