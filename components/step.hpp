@@ -60,6 +60,12 @@ struct LargestMove {
   static constexpr ComponentInfo info{"step.largest_move", "", "1", Lifetime::constant};
 };
 
+/// Length of the step whose forces particles carry the gradient of. [s]
+struct ForceStep {
+  double seconds = 0;
+  static constexpr ComponentInfo info{"step.of_forces", "dt", "s", Lifetime::state};
+};
+
 /// Particles that a step would have carried out of the box, so far. [1]
 struct PutBack {
   std::int64_t count = 0;

@@ -1,5 +1,6 @@
 #include "systems/solve/inertia.hpp"
 
+#include "systems/grid/activate.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/solve/moments.hpp"
 
@@ -49,18 +50,22 @@ void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
 }  // namespace
 
 template <int Dim>
-void AddInertiaCorrection<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
+void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Read<Grid<Dim>> grid,
+                                           Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
                                            Read<Moments<Dim>> moments, Read<particle::Mass> m_p,
                                            Read<particle::ForceGradient<Dim>> grad_f_p, Read<node::Row> row,
                                            Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
                                            Write<node::InertiaCorrection<Dim>> c_i,
                                            Update<matrix::RightHandSide> right_hand_side) const {
   scatter_first_moment<Dim>(*grid, *cells, fluid->density, *moments, m_p.span(), grad_f_p.span(), c_i.span());
+  const double share = std::min(1.0, step->seconds / clock->step);
+  const double light = light_mass(m_i.span());
   for_each_row(c_i.size(), [&](std::size_t i) {
-    if (row[i] < 0) {
+    // What the liquid does to a light node next to a wall is not to come back to it as inertia of its own.
+    if (row[i] < 0 || m_i[i] <= light) {
       c_i[i].setZero();
     } else {
-      c_i[i] /= m_i[i];
+      c_i[i] *= share / m_i[i];
       hold<Dim>(fixed[i], c_i[i]);
     }
   });
@@ -75,7 +80,8 @@ template <int Dim>
 void G2PForceGradient<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                                        Read<Moments<Dim>> moments, Read<node::Velocity<Dim>> v_old,
                                        Read<node::NewVelocity<Dim>> v_new, Read<node::InertiaCorrection<Dim>> c_i,
-                                       Write<particle::ForceGradient<Dim>> grad_f_p) const {
+                                       Write<particle::ForceGradient<Dim>> grad_f_p, Write<ForceStep> step) const {
+  step->seconds = clock->step;
   const double per_step = 1 / clock->step;
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);

@@ -4,6 +4,7 @@
 #include "components/cells.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
+#include "components/step.hpp"
 #include "engine/clock.hpp"
 
 using namespace minamo;
@@ -125,6 +126,24 @@ TEMPLATE_TEST_CASE_SIG("the inertia correction is the first moment of the forces
   CHECK((held > 0) == at_wall);
   // Moments whose coefficients cancel: 1e-15 measured.
   CHECK(worst < 1e-13 * largest);
+}
+
+TEST_CASE("forces of a short step count in a long one only for as long as they acted", "[property]") {
+  const double ratio = GENERATE(0.25, 1.0, 4.0);
+  CAPTURE(ratio);
+  SceneRun even(lump<2>(true));
+  SceneRun uneven(lump<2>(true));
+  even.step(2);
+  uneven.step(2);
+  uneven.world().resource<ForceStep>().seconds *= ratio;
+  even.step();
+  uneven.step();
+  const auto c_i = even.world().column<node::InertiaCorrection<2>>();
+  const auto c_uneven = uneven.world().column<node::InertiaCorrection<2>>();
+  REQUIRE(c_i.size() == c_uneven.size());
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < c_i.size(); ++i) wrong += c_uneven[i] != Vec<2>(std::min(1.0, ratio) * c_i[i]);
+  CHECK(wrong == 0);  // powers of two leave nothing to round
 }
 
 TEMPLATE_TEST_CASE_SIG("the force gradient is that of force over lumped mass", "[property]", ((int Dim), Dim), 2, 3) {
