@@ -1,0 +1,34 @@
+# Runs a case of tools/stability, has it judge a program that leaves garbage, and asks for a case that is not there.
+# In: PYTHON, PROGRAM, SOURCE.
+
+set(stability ${PYTHON} -B ${SOURCE}/tools/hard_cases)
+
+function(require_in text part)
+  string(FIND "${text}" "${part}" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "no \"${part}\" in\n${text}")
+  endif()
+endfunction()
+
+# All names of all sections are made for this, so every scene is at least built.
+execute_process(COMMAND ${stability} --list OUTPUT_VARIABLE names COMMAND_ERROR_IS_FATAL ANY)
+require_in("${names}" "  drops_cfl_2 ")
+
+set(method --scheme pic --integrator midpoint --volume none)
+execute_process(COMMAND ${stability} --program ${PROGRAM} lone_particle ${method} ERROR_VARIABLE said
+  COMMAND_ERROR_IS_FATAL ANY)
+if(NOT said MATCHES "^lone_particle \\([0-9.]+ s\\)\n$")
+  message(FATAL_ERROR "a particle in free fall does not keep everything:\n${said}")
+endif()
+
+execute_process(COMMAND ${stability} --program ${SOURCE}/tests/stability/garbage lone_particle ${method}
+  ERROR_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+foreach(part "gave values that are not finite" "lost particles, 1 particles" "left the parabola" "in silence: pic with")
+  require_in("${said}" "${part}")
+endforeach()
+
+execute_process(COMMAND ${stability} drop_cfl_2 RESULT_VARIABLE status ERROR_VARIABLE message)
+if(NOT status EQUAL 2)
+  message(FATAL_ERROR "an unknown name: status ${status}")
+endif()
+require_in("${message}" "unknown name \"drop_cfl_2\"; nearest: drops_cfl_2")
