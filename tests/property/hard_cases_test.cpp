@@ -2,6 +2,7 @@
 
 #include "support/scenes.hpp"
 
+#include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/node.hpp"
 

@@ -1,7 +1,7 @@
 """Runs hard cases with every method and writes tests/stability/RESULTS.md.
 
-tools/stability                          all cases but the long ones, every method: about XX minutes
-tools/stability --long                   the long ones alone: about XX minutes
+tools/stability                          all cases but the long ones, every method
+tools/stability --long                   the long ones alone, some minutes each
 tools/stability impact drops_cfl_2       sections and cases; the rest of the page stays as it is
 tools/stability drops_cfl_2 --scheme flip --volume none --keep out/drops    some methods, nothing written but the runs
 """

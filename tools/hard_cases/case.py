@@ -36,5 +36,5 @@ class Case:
     checks: list[Check]
     notes: dict[str, Callable[[Runs], float]] = field(default_factory=dict)  # numbers without a limit
     methods: list[Method] = field(default_factory=lambda: METHODS)
-    seconds: float = 60  # that a run may take
+    seconds: int = 60  # of the processor that a run may take
     long: bool = False

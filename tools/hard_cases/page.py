@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import subprocess
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
 from case import Case, Check
 from catalogue import ABOUT, CASES, SECTIONS
 from judge import NOTHING, Judged
-from methods import METHODS, SCHEMES, Method, listed
+from methods import METHODS, SCHEMES, listed
+from reasons import REASONS, reason
 
 Results = dict[str, Any]  # by case: version, wall_s, methods (name: Judged)
 BY_NAME = {method.name: method for method in METHODS}
@@ -135,5 +137,16 @@ def totals(results: Results) -> str:
             f"| in all | |\n| --- | ---: |\n{table}")
 
 
+def reasons(results: Results) -> str:
+    """How many exceptions have which cause."""
+    counts = Counter(reason(case, check, BY_NAME[name]) for case in CASES if case.name in results
+                     for check in case.checks for name, judged in results[case.name]["methods"].items()
+                     if check.name in judged.broken)
+    text = "\n## Why\n\n"
+    text += "".join(f"- {REASONS[k].text} {counts[k]} of the exceptions below.\n" for k in sorted(
+        k for k in counts if k is not None))
+    return text + f"- Not understood: {counts[None]}.\n"
+
+
 def page(results: Results) -> str:
-    return HEAD + totals(results) + "".join(section(name, results) for name in SECTIONS)
+    return HEAD + totals(results) + reasons(results) + "".join(section(name, results) for name in SECTIONS)

@@ -47,13 +47,13 @@ def down(dimension: int, g: float = 9.75) -> list[float]:
     return [0.0] * (dimension - 1) + [-g]
 
 
-def dam_break(cells: int = 16, per_cell: int = 2, end: float = 1.5, step: float = 4e-3, **more: Any) -> Scene:
+def dam_break(cells: int = 16, per_cell: int = 2, end: float = 1.0, step: float = 4e-3, **more: Any) -> Scene:
     """A column a quarter as wide and half as high as a tank of 1 m."""
     return scene([cells, cells], 1 / cells, [box([0, 0], [0.25, 0.5], per_cell)], end, step,
                  body_force=down(2)) | more
 
 
-def dam_break_in_space(cells: int = 12, per_cell: int = 2, end: float = 0.6, step: float = 8e-3, **more: Any) -> Scene:
+def dam_break_in_space(cells: int = 12, per_cell: int = 2, end: float = 0.5, step: float = 8e-3, **more: Any) -> Scene:
     """The same in the corner of a tank of 1 m x 1/2 m x 1 m."""
     return scene([cells, cells // 2, cells], 1 / cells, [box([0, 0, 0], [0.25, 0.25, 0.5], per_cell)], end, step,
                  body_force=down(3)) | more

@@ -52,7 +52,7 @@ def cases() -> list[Case]:
         case("sheet_upright", "a sheet one particle thick, standing, collapses",
              scene([32, 16], H, [box([1.0, 0], [1.03125, 0.75])], 0.8, 0.004, body_force=down(2))),
         Case("sheet_turning", "impact", "a sheet one particle thick that turns about its middle, free",
-             [scene([32, 32], H, [box([0.5, 1.0], [1.5, 1.03125], 2, ["-(y-1.015625)*4", "(x-1)*4"])], 0.5, 0.01)],
+             [scene([32, 32], H, [box([0.5, 1.0], [1.5, 1.03125], 2, ["-(y-1.015625)*4", "(x-1)*4"])], 0.4, 0.01)],
              [*ALWAYS, ENERGY, MOMENTUM]),
         case("jet_into_corner", "a jet of 12 cells that hits a corner at 45 degrees and 5 m/s",
              scene([32, 32], H, [{"shape": {"where": "abs(x-y) < 0.25 && x+y > 0.75 && x+y < 2"}, "per_cell": 2,
@@ -61,7 +61,7 @@ def cases() -> list[Case]:
              with_cfl(scene([32, 32], H, [{"shape": {"where": "abs(x-y) < 0.25 && x+y > 0.75 && x+y < 2"},
                                            "per_cell": 2, "velocity": [-3.5, -3.5]}], 0.6, 0.004), 2)),
         case("jet_into_corner_in_space", "a jet that hits a corner of three walls",
-             scene([12, 12, 12], 1 / 12, [{"shape": {
-                 "where": "abs(x-y) < 0.2 && abs(y-z) < 0.2 && abs(x-z) < 0.2 && x+y+z > 0.75 && x+y+z < 1.75"},
+             scene([8, 8, 8], 1 / 8, [{"shape": {
+                 "where": "abs(x-y) < 0.25 && abs(y-z) < 0.25 && abs(x-z) < 0.25 && x+y+z > 0.75 && x+y+z < 1.75"},
                  "per_cell": 2, "velocity": [-3.0, -3.0, -3.0]}], 0.4, 0.01)),
     ]

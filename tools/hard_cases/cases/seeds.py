@@ -15,7 +15,7 @@ def cases() -> list[Case]:
 
     column = [0.0, 0.0], [0.25, 0.5]
     made = [case(f"per_cell_{n * n}", f"dam break, {n * n} per cell", dam_break(per_cell=n, end=end))
-            for n, end in ((1, 1.5), (2, 1.5), (6, 1.0), (10, 0.6))]
+            for n, end in ((1, 1.0), (2, 1.0), (6, 0.8), (10, 0.4))]
     for n in (1, 2, 4):
         made.append(case(f"cloud_{n * n}", f"dam break, {n * n} per cell at random places",
                          dam_break(particles=[box(*column, n, arrangement="jittered", seed=7)])))

@@ -30,9 +30,9 @@ def case(name: str, what: str, of: Scene, length: float, time: float, density: f
 
 
 def cases() -> list[Case]:
-    water = dam_break(end=1.0, step=1 / 256)
-    oil = dam_break(end=1.0, step=1 / 256, fluid={"density": 1000.0, "viscosity": 10.0})
-    space = dam_break_in_space(8, end=0.25, step=1 / 128)
+    water = dam_break(end=0.5, step=1 / 256)
+    oil = dam_break(end=0.5, step=1 / 256, fluid={"density": 1000.0, "viscosity": 10.0})
+    space = dam_break_in_space(8, end=0.125, step=1 / 128)
     micro, macro, brief, slow = 2.0**-20, 2.0**14, 2.0**-30, 2.0**20
     return [
         case("length_2_to_-20", "lengths of 1e-6 m", water, micro, 1.0),

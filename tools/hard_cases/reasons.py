@@ -1,0 +1,50 @@
+"""What is behind the exceptions, in words; each with the broken checks that it explains."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from case import Case, Check
+from methods import Method
+
+GAINED = ("energy", "speed", "pressure")
+
+
+@dataclass(frozen=True)
+class Reason:
+    text: str
+    explains: Callable[[Case, Check, Method], bool]
+
+
+def squeezes(case: Case, check: Check, method: Method) -> bool:
+    return check.name == "volume"
+
+
+# A broken check goes to the first reason that explains it.
+REASONS = [
+    Reason("*No way out to the side.* In `sheet_upright` particles stand exactly above each other. The water spreads, but "
+           "they stay on one line: nothing pushes them to the left or to the right, and a volume correction has no "
+           "direction either.",
+           lambda case, check, method: case.name == "sheet_upright" and check.name == "volume"),
+    Reason("*Momentum at light nodes.* A pressure also pushes nodes that are too light to be solved for, (E15), and that "
+           "push is lost. In a drop it is less than 1e-5 of the momentum; of two lone particles that meet it is more.",
+           lambda case, check, method: check.name in ("momentum", "centre")),
+    Reason("*Newmark's method after impacts.* With beta = 1/4 and gamma = 1/2 it carries the acceleration from step to step "
+           "and never damps it. An impact, or a long step after a short one, leaves an oscillation that grows where the "
+           "steps are long or the volume is corrected. The midpoint rule, the default, carries none.",
+           lambda case, check, method: method.integrator == "newmark" and check.name in GAINED),
+    Reason("*Steps too long for the correction.* The volume correction gives back a tenth of the excess per step. With "
+           "steps in which the water crosses a cell or more, an impact squeezes faster than that.", squeezes),
+    Reason("*Corrected inertia of single particles* (tpic, apic). The correction takes the gradient of forces; where a "
+           "cell holds one or two particles there is none to speak of. `\"inertia\": \"lumped\"` is exact there.",
+           lambda case, check, method: method.scheme in ("tpic", "apic") and check.name in GAINED),
+    Reason("*Noise of FLIP and of pushed particles.* FLIP keeps velocities that the grid does not see, and the delta "
+           "correction moves particles one by one; both come back as energy where cells hold few particles.",
+           lambda case, check, method: method.integrator == "midpoint" and check.name in GAINED),
+]
+
+
+def reason(case: Case, check: Check, method: Method) -> int | None:
+    """Which one explains that a method broke a check of a case; none if that is not understood."""
+    return next((k for k, one in enumerate(REASONS) if one.explains(case, check, method)), None)
