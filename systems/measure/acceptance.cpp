@@ -2,6 +2,7 @@
 
 #include "engine/parallel.hpp"
 #include "engine/step_control.hpp"
+#include "systems/grid/activate.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
@@ -31,13 +32,14 @@ double length(const Vec<Dim>& u) {
 
 template <int Dim>
 void require_moderate(const Grid<Dim>& grid, double cells, std::span<const Index<Dim>> site,
-                      std::span<const Vec<Dim>> u_i) {
-  const double largest = reduce_rows(
-      u_i.size(), 0.0, [&](std::size_t i) { return length<Dim>(u_i[i]); },
-      [](double x, double y) { return std::max(x, y); });
+                      std::span<const double> m_i, std::span<const Vec<Dim>> u_i) {
+  // A light node moves particles by next to nothing, however far it moves itself.
+  const double light = light_mass(m_i);
+  const auto move = [&](std::size_t i) { return m_i[i] <= light && u_i[i].allFinite() ? 0 : length<Dim>(u_i[i]); };
+  const double largest = reduce_rows(u_i.size(), 0.0, move, [](double x, double y) { return std::max(x, y); });
   if (largest <= cells * grid.spacing) return;
   std::size_t worst = 0;
-  while (length<Dim>(u_i[worst]) < largest) ++worst;
+  while (move(worst) < largest) ++worst;
   throw StepRejected(fmt::format("solve: node {} moves by {} cells, more than {}",
                                  fmt::format("({})", fmt::join(site[worst], ", ")),
                                  text<Vec<Dim>>(u_i[worst] / grid.spacing), cells));
@@ -63,17 +65,17 @@ void require_finite(const measure::Energy& energy, const measure::Momentum<Dim>&
 
 template <int Dim>
 void AcceptStep<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance,
-                                 Read<SolveReport> solve, Read<node::Site<Dim>> site, Read<node::Displacement<Dim>> u_i,
-                                 Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
-                                 Read<particle::Velocity<Dim>> v_p, Read<measure::Energy> energy,
-                                 Read<measure::Momentum<Dim>> momentum, Read<measure::Overlap> overlap,
-                                 Read<RunTotals> so_far) const {
+                                 Read<SolveReport> solve, Read<node::Site<Dim>> site, Read<node::Mass> m_i,
+                                 Read<node::Displacement<Dim>> u_i, Read<particle::Id> id,
+                                 Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                                 Read<measure::Energy> energy, Read<measure::Momentum<Dim>> momentum,
+                                 Read<measure::Overlap> overlap, Read<RunTotals> so_far) const {
   const double residual = std::max(largest_residual, tolerance->relative);
   if (!(solve->residual <= residual)) {
     throw StepRejected(fmt::format("solve: |r|/|b| = {:.3g} after {} iterations, more than {:.3g} ({} unknowns)",
                                    solve->residual, solve->iterations, residual, solve->unknowns));
   }
-  require_moderate<Dim>(*grid, largest->cells, site.span(), u_i.span());
+  require_moderate<Dim>(*grid, largest->cells, site.span(), m_i.span(), u_i.span());
   require_finite<Dim>(*energy, *momentum, id.span(), x_p.span(), v_p.span());
   if (!(overlap->value <= so_far->overlap + largest_growth_of_overlap)) {
     throw StepRejected(fmt::format("advect: the overlap grows from {:.3g} to {:.3g} of the liquid in one step",

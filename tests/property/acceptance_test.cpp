@@ -66,6 +66,14 @@ TEST_CASE("a step that cannot be trusted is rejected with its place and value", 
   CHECK_THROWS_WITH(accept(world), Catch::Contains(message));
 }
 
+TEST_CASE("a light node may move as far as it likes, for it moves no particle", "[property]") {
+  SceneRun run(coarse_dam_break());
+  run.step(3);
+  run.world().column<node::Mass>()[7] = 1e-12;
+  run.world().column<node::Displacement<2>>()[7] = {11 * run.world().resource<Grid<2>>().spacing, 0};
+  CHECK_NOTHROW(accept(run.world()));
+}
+
 TEST_CASE("a velocity that is not finite is found in the step in which it appears", "[property]") {
   SceneRun run(coarse_dam_break());
   run.step(3);
