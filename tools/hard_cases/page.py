@@ -142,10 +142,11 @@ def reasons(results: Results) -> str:
     counts = Counter(reason(case, check, BY_NAME[name]) for case in CASES if case.name in results
                      for check in case.checks for name, judged in results[case.name]["methods"].items()
                      if check.name in judged.broken)
-    text = "\n## Why\n\n"
+    text = ("\n## What the exceptions have in common\n\nSorted by case and method; that each has this cause alone has not "
+            "been shown.\n\n")
     text += "".join(f"- {REASONS[k].text} {counts[k]} of the exceptions below.\n" for k in sorted(
         k for k in counts if k is not None))
-    return text + f"- Not understood: {counts[None]}.\n"
+    return text + f"- Others: {counts[None]}.\n"
 
 
 def page(results: Results) -> str:

@@ -1,4 +1,4 @@
-"""What is behind the exceptions, in words; each with the broken checks that it explains."""
+"""What exceptions have in common, in words; each with the broken checks that it is likely to explain."""
 
 from __future__ import annotations
 
