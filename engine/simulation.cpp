@@ -42,8 +42,7 @@ class Stepper {
   void plan(double next_frame) {
     const double uncut = wanted();
     const double step = uncut * control_.share();
-    double target = plan_.step ? next_tick(uncut) : clock_.time + step;
-    if (!plan_.step) target = std::min(target, std::max(next_frame, clock_.time + 1e-3 * step));
+    double target = plan_.step ? next_tick(uncut) : towards(std::min(next_frame, plan_.end), step);
     // The last step may be shorter than its ticks.
     ticks_ = plan_.step && target < plan_.end + 1e-6 * step ? control_.ticks_ahead() : 0;
     if (target > plan_.end - 1e-6 * step) target = plan_.end;
@@ -59,6 +58,14 @@ class Stepper {
   }
 
  private:
+  /// Where a step of at most that length ends on the way to a time that is to be met. A rest of less than two steps is
+  /// taken in halves: a sliver after a long step is hard on integrators that carry accelerations from one to the next.
+  double towards(double goal, double step) const {
+    const double rest = goal - clock_.time;
+    if (rest >= 2 * step) return clock_.time + step;
+    if (rest > (1 + 1e-3) * step) return clock_.time + rest / 2;
+    return std::max(goal, clock_.time + 1e-3 * step);
+  }
   double next_tick(double uncut) const {
     const double tick = uncut / static_cast<double>(StepControl::ticks_per_step);
     return static_cast<double>(control_.ticks + control_.ticks_ahead()) * tick;

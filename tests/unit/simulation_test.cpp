@@ -119,7 +119,10 @@ TEST_CASE("a chosen step is shortened to meet frames and the end", "[unit]") {
   CHECK(run.log().frames[1] == 0.25);
   CHECK(run.log().frames[2] == 0.5);
   CHECK(run.clock().time == 1.0);
-  CHECK(run.log().steps.size() == 16);  // four times 3 x 0.07 + 0.04
+  REQUIRE(run.log().steps.size() == 16);  // four times 2 x 0.07 + 2 x 0.055
+  CHECK(run.log().steps[1] == 0.07);
+  CHECK(run.log().steps[2] == Approx(0.055).epsilon(1e-14));  // half of 0.25 - 0.14, roundings
+  CHECK(run.log().steps[3] == Approx(0.055).epsilon(1e-14));
 }
 
 TEST_CASE("a run stops after its largest number of steps, with a frame", "[unit]") {
