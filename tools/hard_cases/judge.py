@@ -11,6 +11,7 @@ from case import Case
 from methods import Method
 from runs import DONE, run
 
+WARNING = "energy rose by"  # the program's, at the end of a run
 NOTHING = 1e308  # stands for a number that is not finite
 
 
@@ -44,7 +45,8 @@ def judge(case: Case, method: Method, program: Path, folder: Path) -> Judged:
                     values=values,
                     notes={name: number(note(runs)) for name, note in case.notes.items()},
                     broken=[check.name for check in broken])
-    judged.silent = any(check.garbage for check in broken) and set(judged.ended) == {"done"}
+    judged.silent = (any(check.garbage for check in broken) and set(judged.ended) == {"done"}
+                     and not any(WARNING in one.message for one in runs))
     return judged
 
 
