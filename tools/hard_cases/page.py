@@ -18,8 +18,9 @@ BY_NAME = {method.name: method for method in METHODS}
 
 
 def version(program: Path) -> str:
-    return subprocess.run([str(program.resolve()), "--version"], text=True, capture_output=True,
-                          check=False).stdout.strip()
+    """Without the facts of the build, which stand in the lines below."""
+    said = subprocess.run([str(program.resolve()), "--version"], text=True, capture_output=True, check=False).stdout
+    return said.partition("\n")[0].removeprefix("minamo ")
 
 
 def shown(value: float) -> str:
