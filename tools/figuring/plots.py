@@ -2,98 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter, ScalarFormatter
 
+from reporting.histories import Plot, plots
 from reporting.runs import Run, labels
 
 COLOURS = 3 * ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")  # told apart by all eyes
 STYLES = ("solid", (0, (4, 1.5)), (0, (1, 1)))
-AXES = "xyz"
-
-
-@dataclass(frozen=True)
-class Panel:
-    """Columns of history.csv that share a unit."""
-
-    title: str
-    columns: dict[str, str]  # column: its name in the legend
-    unit: str = ""
-    logarithmic: bool = False
-
-
-def panels(runs: list[Run]) -> list[Panel]:
-    """What is worth a panel: nothing that is empty, or always zero, in all runs. Several runs: a column per panel."""
-    per_metre = all(run.dimension == 2 for run in runs)
-    shown = [_with_columns(panel, runs) for panel in _known_panels(per_metre) + _further_panels(runs)]
-    shown = [panel for panel in shown if panel.columns]
-    return shown if len(runs) == 1 else [single for panel in shown for single in _one_by_one(panel)]
-
-
-def _known_panels(per_metre: bool) -> list[Panel]:
-    """Columns of every run; in the plane, quantities per metre of depth."""
-    energy, momentum, angular = ("J/m", "N s/m", "J s/m") if per_metre else ("J", "N s", "J s")
-    turning = {"angular_momentum": ""} | {f"angular_momentum_{axis}": axis for axis in AXES}
-    return [
-        Panel("energy", {f"{kind}_energy": kind for kind in ("kinetic", "potential", "total")}, energy),
-        Panel("momentum", {f"momentum_{axis}": axis for axis in AXES}, momentum),
-        Panel("angular momentum", turning, angular),
-        Panel("largest speed", {"max_speed": ""}, "m/s"),
-        Panel("largest divergence", {"max_divergence": ""}, "1/s"),
-        Panel("overlap / volume", {"overlap": ""}, "1"),
-        Panel("error of the velocity", {"error_velocity": ""}, "", True),
-        Panel("error of the pressure", {"error_pressure": ""}, "", True),
-        Panel("active nodes", {"active_nodes": ""}),
-        Panel("iterations", {"iterations": ""}),
-        Panel("residual, relative", {"residual": ""}, "1", True),
-        Panel("time step", {"dt": ""}, "s"),
-    ]
-
-
-def _further_panels(runs: list[Run]) -> list[Panel]:
-    """Probes and what other systems have added."""
-    known = {column for panel in _known_panels(True) for column in panel.columns} | {"step", "time"}
-    further = dict.fromkeys(column for run in runs for column in run.history if column not in known)
-    return [Panel(column.replace("_", " "), {column: ""}, _unit_of_probe(column)) for column in further]
-
-
-def _unit_of_probe(column: str) -> str:
-    return "Pa" if column.endswith("_pressure") else "m/s" if "_velocity_" in column else ""
-
-
-def series(run: Run, column: str) -> np.ndarray | None:
-    """A column of the history; the sum of the energies is made here."""
-    if column == "total_energy":
-        parts = [run.history.get(name) for name in ("kinetic_energy", "potential_energy")]
-        return None if any(part is None for part in parts) else parts[0] + parts[1]
-    return run.history.get(column)
-
-
-def _with_columns(panel: Panel, runs: list[Run]) -> Panel:
-    columns = {column: name for column, name in panel.columns.items()
-               if any(_says_something(series(run, column), column) for run in runs)}
-    return Panel(panel.title, columns, panel.unit, panel.logarithmic)
-
-
-def _says_something(values: np.ndarray | None, column: str) -> bool:
-    if values is None or not np.any(np.nan_to_num(values)):
-        return False
-    return column != "dt" or np.ptp(values[1:-1]) > 1e-9 * values.max() if len(values) > 3 else True
-
-
-def _one_by_one(panel: Panel) -> list[Panel]:
-    many = len(panel.columns) > 1
-    return [Panel(f"{name} {panel.title}" if many else panel.title, {column: ""}, panel.unit, panel.logarithmic)
-            for column, name in panel.columns.items()]
 
 
 def draw_history(runs: list[Run], width: float = 10.0, across: int = 3) -> Figure | None:
     """A panel per quantity, a colour per run."""
-    shown = panels([run for run in runs if run.history])
+    shown = plots([run for run in runs if run.history])
     if not shown:
         return None
     down = -(-len(shown) // across)
@@ -113,10 +36,10 @@ def draw_history(runs: list[Run], width: float = 10.0, across: int = 3) -> Figur
     return figure
 
 
-def _draw_panel(axes, panel: Panel, runs: list[Run]) -> None:
+def _draw_panel(axes, panel: Plot, runs: list[Run]) -> None:
     for k, run in enumerate(runs):
         for j, (column, name) in enumerate(panel.columns.items()):
-            values = series(run, column)
+            values = run.series(column)
             if values is not None:
                 axes.plot(run.history["time"], values, linestyle=STYLES[j], label=name, linewidth=0.8,
                           color=COLOURS[k if len(runs) > 1 else j])
