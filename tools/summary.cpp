@@ -1,5 +1,6 @@
 #include "tools/summary.hpp"
 
+#include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
@@ -9,6 +10,7 @@
 
 #include "minamo_version.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -59,13 +61,23 @@ Json last_errors(World& world) {
   return errors;
 }
 
+/// |b|, where it is constant. [m/s^2]
+double constant_force(const BodyForce& b) {
+  double squared = 0;
+  for (const Expression& component : b.of_place_and_time) {
+    if (!component.is_constant()) return 0;
+    squared += component({}) * component({});
+  }
+  return std::sqrt(squared);
+}
+
 /// (E59)
 double energy_rise(double mass, World& world) {
   const bool in_plane = world.has<Grid<2>>();
   const double h = in_plane ? world.resource<Grid<2>>().spacing : world.resource<Grid<3>>().spacing;
-  // A millionth of a cell per step.
   const double slow = 1e-6 * h / world.resource<Clock>().step;
-  return world.resource<RunTotals>().energy.share(mass * slow * slow);
+  const double fall = 0.01 * h * constant_force(world.resource<BodyForce>());
+  return world.resource<RunTotals>().energy.share(mass * (slow * slow + fall));
 }
 
 }  // namespace

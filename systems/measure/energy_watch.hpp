@@ -3,7 +3,6 @@
 /// Whether a run has gained energy that nothing gave it.
 
 #include <algorithm>
-#include <cmath>
 
 namespace minamo {
 
@@ -32,11 +31,10 @@ struct EnergyWatch {
     potential_max = std::max(potential_max, potential);
   }
 
-  /// (E59)  The rise over what was there to exchange: the largest of K_max, U_max - U_min, 1e-4 |U| and `negligible`.
-  /// \param negligible  what rounding may move [J]
-  double share(double negligible) const {
-    const double potential = 1e-4 * std::max(std::abs(potential_min), std::abs(potential_max));
-    const double scale = std::max({kinetic_max, potential_max - potential_min, potential, negligible});
+  /// (E59)  The rise over what was there to exchange: the largest of K_max, U_max - U_min and `least`.
+  /// \param least  an energy that the grid can tell from zero [J]
+  double share(double least) const {
+    const double scale = std::max({kinetic_max, potential_max - potential_min, least});
     return scale > 0 ? rise / scale : 0;
   }
 };

@@ -71,7 +71,7 @@ names them. What is checked, and why the limits are what they are: [checks.py](.
 - A number is how many of the methods with this scheme (newmark and midpoint, each with volume correction none, delta and
   projection) kept everything that the case asks for; what the others broke stands below the table.
 - *In silence*: the program said it was done and nothing more, but what it left is not finite, has lost particles, has an
-  absurd speed or pressure or has gained more than 1 % of energy. It warns of a gain of more than 1.5 % by itself.
+  absurd speed or pressure or has gained more than 1 % of energy.
 - *Stopped*: the program ended by itself, with exit code 3, a message and a checkpoint.
 - *Squeezed* is asked of delta and projection alone; without a volume correction nothing keeps particles apart.
 """
