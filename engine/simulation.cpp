@@ -123,7 +123,7 @@ class Loop {
   }
 
  private:
-  bool is_over() const { return clock_.time >= plan_.end || (plan_.max_steps && clock_.index >= *plan_.max_steps); }
+  bool is_over() const { return minamo::is_over(plan_, clock_); }
 
   /// One accepted step, after as many attempts as it takes.
   void take_step(double next_frame) {
@@ -190,6 +190,10 @@ std::string last_words(const Loop& loop, std::string message) {
 }
 
 }  // namespace
+
+bool is_over(const TimePlan& plan, const Clock& clock) {
+  return clock.time >= plan.end || (plan.max_steps && clock.index >= *plan.max_steps);
+}
 
 Outcome run_simulation(World& world, Schedule& start, Schedule& step, Schedule& frame, const TimePlan& plan,
                        const Observers& observers, const std::atomic<bool>& stop, Beginning beginning) {

@@ -23,6 +23,9 @@ struct TimePlan {
   std::optional<std::int64_t> max_steps;      ///< of the whole run
 };
 
+/// Whether nothing is left to do at that time.
+bool is_over(const TimePlan& plan, const Clock& clock);
+
 /// What the loop calls; each may be empty.
 struct Observers {
   std::function<void(const Clock&)> after_step;

@@ -41,9 +41,7 @@ StoredFields read_fields(const Hdf5File& file) {
   const auto size = file.read_bytes(dataset::size);
   std::copy(size.begin(), size.end(), std::as_writable_bytes(std::span(&fields.image.size, 1)).begin());
   fields.image.others = file.read_bytes(dataset::others);
-  for (const auto& frame : fields.frames) {
-    fields.image.unchanging.insert(fields.image.unchanging.end(), frame.extents.begin(), frame.extents.end());
-  }
+  fields.image.unchanging = extents_of(fields.frames);
   return fields;
 }
 

@@ -38,10 +38,6 @@ void open_output(const fs::path& folder, World& world) {
   world.resource<FieldsFile>().folder = folder.string();
 }
 
-bool is_over(const TimePlan& plan, const Clock& clock) {
-  return clock.time >= plan.end || (plan.max_steps && clock.index >= *plan.max_steps);
-}
-
 /// Makes the output, or takes it up where the checkpoint was written.
 /// \return whether there is anything left to run
 bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& times, World& world) {

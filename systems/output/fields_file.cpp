@@ -1,15 +1,20 @@
 #include "systems/output/fields_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace minamo {
 
+std::vector<Extent> extents_of(const std::vector<FieldsFile::Frame>& frames) {
+  std::vector<Extent> data;
+  for (const FieldsFile::Frame& frame : frames) data.insert(data.end(), frame.extents.begin(), frame.extents.end());
+  std::sort(data.begin(), data.end(), [](const Extent& x, const Extent& y) { return x.offset < y.offset; });
+  return data;
+}
+
 FileImage image_of(const FieldsFile& fields) {
   if (fields.frames.empty()) return {};
-  std::vector<Extent> data;
-  for (const FieldsFile::Frame& frame : fields.frames)
-    data.insert(data.end(), frame.extents.begin(), frame.extents.end());
-  return FileImage::of(fields.path(), data);
+  return FileImage::of(fields.path(), extents_of(fields.frames));
 }
 
 void begin_frame(FieldsFile& fields, double time, std::size_t particles) {

@@ -29,6 +29,9 @@ struct FieldsFile {
   std::string path() const { return folder + "/fields.h5"; }
 };
 
+/// Where the data of frames lie in the file, in rising order.
+std::vector<Extent> extents_of(const std::vector<FieldsFile::Frame>& frames);
+
 /// The file as it is now. \pre no frame is being written.
 FileImage image_of(const FieldsFile& fields);
 

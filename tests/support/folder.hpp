@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <unistd.h>
 
@@ -37,6 +38,16 @@ inline std::string text_of(const std::string& path) {
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
+}
+
+/// Files of two folders that are not byte for byte the same.
+inline std::vector<std::string> differing_files(const std::string& a, const std::string& b,
+                                                const std::vector<std::string>& names) {
+  std::vector<std::string> differing;
+  for (const std::string& name : names) {
+    if (text_of(a + "/" + name) != text_of(b + "/" + name)) differing.push_back(name);
+  }
+  return differing;
 }
 
 }  // namespace minamo
