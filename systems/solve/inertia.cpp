@@ -1,12 +1,19 @@
 #include "systems/solve/inertia.hpp"
 
 #include "systems/grid/activate.hpp"
+#include "systems/grid/node_volume.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/solve/moments.hpp"
 
 namespace minamo {
 
 namespace {
+
+/// How full the node of a dual cell is where its particles count as spray, and where they count as liquid. A cell full
+/// of particles that is alone has 0.44, a particle that is alone among them 0.03 to 0.14, one at a corner of a body
+/// 0.7.
+constexpr double spray = 0.2;
+constexpr double liquid = 0.4;
 
 /// The factors of a product of weights, with `special` in direction d.
 template <int Dim>
@@ -35,11 +42,14 @@ Mat<Dim> mean(const typename OccupiedCells<Dim>::Cell& cell, std::span<const dou
 template <int Dim>
 void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, double density,
                           const Moments<Dim>& moments, std::span<const double> m_p, std::span<const Mat<Dim>> grad_f_p,
-                          std::span<Vec<Dim>> out) {
+                          std::span<const double> m_i, std::span<Vec<Dim>> out) {
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
   for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(grid, cell);
-    const Mat<Dim> gradient = density * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
+    const double filled = m_i[support.own()] / (density * full_volume<Dim>(grid, cell.node));
+    const double share = std::clamp((filled - spray) / (liquid - spray), 0.0, 1.0);
+    if (share == 0) return;
+    const Mat<Dim> gradient = share * density * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
     for (int d = 0; d < Dim; ++d) {
       const auto way = integrate<Dim>(moments.of_cell[c], node_factors<Dim>(support, d, &AxisBasis::of_distance));
       for (std::size_t k = 0; k < way.size(); ++k) out[support.node[k]] += way[k] * gradient.col(d);
@@ -57,7 +67,8 @@ void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> st
                                            Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
                                            Write<node::InertiaCorrection<Dim>> c_i,
                                            Update<matrix::RightHandSide> right_hand_side) const {
-  scatter_first_moment<Dim>(*grid, *cells, fluid->density, *moments, m_p.span(), grad_f_p.span(), c_i.span());
+  scatter_first_moment<Dim>(*grid, *cells, fluid->density, *moments, m_p.span(), grad_f_p.span(), m_i.span(),
+                            c_i.span());
   const double share = std::min(1.0, step->seconds / clock->step);
   const double light = light_mass(m_i.span());
   for_each_row(c_i.size(), [&](std::size_t i) {

@@ -1,83 +1,114 @@
 #include "systems/solve/velocity_block.hpp"
 
 #include "engine/step_control.hpp"
-#include "systems/solve/cholesky.hpp"
+
+#include <algorithm>
 
 namespace minamo {
 
 namespace {
 
-/// Above this ratio of friction to inertia the diagonal alone converges too slowly.
-constexpr double most_friction = 0.5;
-
-template <int Dim>
-double largest_friction(const EquationTerms<Dim>& t) {
-  constexpr std::size_t own = stencil_size<Dim> / 2;
-  double largest = 0;
-  for (std::size_t r = 0; r < t.viscosity.size(); ++r) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const double friction = t.c_v * t.viscosity[r][Dim * (Dim * own + d) + d];
-      largest = std::max(largest, friction / (t.c_a * t.m_i[t.node[r]]));
-    }
-  }
-  return largest;
-}
+/// Ratio of friction to inertia from which on an unknown is stiff where few are, and where many are: a pass more over
+/// what the diagonal has left costs less than a large factorization.
+constexpr double friction_of_few = 3e-3;
+constexpr double friction_of_many = 0.5;
+constexpr std::size_t few = 10;  ///< one of so many
 
 }  // namespace
 
+/// Calls body(unknown, entry of c_v K) for the neighbours of an unknown that no wall holds.
 template <int Dim>
-struct VelocityBlock<Dim>::Factors : SparseCholesky {};
-
-template <int Dim>
-VelocityBlock<Dim>::VelocityBlock() : factors_(std::make_unique<Factors>()) {}
-template <int Dim>
-VelocityBlock<Dim>::~VelocityBlock() = default;
-
-/// The lower triangle of a row of A for component e; that of a held component is a row of the identity.
-template <int Dim>
-void VelocityBlock<Dim>::add_row(std::size_t r, std::size_t e) {
-  const auto held = [&](std::size_t row, std::size_t d) { return schur_->mobility()[Dim * row + d] == 0; };
+template <class Body>
+void VelocityBlock<Dim>::for_each_friction(std::size_t unknown, const Body& body) const {
+  const std::size_t r = unknown / Dim;
+  const double* of_row = terms_.viscosity[r].data() + Dim * (unknown % Dim);
   schur_->blocks().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
-    if (r_j > r) return;
-    for (std::size_t d = 0; d < (r_j == r ? e + 1 : Dim); ++d) {
-      const bool diagonal = r_j == r && d == e;
-      if (held(r, e) || held(r_j, d)) {
-        if (diagonal) factors_->add(Dim * r + e, Dim * r + e, 1);
-        continue;
-      }
-      const double friction = terms_.c_v * terms_.viscosity[r][Dim * (Dim * k + e) + d];
-      const double inertia = diagonal ? terms_.c_a * terms_.m_i[terms_.node[r]] : 0;
-      if (diagonal || friction != 0) factors_->add(Dim * r + e, Dim * r_j + d, inertia + friction);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (schur_->mobility()[Dim * r_j + d] != 0) body(Dim * r_j + d, terms_.c_v * of_row[Dim * Dim * k + d]);
     }
   });
+}
+
+/// What a row of A has beside its diagonal, over its inertia.
+template <int Dim>
+void VelocityBlock<Dim>::find_friction() {
+  constexpr std::size_t own = stencil_size<Dim> / 2;
+  friction_.resize(Dim * terms_.viscosity.size());
+  for_each_row(terms_.viscosity.size(), [&](std::size_t r) {
+    const double* of_row = terms_.viscosity[r].data();
+    const double per_inertia = terms_.c_v / (terms_.c_a * terms_.m_i[terms_.node[r]]);
+    for (std::size_t e = 0; e < Dim; ++e) {
+      double sum = -std::abs(of_row[Dim * (Dim * own + e) + e]);
+      for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+        for (std::size_t d = 0; d < Dim; ++d) sum += std::abs(of_row[Dim * (Dim * k + e) + d]);
+      }
+      friction_[Dim * r + e] = schur_->mobility()[Dim * r + e] == 0 ? 0 : per_inertia * sum;
+    }
+  });
+}
+
+/// The unknowns with more friction than `least` are stiff, the largest friction of the others is the error.
+template <int Dim>
+void VelocityBlock<Dim>::collect_stiff(double least) {
+  stiff_.clear();
+  error_ = 0;
+  for (std::size_t i = 0; i < friction_.size(); ++i) {
+    if (friction_[i] > least) {
+      stiff_.push_back(static_cast<std::uint32_t>(i));
+    } else {
+      error_ = std::max(error_, friction_[i]);
+    }
+  }
+}
+
+template <int Dim>
+void VelocityBlock<Dim>::factorize() {
+  place_.assign(Dim * terms_.node.size(), -1);
+  for (std::size_t i = 0; i < stiff_.size(); ++i) place_[stiff_[i]] = static_cast<std::int32_t>(i);
+  of_stiff_.resize(stiff_.size());
+  factors_.start(stiff_.size());
+  for (std::size_t i = 0; i < stiff_.size(); ++i) {
+    const double inertia = terms_.c_a * terms_.m_i[terms_.node[stiff_[i] / Dim]];
+    for_each_friction(stiff_[i], [&](std::size_t unknown, double value) {
+      const bool diagonal = unknown == stiff_[i];
+      if (place_[unknown] < 0 || unknown > stiff_[i] || (value == 0 && !diagonal)) return;
+      factors_.add(i, static_cast<std::size_t>(place_[unknown]), diagonal ? inertia + value : value);
+    });
+  }
+  if (!factors_.factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
 template <int Dim>
 void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchur<Dim>& schur) {
   terms_ = t;
   schur_ = &schur;
-  // A row of K adds up to zero, and its entries besides the diagonal to at most three times that.
-  const double friction = 3 * largest_friction(t);
-  factorized_ = friction > most_friction;
-  error_ = factorized_ ? 0 : friction;
-  if (!factorized_) return;
-  factors_->start(Dim * t.node.size());
-  for (std::size_t r = 0; r < t.node.size(); ++r) {
-    for (std::size_t e = 0; e < Dim; ++e) add_row(r, e);
-  }
-  if (!factors_->factorize()) throw StepRejected("solve: the velocity block is not positive definite");
+  find_friction();
+  collect_stiff(friction_of_few);
+  if (few * stiff_.size() > friction_.size()) collect_stiff(friction_of_many);
+  if (!stiff_.empty()) factorize();
 }
 
 template <int Dim>
-void VelocityBlock<Dim>::solve(Values& v) const {
-  if (!factorized_) {
+void VelocityBlock<Dim>::solve(Values& v) {
+  if (stiff_.empty()) {
     for_each_row(v.size(), [&](std::size_t i) { v[i] *= schur_->mobility()[i]; });
     return;
   }
   for_each_row(v.size(), [&](std::size_t i) {
-    if (schur_->mobility()[i] == 0) v[i] = 0;
+    if (place_[i] < 0) v[i] *= schur_->mobility()[i];
   });
-  factors_->solve(v);
+  for_each_row(
+      stiff_.size(),
+      [&](std::size_t i) {
+        double sum = v[stiff_[i]];
+        for_each_friction(stiff_[i], [&](std::size_t unknown, double value) {
+          if (place_[unknown] < 0) sum -= value * v[unknown];
+        });
+        of_stiff_[i] = sum;
+      },
+      256);
+  factors_.solve(of_stiff_);
+  for (std::size_t i = 0; i < stiff_.size(); ++i) v[stiff_[i]] = of_stiff_[i];
 }
 
 template <int Dim>
@@ -86,6 +117,9 @@ void VelocityBlock<Dim>::find_rest(const Values& u, Values& out) const {
   using Vector = Eigen::Map<const Eigen::Matrix<double, Dim, 1>>;
   constexpr std::size_t own = stencil_size<Dim> / 2;
   const auto& blocks = schur_->blocks();
+  const auto is_exact = [&](std::size_t i) {
+    return schur_->mobility()[i] == 0 || (!stiff_.empty() && place_[i] >= 0);
+  };
   for_each_row(
       blocks.rows(),
       [&](std::size_t r) {
@@ -97,7 +131,7 @@ void VelocityBlock<Dim>::find_rest(const Values& u, Values& out) const {
         for (std::size_t d = 0; d < Dim; ++d) {
           const double diagonal = of_row[Dim * (Dim * own + d) + d];
           const double rest = diagonal * u[Dim * r + d] - sum[static_cast<Eigen::Index>(d)];
-          out[Dim * r + d] = schur_->mobility()[Dim * r + d] == 0 ? 0 : terms_.c_v * rest;
+          out[Dim * r + d] = is_exact(Dim * r + d) ? 0 : terms_.c_v * rest;
         }
       },
       256);

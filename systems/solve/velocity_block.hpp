@@ -1,41 +1,47 @@
 #pragma once
 /// \file
-/// The velocity block A = c_a m + c_v K of the equations of a step, and its inverse: the diagonal where viscosity is
-/// small against inertia, a sparse Cholesky factorization where it is not.
+/// The velocity block A = c_a m + c_v K of the equations of a step, and about its inverse. Unknowns whose friction is
+/// large against their inertia (all of them in viscous liquids; in water those of light nodes beside walls) are
+/// stiff, s; the others n have the diagonal d for A_nn:
+///
+/// (E60)  A^ = [d_n, 0; A_sn, A_ss], with a sparse Cholesky factorization of A_ss. A^ - A has rows n only, which add up
+/// to a small part of the diagonal.
 
+#include "systems/solve/cholesky.hpp"
 #include "systems/solve/pressure_schur.hpp"
-
-#include <memory>
 
 namespace minamo {
 
 template <int Dim>
 class VelocityBlock {
  public:
-  VelocityBlock();
-  ~VelocityBlock();
   /// \param schur  assembled from the same terms; its blocks and mobility are kept by reference
   /// \throws StepRejected if the factorization fails.
   void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur);
-  /// How much of a vector about is left of v - A solve(v): 0 if solve() is the inverse, else it divides by the
-  /// diagonal.
+  /// How much of a vector about is left of v - A solve(v); 0 if solve() is the inverse.
   double error() const { return error_; }
   /// Whether solve() multiplies by the mobility of the Schur complement.
-  bool is_mobility() const { return !factorized_; }
-  /// v = A^-1 v; zero towards walls.
-  void solve(Values& v) const;
-  /// What dividing by the diagonal has left of a right-hand side, out = (diagonal of A - A) u; zero towards walls.
+  bool is_mobility() const { return stiff_.empty(); }
+  /// v = A^^-1 v; zero towards walls.
+  void solve(Values& v);
+  /// What solve() has left of a right-hand side, out = (A^ - A) u; zero towards walls.
   void find_rest(const Values& u, Values& out) const;
 
  private:
-  void add_row(std::size_t r, std::size_t e);
+  void find_friction();
+  void collect_stiff(double least);
+  void factorize();
+  template <class Body>
+  void for_each_friction(std::size_t unknown, const Body& body) const;
 
-  struct Factors;
-  std::unique_ptr<Factors> factors_;
   const PressureSchur<Dim>* schur_ = nullptr;
   EquationTerms<Dim> terms_{};
+  Values friction_;                   ///< of every unknown, over its inertia
+  std::vector<std::uint32_t> stiff_;  ///< unknowns Dim r + d
+  std::vector<std::int32_t> place_;   ///< of every unknown in `stiff_`, -1 if it is not there
+  SparseCholesky factors_;
+  Values of_stiff_;
   double error_ = 0;
-  bool factorized_ = false;
 };
 
 }  // namespace minamo
