@@ -95,7 +95,7 @@ struct Scene {
   std::vector<ParticleScene> particles;
   std::string transfer;
   TransferScheme transfer_scheme;  ///< of that name
-  double flip_blend = 1;
+  double flip_blend = 0.99;
   int xpic_order = 2;
   bool corrected_inertia = false;
   std::string integrator;
