@@ -10,7 +10,7 @@ namespace minamo {
 namespace {
 
 /// How full the node of a dual cell is where its particles count as spray, and where they count as liquid. A cell full
-/// of particles that is alone has 0.44, a particle that is alone among them 0.03 to 0.14, one at a corner of a body
+/// of particles that is alone has 0.44, a particle of 2 x 2 that is alone in it at most 0.14, one at a corner of a body
 /// 0.7.
 constexpr double spray = 0.2;
 constexpr double liquid = 0.4;

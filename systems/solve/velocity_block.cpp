@@ -8,10 +8,9 @@ namespace minamo {
 
 namespace {
 
-/// Ratio of friction to inertia from which on an unknown is stiff where few are, and where many are: a pass more over
-/// what the diagonal has left costs less than a large factorization.
-constexpr double friction_of_few = 3e-3;
-constexpr double friction_of_many = 0.5;
+/// Ratios of friction to inertia from which on an unknown may count as stiff. The smallest is taken that leaves few:
+/// what they cost is to be less than a pass over what the diagonal has left.
+constexpr std::array friction_of_stiff = {1e-3, 1e-2, 1e-1, 0.5};
 constexpr std::size_t few = 10;  ///< one of so many
 
 }  // namespace
@@ -83,8 +82,10 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
   terms_ = t;
   schur_ = &schur;
   find_friction();
-  collect_stiff(friction_of_few);
-  if (few * stiff_.size() > friction_.size()) collect_stiff(friction_of_many);
+  for (const double least : friction_of_stiff) {
+    collect_stiff(least);
+    if (few * stiff_.size() <= friction_.size()) break;
+  }
   if (!stiff_.empty()) factorize();
 }
 

@@ -2,6 +2,7 @@
 #include "support/scenes.hpp"
 
 #include "components/cells.hpp"
+#include "components/fluid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "components/step.hpp"
@@ -60,17 +61,36 @@ std::vector<Mat<Dim>> cell_means(World& world, const std::vector<Mat<Dim>>& q_p)
   return means;
 }
 
+/// w_c of (E53) at a point: how full the nearest node is, zero up to a fifth, one from two fifths on.
+template <int Dim>
+double share_at(World& world, const std::vector<double>& m_i, const Vec<Dim>& y) {
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  Index<Dim> nearest;
+  double volume = 1;
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    const int node = static_cast<int>(std::lround((y[d] - grid.low[d]) / grid.spacing));
+    const int from_wall = std::min(node, grid.cells[axis] - node);
+    volume *= grid.spacing * (from_wall == 0 ? 13.0 / 24 : from_wall == 1 ? 23.0 / 24 : 1);
+    nearest[axis] = node;
+  }
+  const double filled = m_i[grid.row(nearest)] / (world.resource<Fluid>().density * volume);
+  return std::min(1.0, std::max(0.0, 5 * filled - 1));
+}
+
 /// m_I c_I of (E53) by a plain loop over particles and nodes.
 template <int Dim>
 std::vector<Vec<Dim>> first_moment(World& world, const std::vector<Mat<Dim>>& gradient) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  const auto m_i = kernels::on_grid<Dim, node::Mass>(world);
   const auto y_p = world.column<particle::Configuration<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   std::vector<Vec<Dim>> sum(grid.node_count(), Vec<Dim>(Vec<Dim>::Zero()));
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     const kernels::PlainWeights<Dim> w(grid, y_p[p]);
+    const double share = share_at<Dim>(world, m_i, y_p[p]);
     for (std::size_t i = 0; i < sum.size(); ++i) {
-      sum[i] += w.value[i] * m_p[p] * (gradient[p] * (grid.position(grid.index(i)) - y_p[p]));
+      sum[i] += share * w.value[i] * m_p[p] * (gradient[p] * (grid.position(grid.index(i)) - y_p[p]));
     }
   }
   return sum;
@@ -196,4 +216,22 @@ TEST_CASE("the force gradient of a lone particle does not feed on itself", "[pro
   run.step();
   // Only gravity acts on it, and the trace of its own motion; 3e-3 of 4 were measured. With c in (E54) all would stay.
   CHECK(gradient[0].norm() < 0.02);
+}
+
+TEST_CASE("velocity gradients do not grow in spray", "[property]") {
+  // The front meets the far wall at 0.3 s and sprays up to 0.5 s.
+  SceneRun run(with(scene_of_file("dam_break.json"),
+                    {"/grid/cells=[80, 80]", "/time/step=4e-3", R"(/integrator={"scheme": "midpoint"})",
+                     R"(/volume={"scheme": "projection"})", R"(/transfer={"scheme": "tpic"})"}));
+  const double h = run.world().resource<Grid<2>>().spacing;
+  double largest = 0;
+  for (int k = 0; k < 125; ++k) {
+    run.step();
+    for (const Mat<2>& gradient : run.world().column<particle::VelocityGradient<2>>()) {
+      largest = std::max(largest, h * gradient.norm());
+    }
+  }
+  // 4.6 m/s were measured, between the speed of the front and that of what it sprays. Corrected wherever there is mass,
+  // a node moves by 137 cells at 0.41 s, which is no step to be accepted.
+  CHECK(largest < 6);
 }
