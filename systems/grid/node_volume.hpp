@@ -21,6 +21,21 @@ double full_volume(const Grid<Dim>& grid, const Index<Dim>& site) {
   return volume;
 }
 
+/// sum_I V_I over the nodes of a dual cell.
+template <int Dim>
+double full_volume(const Grid<Dim>& grid, const SupportBox<Dim>& support) {
+  double volume = 1;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    double length = 3;
+    if (!grid.periodic[d]) {
+      length = 0;
+      for (int a = 0; a < 3; ++a) length += axis_integral(support.first[d] + a, grid.cells[d]);
+    }
+    volume *= grid.spacing * length;
+  }
+  return volume;
+}
+
 /// Numbers the nodes that particles touch, wherever they are.
 template <int Dim>
 void number_end_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resize<EndNodes> nodes, EndSites<Dim>& rows,

@@ -9,11 +9,11 @@ namespace minamo {
 
 namespace {
 
-/// How full the node of a dual cell is where its particles count as spray, and where they count as liquid. A cell full
-/// of particles that is alone has 0.44, a particle of 2 x 2 that is alone in it at most 0.14, one at a corner of a body
-/// 0.7.
-constexpr double spray = 0.2;
-constexpr double liquid = 0.4;
+/// How full the nodes of a dual cell are where its particles count as spray, and where they count as liquid. A cell
+/// full of particles that is alone has 0.1 to 0.24, one at a corner of a body 0.44, one in a film as thick as a cell
+/// 0.49 and more, one at a surface 0.66.
+constexpr double spray = 0.3;
+constexpr double liquid = 0.5;
 
 /// The factors of a product of weights, with `special` in direction d.
 template <int Dim>
@@ -38,6 +38,14 @@ Mat<Dim> mean(const typename OccupiedCells<Dim>::Cell& cell, std::span<const dou
   return sum / mass;
 }
 
+/// sum_I m_I / (rho sum_I V_I) over the nodes of a dual cell.
+template <int Dim>
+double filled(const Grid<Dim>& grid, const Support<Dim>& support, double density, std::span<const double> m_i) {
+  double mass = 0;
+  for (const std::size_t i : support.node) mass += m_i[i];
+  return mass / (density * full_volume<Dim>(grid, support));
+}
+
 /// m_I c_I of (E53).
 template <int Dim>
 void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, double density,
@@ -46,8 +54,7 @@ void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
   for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(grid, cell);
-    const double filled = m_i[support.own()] / (density * full_volume<Dim>(grid, cell.node));
-    const double share = std::clamp((filled - spray) / (liquid - spray), 0.0, 1.0);
+    const double share = std::clamp((filled<Dim>(grid, support, density, m_i) - spray) / (liquid - spray), 0.0, 1.0);
     if (share == 0) return;
     const Mat<Dim> gradient = share * density * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
     for (int d = 0; d < Dim; ++d) {

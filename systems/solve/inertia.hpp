@@ -6,13 +6,13 @@
 /// the two differ by a first moment, which is zero in a full and even support and of order h at a free surface and at
 /// walls. A consistent mass matrix has the moment and blows up in spray; here it comes from the step before:
 /// (E53)  c_I = s sum_p w_c S_Ip m_p grad f_p (x_I - y_p) / m_I, added to the acceleration that forces give,
-///        s = min(1, length of the step before / length of this one), w_c = min(1, max(0, 5 m_c/(rho V_c) - 1)) of the
-///        node of the particle's dual cell, V_c (E39);
+///        s = min(1, length of the step before / length of this one), w_c = min(1, max(0, 5 f_c - 1.5)),
+///        f_c = sum_J m_J / (rho sum_J V_J) over the nodes of the particle's dual cell, V_J (E39);
 /// (E54)  grad f_p = sum_J f_J (x) grad S_J(y_p), mean over a dual cell, f_I = (v_I^{n+1} - v_I^n)/dt - c_I.
 /// s: an impact changes velocities by as much in a short step as in a long one; what it is worth must not be multiplied
-/// by the ratio of the two. w: a few particles on nodes of their own have more to correct than inertia to lump, and
-/// pressures that answer the correction of the step before; velocity gradients would grow from step to step. Zero in
-/// spray, one in and at bodies of liquid. sum_I m_I c_I = 0, so momentum is kept. f and not f + c: the gradient would
+/// by the ratio of the two. w: where few particles have nodes of their own, pressures answer the correction of the
+/// step before by more than that, and velocity gradients would grow from step to step. Zero in spray, one in and at
+/// bodies of liquid. sum_I m_I c_I = 0, so momentum is kept. f and not f + c: the gradient would
 /// feed on itself in a lone particle. The mean over cells takes the noise of single particles out. Ours; what TPIC (E5)
 /// does for velocities, for forces.
 
