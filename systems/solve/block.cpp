@@ -8,6 +8,8 @@
 #include "systems/solve/umfpack.hpp"
 #include "systems/solve/velocity_block.hpp"
 
+#include <algorithm>
+
 namespace minamo {
 
 template <int Dim>
@@ -86,7 +88,11 @@ void reduce(Impl<Dim>& s, const Values& f, const Values& u, const Values& p, Val
 template <int Dim>
 Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
   std::fill(s.displacement.begin(), s.displacement.end(), 0.0);
-  reduce<Dim>(s, s.momentum, s.displacement, s.zero, s.g);
+  if (std::all_of(s.momentum.begin(), s.momentum.end(), [](double f) { return f == 0; })) {
+    for_each_row(s.g.size(), [&](std::size_t r) { s.g[r] = s.compact.scale()[r] * s.mass[r]; });
+  } else {
+    reduce<Dim>(s, s.momentum, s.displacement, s.zero, s.g);
+  }
   const double norm = std::sqrt(dot(s.g, s.g));
   const double left_by_block = s.velocity_block.error();
   const double target = tolerance * norm;

@@ -49,6 +49,22 @@ double viscous_part(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Fl
   return fluid.density * std::max(0.0, inverse - of_compact);
 }
 
+/// Sorts the order by the coordinate of an axis, which is in a range; rows with the same one stay as they are.
+template <int Dim>
+void PressurePreconditioner<Dim>::sort_along(std::size_t axis, const std::array<int, 2>& range) {
+  const auto coordinate = [&](std::uint32_t row) { return static_cast<std::size_t>(site_[row][axis] - range[0]); };
+  if (std::is_sorted(order_.begin(), order_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return coordinate(a) < coordinate(b); })) {
+    return;
+  }
+  count_.assign(static_cast<std::size_t>(range[1] - range[0]) + 2, 0);
+  for (const std::uint32_t row : order_) ++count_[coordinate(row) + 1];
+  std::partial_sum(count_.begin(), count_.end(), count_.begin());
+  place_.resize(order_.size());
+  for (const std::uint32_t row : order_) place_[count_[coordinate(row)]++] = row;
+  order_.swap(place_);
+}
+
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
 void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
@@ -68,12 +84,7 @@ void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
             [&](std::size_t a, std::size_t b) { return std::pair(extent(b), a) < std::pair(extent(a), b); });
   order_.resize(t.node.size());
   std::iota(order_.begin(), order_.end(), 0U);
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    for (const std::size_t axis : axes) {
-      if (site_[a][axis] != site_[b][axis]) return site_[a][axis] < site_[b][axis];
-    }
-    return false;
-  });
+  for (std::size_t k = axes.size(); k-- > 0;) sort_along(axes[k], range[axes[k]]);
   place_.resize(order_.size());
   for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
 }

@@ -32,6 +32,7 @@ class PressurePreconditioner {
 
  private:
   void find_order(const EquationTerms<Dim>& terms);
+  void sort_along(std::size_t axis, const std::array<int, 2>& range);
   void find_envelope(const CompactPressure<Dim>& compact);
   bool factorize_envelope(const CompactPressure<Dim>& compact);
   bool factorize_symmetric(const CompactPressure<Dim>& compact);
@@ -41,6 +42,7 @@ class PressurePreconditioner {
   std::vector<std::uint32_t> order_;  ///< the rows, as the envelope has them
   std::vector<std::uint32_t> place_;  ///< where the envelope has a row
   std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> count_;  ///< work space
   Values ordered_;
   Values of_mass_;  ///< b/V_I; empty if not viscous
   bool narrow_ = true;
