@@ -118,11 +118,11 @@ Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
 
 template <int Dim>
 void prepare(Impl<Dim>& s, const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
-             const matrix::StabilizationScale& scale, const Rates& rates) {
+             const matrix::StabilizationScale& scale, const Rates& rates, DoublePrecision& precision) {
   s.schur.assemble(terms, grid);
   s.compact.assemble(terms, grid, fluid, laplacian_factor(rates, fluid, scale), s.schur);
   s.velocity_block.prepare(terms, s.schur);
-  s.preconditioner.prepare(s.compact, s.schur, terms, viscous_part<Dim>(terms, grid, fluid, scale));
+  s.preconditioner.prepare(s.compact, s.schur, terms, viscous_part<Dim>(terms, grid, fluid, scale), precision);
   const std::size_t n = s.schur.rows();
   for (Values* v : {&s.mass, &s.pressure, &s.more_pressure, &s.g, &s.zero, &s.unscaled}) v->resize(n);
   std::fill(s.zero.begin(), s.zero.end(), 0.0);
@@ -161,9 +161,10 @@ bool is_solved(const Gmres::Report& report) { return report.converged && std::is
 template <int Dim>
 SolveReport solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid, double tolerance,
                   const matrix::StabilizationScale& scale, const Rates& rates, const EquationTerms<Dim>& terms,
-                  std::span<const double> p_i, const std::vector<double>& b, Impl<Dim>& s, std::vector<double>& x) {
+                  std::span<const double> p_i, const std::vector<double>& b, DoublePrecision& precision, Impl<Dim>& s,
+                  std::vector<double>& x) {
   s.terms = terms;
-  prepare<Dim>(s, terms, grid, fluid, scale, rates);
+  prepare<Dim>(s, terms, grid, fluid, scale, rates, precision);
   take_right_hand_side<Dim>(s, b);
   // The pressure of the step before is near.
   for_each_row(s.pressure.size(), [&](std::size_t r) { s.pressure[r] = p_i[terms.node[r]]; });
@@ -198,8 +199,9 @@ void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<F
                                  Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                  Read<matrix::Divergence<Dim>> divergence,
                                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
-                                 Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
-                                 Write<matrix::Solution> solution, Write<SolveReport> report) const {
+                                 Read<matrix::RightHandSide> right_hand_side, Update<DoublePrecision> precision,
+                                 Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
+                                 Write<SolveReport> report) const {
   const EquationTerms<Dim> terms{rates->velocity,
                                  rates->acceleration,
                                  pressure_per_mass(clock->step, fluid->density, grid->spacing),
@@ -213,7 +215,7 @@ void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<F
                                  stabilization.span(),
                                  {}};
   *report = solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(),
-                       right_hand_side->values, *factors->impl, solution->values);
+                       right_hand_side->values, *precision, *factors->impl, solution->values);
 }
 
 template <int Dim>
@@ -224,8 +226,9 @@ void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid,
                                         Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::Stabilization<Dim>> stabilization,
                                         Read<matrix::StabilizationScale> scale, Read<matrix::Viscosity<Dim>> viscosity,
-                                        Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
-                                        Write<matrix::Solution> solution, Write<SolveReport> report) const {
+                                        Read<matrix::RightHandSide> right_hand_side, Update<DoublePrecision> precision,
+                                        Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
+                                        Write<SolveReport> report) const {
   const EquationTerms<Dim> terms{rates->velocity,
                                  rates->acceleration,
                                  pressure_per_mass(clock->step, fluid->density, grid->spacing),
@@ -239,7 +242,7 @@ void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid,
                                  stabilization.span(),
                                  viscosity.span()};
   *report = solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(),
-                       right_hand_side->values, *factors->impl, solution->values);
+                       right_hand_side->values, *precision, *factors->impl, solution->values);
 }
 
 template struct BlockFactors<2>;

@@ -9,6 +9,7 @@
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "components/sites.hpp"
+#include "components/solver.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
@@ -45,8 +46,8 @@ struct SolveBlock {
                   Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
-                  Read<matrix::RightHandSide> right_hand_side, Update<BlockFactors<Dim>> factors,
-                  Write<matrix::Solution> solution, Write<SolveReport> report) const;
+                  Read<matrix::RightHandSide> right_hand_side, Update<DoublePrecision> precision,
+                  Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution, Write<SolveReport> report) const;
 };
 
 template <int Dim>
@@ -59,7 +60,8 @@ struct SolveBlockViscous {
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                   Read<matrix::Viscosity<Dim>> viscosity, Read<matrix::RightHandSide> right_hand_side,
-                  Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution, Write<SolveReport> report) const;
+                  Update<DoublePrecision> precision, Update<BlockFactors<Dim>> factors,
+                  Write<matrix::Solution> solution, Write<SolveReport> report) const;
 };
 
 }  // namespace minamo

@@ -6,7 +6,21 @@
 
 namespace minamo {
 
-double EnvelopeLu::cost(const std::vector<std::uint32_t>& first) {
+namespace {
+
+/// term(first) + ... + term(first + Count - 1), the sums of halves first: independent of one another for longest.
+template <std::size_t Count, class Term>
+inline auto pairwise_sum(std::size_t first, const Term& term) {
+  if constexpr (Count == 1) {
+    return term(first).eval();
+  } else {
+    return (pairwise_sum<Count / 2>(first, term) + pairwise_sum<Count / 2>(first + Count / 2, term)).eval();
+  }
+}
+
+}  // namespace
+
+double envelope_cost(const std::vector<std::uint32_t>& first) {
   double sum = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     const auto below = static_cast<double>(i - first[i]);
@@ -15,7 +29,8 @@ double EnvelopeLu::cost(const std::vector<std::uint32_t>& first) {
   return sum;
 }
 
-void EnvelopeLu::start(const std::vector<std::uint32_t>& first) {
+template <class Scalar>
+void EnvelopeLu<Scalar>::start(const std::vector<std::uint32_t>& first) {
   rows_ = first.size();
   const std::size_t tiles = (rows_ + width - 1) / width;
   first_.resize(tiles);
@@ -36,54 +51,62 @@ void EnvelopeLu::start(const std::vector<std::uint32_t>& first) {
   for (std::size_t i = rows_; i < width * tiles; ++i) at(i, i) = 1;
 }
 
-EnvelopeLu::Columns EnvelopeLu::columns(const Tile& tile) {
-  return {tile.col(0).array(), tile.col(1).array(), tile.col(2).array(), tile.col(3).array()};
+template <class Scalar>
+auto EnvelopeLu<Scalar>::columns(const Tile& tile) -> Columns {
+  Columns out;
+  for (std::size_t j = 0; j < width; ++j) out[j] = tile.col(static_cast<Eigen::Index>(j)).array();
+  return out;
+}
+
+template <class Scalar>
+inline auto EnvelopeLu<Scalar>::product(const Columns& a, const Scalar* x) -> Lanes {
+  return pairwise_sum<width>(0, [&](std::size_t k) { return a[k] * x[k]; });
 }
 
 /// c -= a b
-inline void EnvelopeLu::subtract_product(const Tile& a, const Tile& b, Columns& c) {
+template <class Scalar>
+inline void EnvelopeLu<Scalar>::subtract_product(const Tile& a, const Tile& b, Columns& c) {
   const Columns of_a = columns(a);
-  for (std::size_t j = 0; j < width; ++j) {
-    const double* of_b = b.data() + width * j;
-    c[j] -= (of_a[0] * of_b[0] + of_a[1] * of_b[1]) + (of_a[2] * of_b[2] + of_a[3] * of_b[3]);
-  }
+  for (std::size_t j = 0; j < width; ++j) c[j] -= product(of_a, b.data() + width * j);
 }
 
-inline EnvelopeLu::Lanes EnvelopeLu::product(const Tile& a, const Lanes& x) {
-  const Columns of_a = columns(a);
-  return (of_a[0] * x[0] + of_a[1] * x[1]) + (of_a[2] * x[2] + of_a[3] * x[3]);
+template <class Scalar>
+inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Lanes& x) -> Lanes {
+  return product(columns(a), x.data());
 }
 
-inline EnvelopeLu::Tile EnvelopeLu::product(const Tile& a, const Columns& b) {
+template <class Scalar>
+inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Columns& b) -> Tile {
   Tile out;
   for (std::size_t j = 0; j < width; ++j) out.col(static_cast<Eigen::Index>(j)) = product(a, b[j]).matrix();
   return out;
 }
 
-inline EnvelopeLu::Tile EnvelopeLu::product(const Columns& a, const Tile& b) {
+template <class Scalar>
+inline auto EnvelopeLu<Scalar>::product(const Columns& a, const Tile& b) -> Tile {
   Tile out;
   for (std::size_t j = 0; j < width; ++j) {
-    const double* of_b = b.data() + width * j;
-    out.col(static_cast<Eigen::Index>(j)) =
-        ((a[0] * of_b[0] + a[1] * of_b[1]) + (a[2] * of_b[2] + a[3] * of_b[3])).matrix();
+    out.col(static_cast<Eigen::Index>(j)) = product(a, b.data() + width * j).matrix();
   }
   return out;
 }
 
 /// from - sum_k lower_k upper_k
-inline EnvelopeLu::Columns EnvelopeLu::eliminated(const Tile& from, const Tile* lower, const Tile* upper,
-                                                  std::size_t count) const {
+template <class Scalar>
+inline auto EnvelopeLu<Scalar>::eliminated(const Tile& from, const Tile* lower, const Tile* upper,
+                                           std::size_t count) const -> Columns {
   Columns sum = columns(from);
   for (std::size_t k = 0; k < count; ++k) subtract_product(lower[k], upper[k], sum);
   return sum;
 }
 
-bool EnvelopeLu::invert_diagonal(std::size_t j) {
+template <class Scalar>
+bool EnvelopeLu<Scalar>::invert_diagonal(std::size_t j, const std::array<Scalar, width>& least) {
   Tile& tile = upper_[start_[j] + j - first_[j]];
   constexpr auto size = static_cast<Eigen::Index>(width);
   for (Eigen::Index k = 0; k < size; ++k) {
-    const double pivot = tile(k, k);
-    if (!(std::abs(pivot) > 0) || !std::isfinite(pivot)) return false;
+    const Scalar pivot = tile(k, k);
+    if (!(std::abs(pivot) > least[static_cast<std::size_t>(k)]) || !std::isfinite(pivot)) return false;
     for (Eigen::Index i = k + 1; i < size; ++i) {
       tile(i, k) /= pivot;
       for (Eigen::Index l = k + 1; l < size; ++l) tile(i, l) -= tile(i, k) * tile(k, l);
@@ -98,7 +121,7 @@ bool EnvelopeLu::invert_diagonal(std::size_t j) {
     }
     upper(c, c) = 1 / tile(c, c);
     for (Eigen::Index i = c; i-- > 0;) {
-      double sum = 0;
+      Scalar sum = 0;
       for (Eigen::Index k = i + 1; k <= c; ++k) sum += tile(i, k) * upper(k, c);
       upper(i, c) = -sum / tile(i, i);
     }
@@ -108,7 +131,8 @@ bool EnvelopeLu::invert_diagonal(std::size_t j) {
   return true;
 }
 
-bool EnvelopeLu::factorize() {
+template <class Scalar>
+bool EnvelopeLu<Scalar>::factorize(double least) {
   for (std::size_t j = 0; j < first_.size(); ++j) {
     Tile* row_j = lower_.data() + start_[j];
     Tile* column_j = upper_.data() + start_[j];
@@ -122,17 +146,24 @@ bool EnvelopeLu::factorize() {
       row_j[at] = product(eliminated(row_j[at], row_j + from, column_i, i - common), inverse_upper_[i]);
     }
     Tile& diagonal = column_j[j - first_[j]];
+    std::array<Scalar, width> least_pivot;
+    for (std::size_t k = 0; k < width; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      least_pivot[k] = static_cast<Scalar>(least) * std::abs(diagonal(i, i));
+    }
     const Columns rest = eliminated(diagonal, row_j, column_j, j - first_[j]);
     for (std::size_t c = 0; c < width; ++c) diagonal.col(static_cast<Eigen::Index>(c)) = rest[c].matrix();
-    if (!invert_diagonal(j)) return false;
+    if (!invert_diagonal(j, least_pivot)) return false;
   }
   return true;
 }
 
-void EnvelopeLu::solve(Values& b) {
+template <class Scalar>
+void EnvelopeLu<Scalar>::solve(Values& b) {
   const std::size_t tiles = first_.size();
   x_.back().setZero();
-  for (std::size_t i = 0; i < rows_; ++i) x_[i / width][static_cast<Eigen::Index>(i % width)] = b[i];
+  for (std::size_t i = 0; i < rows_; ++i)
+    x_[i / width][static_cast<Eigen::Index>(i % width)] = static_cast<Scalar>(b[i]);
   for (std::size_t j = 0; j < tiles; ++j) {
     const Tile* row = lower_.data() + start_[j];
     Lanes sum = x_[j];
@@ -146,5 +177,8 @@ void EnvelopeLu::solve(Values& b) {
   }
   for (std::size_t i = 0; i < rows_; ++i) b[i] = x_[i / width][static_cast<Eigen::Index>(i % width)];
 }
+
+template class EnvelopeLu<float>;
+template class EnvelopeLu<double>;
 
 }  // namespace minamo

@@ -1,9 +1,10 @@
 #pragma once
 /// \file
 /// LU factorization without pivoting within the envelope of a matrix whose pattern is symmetric: for row i the columns
-/// from the first that has an entry on, in tiles of 4 x 4. Needs no symbolic work and streams through memory, so that
-/// it beats sparse factorizations as long as the envelope is narrow.
-/// A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems, Prentice-Hall 1981, ch. 4.
+/// from the first that has an entry on, in square tiles as wide as a vector register. Needs no symbolic work and
+/// streams through memory, so that it beats sparse factorizations as long as the envelope is narrow; in single
+/// precision in half the time. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems,
+/// Prentice-Hall 1981, ch. 4.
 
 #include "systems/solve/gmres.hpp"
 
@@ -11,38 +12,38 @@
 
 namespace minamo {
 
+/// \tparam Scalar  of the factors
+template <class Scalar>
 class EnvelopeLu {
  public:
   /// \param first  column of the first entry of every row, at most the row itself
   void start(const std::vector<std::uint32_t>& first);
   std::size_t rows() const { return rows_; }
   /// Entry of the lower or upper part; \pre within the envelope.
-  double& at(std::size_t row, std::size_t column) {
+  Scalar& at(std::size_t row, std::size_t column) {
     const std::size_t j = row / width;
     const std::size_t i = column / width;
     Tile& tile = i < j ? lower_[start_[j] + i - first_[j]] : upper_[start_[i] + j - first_[i]];
     return tile(static_cast<Eigen::Index>(row % width), static_cast<Eigen::Index>(column % width));
   }
-  /// False if a pivot is zero or not finite.
-  bool factorize();
+  /// False if a pivot is not finite, or not larger than `least` times what the diagonal was.
+  bool factorize(double least);
   /// Overwrites b with the solution.
   void solve(Values& b);
 
-  /// About the multiplications of factorize().
-  static double cost(const std::vector<std::uint32_t>& first);
-
  private:
-  static constexpr std::size_t width = 4;
-  using Tile = Eigen::Matrix<double, width, width>;
-  using Lanes = Eigen::Array<double, width, 1>;
+  static constexpr std::size_t width = 32 / sizeof(Scalar);
+  using Tile = Eigen::Matrix<Scalar, width, width>;
+  using Lanes = Eigen::Array<Scalar, width, 1>;
   using Columns = std::array<Lanes, width>;
   static Columns columns(const Tile& tile);
+  static Lanes product(const Columns& a, const Scalar* x);
   static void subtract_product(const Tile& a, const Tile& b, Columns& c);
   static Tile product(const Tile& a, const Columns& b);
   static Tile product(const Columns& a, const Tile& b);
   static Lanes product(const Tile& a, const Lanes& x);
   Columns eliminated(const Tile& from, const Tile* lower, const Tile* upper, std::size_t count) const;
-  bool invert_diagonal(std::size_t j);
+  bool invert_diagonal(std::size_t j, const std::array<Scalar, width>& least);
 
   std::size_t rows_ = 0;
   std::vector<std::uint32_t> first_;  ///< tile of every row of tiles
@@ -53,5 +54,8 @@ class EnvelopeLu {
   std::vector<Tile> inverse_upper_;
   std::vector<Lanes> x_;
 };
+
+/// About the multiplications of EnvelopeLu::factorize().
+double envelope_cost(const std::vector<std::uint32_t>& first);
 
 }  // namespace minamo

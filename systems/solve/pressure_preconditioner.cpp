@@ -11,8 +11,18 @@ namespace minamo {
 
 namespace {
 
-/// Multiplications from which on the envelope is slower than a sparse factorization.
-constexpr double widest = 1e9;
+/// Multiplications up to which single precision saves less than its failures cost, and from which on an envelope is
+/// slower than a sparse factorization, in single and in double precision.
+constexpr double narrowest_single = 1e7;
+constexpr double widest_single = 1e10;
+constexpr double widest_double = 1e9;
+
+/// A pivot that has lost so much of its diagonal has lost it to rounding in single precision. Where few particles have
+/// many nodes, pressures hang on e of (E27), a millionth of the diagonal.
+constexpr double least_pivot = 1e-3;
+
+/// Steps in double precision after one that needs it: spray does not vanish from one step to the next.
+constexpr int steps_in_double = 16;
 
 /// Rows from which on, in 3-D, the fill of a complete factorization costs more than the iterations that it saves.
 constexpr std::size_t most_complete = 20000;
@@ -104,14 +114,32 @@ void PressurePreconditioner<Dim>::find_envelope(const CompactPressure<Dim>& comp
 }
 
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>& compact) {
-  envelope_.start(first_);
+template <class Scalar>
+bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>& compact, double least,
+                                                     EnvelopeLu<Scalar>& envelope) {
+  envelope.start(first_);
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    const auto add = [&](std::size_t r_j, double value) { envelope_.at(place_[r], place_[r_j]) += value; };
+    const auto add = [&](std::size_t r_j, double value) {
+      envelope.at(place_[r], place_[r_j]) += static_cast<Scalar>(value);
+    };
     compact.for_each_near(r, add);
     for (const auto& entry : compact.beyond(r)) add(entry.row, entry.value);
   }
-  return envelope_.factorize();
+  return envelope.factorize(least);
+}
+
+template <int Dim>
+bool PressurePreconditioner<Dim>::factorize_narrow(const CompactPressure<Dim>& compact, DoublePrecision& precision) {
+  const double cost = envelope_cost(first_);
+  if (precision.steps > 0) {
+    --precision.steps;
+  } else if (cost > narrowest_single && cost < widest_single) {
+    kind_ = Kind::single_envelope;
+    if (factorize_envelope(compact, least_pivot, single_)) return true;
+    precision.steps = steps_in_double;
+  }
+  kind_ = Kind::double_envelope;
+  return cost < widest_double && factorize_envelope(compact, 0, double_);
 }
 
 /// The symmetric part of the compact matrix.
@@ -145,14 +173,17 @@ bool PressurePreconditioner<Dim>::factorize_pressure(const CompactPressure<Dim>&
 
 template <int Dim>
 void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur,
-                                          const EquationTerms<Dim>& terms, double viscous_part) {
+                                          const EquationTerms<Dim>& terms, double viscous_part,
+                                          DoublePrecision& precision) {
   find_order(terms);
   find_envelope(compact);
   ordered_.resize(order_.size());
-  narrow_ = EnvelopeLu::cost(first_) < widest && factorize_envelope(compact);
-  // The symmetric part can be indefinite in spray.
-  if (!narrow_ && !factorize_symmetric(compact) && !factorize_pressure(compact, schur)) {
-    throw StepRejected("solve: the pressure matrix is not positive definite");
+  if (!factorize_narrow(compact, precision)) {
+    kind_ = Kind::sparse;
+    // The symmetric part can be indefinite in spray.
+    if (!factorize_symmetric(compact) && !factorize_pressure(compact, schur)) {
+      throw StepRejected("solve: the pressure matrix is not positive definite");
+    }
   }
   of_mass_.clear();
   if (viscous_part == 0) return;
@@ -161,13 +192,13 @@ void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, c
 
 template <int Dim>
 void PressurePreconditioner<Dim>::solve(const Values& r, Values& out) {
-  if (narrow_) {
-    for (std::size_t i = 0; i < order_.size(); ++i) ordered_[i] = r[order_[i]];
-    envelope_.solve(ordered_);
-    for (std::size_t i = 0; i < order_.size(); ++i) out[order_[i]] = ordered_[i];
-  } else {
+  if (kind_ == Kind::sparse) {
     out = r;
     sparse_.solve(out);
+  } else {
+    for (std::size_t i = 0; i < order_.size(); ++i) ordered_[i] = r[order_[i]];
+    kind_ == Kind::single_envelope ? single_.solve(ordered_) : double_.solve(ordered_);
+    for (std::size_t i = 0; i < order_.size(); ++i) out[order_[i]] = ordered_[i];
   }
   for (std::size_t i = 0; i < of_mass_.size(); ++i) out[i] += of_mass_[i] * r[i];
 }

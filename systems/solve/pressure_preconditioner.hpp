@@ -5,6 +5,7 @@
 /// (E57)  plus b (m/rho)^-1, J. Cahouet, J.-P. Chabard, IJNMF 8 (1988) 869, doi:10.1002/fld.1650080802.
 
 #include "components/fluid.hpp"
+#include "components/solver.hpp"
 #include "components/step.hpp"
 #include "systems/solve/cholesky.hpp"
 #include "systems/solve/compact_pressure.hpp"
@@ -26,7 +27,7 @@ class PressurePreconditioner {
  public:
   /// \throws StepRejected if the matrix cannot be factorized.
   void prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms,
-               double viscous_part);
+               double viscous_part, DoublePrecision& precision);
   /// out = about S^-1 r.
   void solve(const Values& r, Values& out);
 
@@ -34,7 +35,9 @@ class PressurePreconditioner {
   void find_order(const EquationTerms<Dim>& terms);
   void sort_along(std::size_t axis, const std::array<int, 2>& range);
   void find_envelope(const CompactPressure<Dim>& compact);
-  bool factorize_envelope(const CompactPressure<Dim>& compact);
+  template <class Scalar>
+  bool factorize_envelope(const CompactPressure<Dim>& compact, double least_pivot, EnvelopeLu<Scalar>& envelope);
+  bool factorize_narrow(const CompactPressure<Dim>& compact, DoublePrecision& precision);
   bool factorize_symmetric(const CompactPressure<Dim>& compact);
   bool factorize_pressure(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
 
@@ -45,8 +48,10 @@ class PressurePreconditioner {
   std::vector<std::uint32_t> count_;  ///< work space
   Values ordered_;
   Values of_mass_;  ///< b/V_I; empty if not viscous
-  bool narrow_ = true;
-  EnvelopeLu envelope_;
+  enum class Kind { single_envelope, double_envelope, sparse };
+  Kind kind_ = Kind::sparse;
+  EnvelopeLu<float> single_;
+  EnvelopeLu<double> double_;
   SparseCholesky sparse_;
 };
 
