@@ -43,6 +43,12 @@ struct Moments {
   static constexpr ComponentInfo info{"cells.moments", "M_c", "m^d", Lifetime::scratch};
 };
 
+/// w_c of (E61): 0 where the particles of a cell are spray, 1 where they are liquid. One entry per occupied cell. [1]
+struct LiquidShare {
+  std::vector<double> of_cell;
+  static constexpr ComponentInfo info{"cells.liquid", "w_c", "1", Lifetime::scratch};
+};
+
 /// Work space of the sort, kept so that a step does not allocate.
 struct BinBuffer {
   BlockNumbers blocks;                        ///< those with particles

@@ -2,6 +2,7 @@
 
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/liquid.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/integrate/body_force.hpp"
@@ -27,6 +28,7 @@
 #include "systems/solve/vms.hpp"
 #include "systems/transfer/advect.hpp"
 #include "systems/transfer/apic.hpp"
+#include "systems/transfer/carry_gradient.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/pic_flip.hpp"
 #include "systems/transfer/scheme.hpp"
@@ -87,6 +89,9 @@ void register_systems(SystemRegistry& registry) {
   registry.add<P2GPressureGradient>("p2g_pressure_gradient");
   registry.add<AssembleMonolithic>("assemble_monolithic");
   registry.add<AssembleMonolithicViscous>("assemble_monolithic_viscous");
+  registry.add<FindLiquid>("find_liquid");
+  registry.add<CarryGradientToMiddle>("carry_gradient_to_middle");
+  registry.add<CarryGradientToEnd>("carry_gradient_to_end");
   registry.add<AddInertiaCorrection>("add_inertia_correction");
   registry.add<SolveUmfpack>("solve_umfpack");
   registry.add<SolveBlock>("solve_block");

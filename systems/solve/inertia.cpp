@@ -1,19 +1,12 @@
 #include "systems/solve/inertia.hpp"
 
 #include "systems/grid/activate.hpp"
-#include "systems/grid/node_volume.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/solve/moments.hpp"
 
 namespace minamo {
 
 namespace {
-
-/// How full the nodes of a dual cell are where its particles count as spray, and where they count as liquid. A cell
-/// full of particles that is alone has 0.1 to 0.24, one at a corner of a body 0.44, one in a film as thick as a cell
-/// 0.49 and more, one at a surface 0.66.
-constexpr double spray = 0.3;
-constexpr double liquid = 0.5;
 
 /// The factors of a product of weights, with `special` in direction d.
 template <int Dim>
@@ -38,23 +31,15 @@ Mat<Dim> mean(const typename OccupiedCells<Dim>::Cell& cell, std::span<const dou
   return sum / mass;
 }
 
-/// sum_I m_I / (rho sum_I V_I) over the nodes of a dual cell.
-template <int Dim>
-double filled(const Grid<Dim>& grid, const Support<Dim>& support, double density, std::span<const double> m_i) {
-  double mass = 0;
-  for (const std::size_t i : support.node) mass += m_i[i];
-  return mass / (density * full_volume<Dim>(grid, support));
-}
-
 /// m_I c_I of (E53).
 template <int Dim>
 void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, double density,
                           const Moments<Dim>& moments, std::span<const double> m_p, std::span<const Mat<Dim>> grad_f_p,
-                          std::span<const double> m_i, std::span<Vec<Dim>> out) {
+                          const LiquidShare& liquid, std::span<Vec<Dim>> out) {
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
   for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(grid, cell);
-    const double share = std::clamp((filled<Dim>(grid, support, density, m_i) - spray) / (liquid - spray), 0.0, 1.0);
+    const double share = liquid.of_cell[c];
     if (share == 0) return;
     const Mat<Dim> gradient = share * density * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
     for (int d = 0; d < Dim; ++d) {
@@ -69,13 +54,12 @@ void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
 template <int Dim>
 void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Read<Grid<Dim>> grid,
                                            Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                                           Read<Moments<Dim>> moments, Read<particle::Mass> m_p,
-                                           Read<particle::ForceGradient<Dim>> grad_f_p, Read<node::Row> row,
-                                           Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
-                                           Write<node::InertiaCorrection<Dim>> c_i,
+                                           Read<Moments<Dim>> moments, Read<LiquidShare> liquid,
+                                           Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p,
+                                           Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+                                           Read<matrix::Node> node, Write<node::InertiaCorrection<Dim>> c_i,
                                            Update<matrix::RightHandSide> right_hand_side) const {
-  scatter_first_moment<Dim>(*grid, *cells, fluid->density, *moments, m_p.span(), grad_f_p.span(), m_i.span(),
-                            c_i.span());
+  scatter_first_moment<Dim>(*grid, *cells, fluid->density, *moments, m_p.span(), grad_f_p.span(), *liquid, c_i.span());
   const double share = std::min(1.0, step->seconds / clock->step);
   const double light = light_mass(m_i.span());
   for_each_row(c_i.size(), [&](std::size_t i) {

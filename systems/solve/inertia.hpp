@@ -6,8 +6,7 @@
 /// the two differ by a first moment, which is zero in a full and even support and of order h at a free surface and at
 /// walls. A consistent mass matrix has the moment and blows up in spray; here it comes from the step before:
 /// (E53)  c_I = s sum_p w_c S_Ip m_p grad f_p (x_I - y_p) / m_I, added to the acceleration that forces give,
-///        s = min(1, length of the step before / length of this one), w_c = min(1, max(0, 5 f_c - 1.5)),
-///        f_c = sum_J m_J / (rho sum_J V_J) over the nodes of the particle's dual cell, V_J (E39);
+///        s = min(1, length of the step before / length of this one), w_c (E61);
 /// (E54)  grad f_p = sum_J f_J (x) grad S_J(y_p), mean over a dual cell, f_I = (v_I^{n+1} - v_I^n)/dt - c_I.
 /// s: an impact changes velocities by as much in a short step as in a long one; what it is worth must not be multiplied
 /// by the ratio of the two. w: where few particles have nodes of their own, pressures answer the correction of the
@@ -33,7 +32,7 @@ template <int Dim>
 struct AddInertiaCorrection {
   static constexpr std::string_view doc = "(E53) first moment that lumping the mass leaves out";
   void operator()(Read<Clock> clock, Read<ForceStep> step, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                  Read<Fluid> fluid, Read<Moments<Dim>> moments, Read<particle::Mass> m_p,
+                  Read<Fluid> fluid, Read<Moments<Dim>> moments, Read<LiquidShare> liquid, Read<particle::Mass> m_p,
                   Read<particle::ForceGradient<Dim>> grad_f_p, Read<node::Row> row, Read<node::Fixed> fixed,
                   Read<node::Mass> m_i, Read<matrix::Node> node, Write<node::InertiaCorrection<Dim>> c_i,
                   Update<matrix::RightHandSide> right_hand_side) const;

@@ -1,0 +1,37 @@
+#pragma once
+/// \file
+/// The velocity gradient that a particle carries, from one configuration to the next.
+///
+/// A particle has its velocity gradient from the nodes, over the places y where the particles were then. When they have
+/// moved on by tau v, the same velocities have another gradient over the new places:
+/// (E62)  grad v (I + tau grad v)^-1, tau = w_c dt/2 from the middle of a step to its end, and from there to the middle
+///        of the next; w_c (E61).
+/// In a full and even support nobody sees the difference, since what neighbours bring weighs itself out. At surfaces
+/// and walls the gradient is what extends the velocities to the nodes outside; without (E62) a step extends those of
+/// the configuration before, an error of order h that (E53) leaves alone. w: what converges in free flight has a
+/// gradient that grows without bound. Ours; exact for a velocity that is linear in space.
+
+#include "components/cells.hpp"
+#include "components/particle.hpp"
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E62), from the end of the step before to the middle of this one.
+template <int Dim>
+struct CarryGradientToMiddle {
+  static constexpr std::string_view doc = "(E62) velocity gradient, carried to the middle of the step";
+  void operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
+                  Update<particle::VelocityGradient<Dim>> grad_v_p) const;
+};
+
+/// (E62), from the middle of the step to its end.
+template <int Dim>
+struct CarryGradientToEnd {
+  static constexpr std::string_view doc = "(E62) velocity gradient, carried to the end of the step";
+  void operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
+                  Update<particle::VelocityGradient<Dim>> grad_v_p) const;
+};
+
+}  // namespace minamo
