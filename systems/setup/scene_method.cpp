@@ -21,7 +21,7 @@ void read_transfer(Input& input, const SystemRegistry& registry, Scene& scene) {
       configure_transfer(in, scheme, registry, scene);
       if (scheme.carries_gradient) {
         scene.corrected_inertia = in.choice("inertia", std::vector<std::string>{"corrected", "lumped"},
-                                            "lumped mass, with or without the first moment that lumping leaves out",
+                                            "lumped mass, with or without what it leaves out: (E53), (E62)",
                                             "corrected") == "corrected";
       } else if (scheme.name == "flip") {
         scene.flip_blend = in.number(
