@@ -20,9 +20,9 @@ void read_transfer(Input& input, const SystemRegistry& registry, Scene& scene) {
     variants.emplace_back(named.first, [&, &scheme = named.second](Input& in) {
       configure_transfer(in, scheme, registry, scene);
       if (scheme.carries_gradient) {
-        scene.corrected_inertia = in.choice("inertia", std::vector<std::string>{"corrected", "lumped"},
-                                            "lumped mass, with or without what it leaves out: (E53), (E62)",
-                                            "corrected") == "corrected";
+        scene.corrected_inertia =
+            in.choice("inertia", std::vector<std::string>{"corrected", "lumped"},
+                      "lumped mass, with or without what it leaves out: (E53), (E62)", "corrected") == "corrected";
       } else if (scheme.name == "flip") {
         scene.flip_blend = in.number(
             "blend", {.doc = "share of FLIP, the rest is PIC", .fallback = 0.99, .at_least = 0, .at_most = 1});

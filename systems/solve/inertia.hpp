@@ -10,9 +10,9 @@
 /// (E54)  grad f_p = sum_J f_J (x) grad S_J(y_p), mean over a dual cell, f_I = (v_I^{n+1} - v_I^n)/dt - c_I.
 /// s: an impact changes velocities by as much in a short step as in a long one; what it is worth must not be multiplied
 /// by the ratio of the two. w: where few particles have nodes of their own, pressures answer the correction of the
-/// step before by more than that, and velocity gradients would grow from step to step. sum_I m_I c_I = 0, so momentum is
-/// kept. f and not f + c: the gradient would feed on itself in a lone particle. The mean over cells takes the noise of
-/// single particles out. Ours; what TPIC (E5) does for velocities, for forces.
+/// step before by more than that, and velocity gradients would grow from step to step. sum_I m_I c_I = 0, so momentum
+/// is kept. f and not f + c: the gradient would feed on itself in a lone particle. The mean over cells takes the noise
+/// of single particles out. Ours; what TPIC (E5) does for velocities, for forces.
 
 #include "components/cells.hpp"
 #include "components/fluid.hpp"

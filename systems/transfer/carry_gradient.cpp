@@ -8,15 +8,17 @@ namespace minamo {
 
 namespace {
 
-/// Largest |tau grad v|: beyond it a step turns or stretches the liquid by so much that the inverse is no small change.
-constexpr double most = 0.3;
+/// |tau grad v| up to which a gradient is carried all the way, and from which on not at all: a grid that sees so much
+/// strain in half a step does not resolve it, and what converges would grow without bound.
+constexpr double resolved = 0.05;
+constexpr double unresolved = 0.1;
 
 template <int Dim>
 Mat<Dim> carried(double tau, const Mat<Dim>& grad_v) {
-  Mat<Dim> change = tau * grad_v;
-  const double size = change.norm();
-  if (size > most) change *= most / size;
-  return grad_v * (Mat<Dim>::Identity() + change).inverse();
+  const double strain = tau * grad_v.norm();
+  const double share = std::clamp((unresolved - strain) / (unresolved - resolved), 0.0, 1.0);
+  if (share == 0) return grad_v;
+  return grad_v * (Mat<Dim>::Identity() + share * tau * grad_v).inverse();
 }
 
 template <int Dim>

@@ -4,8 +4,9 @@
 ///
 /// A particle has its velocity gradient from the nodes, over the places y where the particles were then. When they have
 /// moved on by tau v, the same velocities have another gradient over the new places:
-/// (E62)  grad v (I + tau grad v)^-1, tau = w_c dt/2 from the middle of a step to its end, and from there to the middle
-///        of the next; w_c (E61).
+/// (E62)  grad v (I + f tau grad v)^-1, tau = w_c dt/2 from the middle of a step to its end, and from there to the
+/// middle
+///        of the next; w_c (E61), f = min(1, max(0, 2 - 20 |tau grad v|)).
 /// In a full and even support nobody sees the difference, since what neighbours bring weighs itself out. At surfaces
 /// and walls the gradient is what extends the velocities to the nodes outside; without (E62) a step extends those of
 /// the configuration before, an error of order h that (E53) leaves alone. w: what converges in free flight has a
