@@ -90,8 +90,8 @@ void register_systems(SystemRegistry& registry) {
   registry.add<AssembleMonolithic>("assemble_monolithic");
   registry.add<AssembleMonolithicViscous>("assemble_monolithic_viscous");
   registry.add<FindLiquid>("find_liquid");
-  registry.add<CarryGradientToMiddle>("carry_gradient_to_middle");
-  registry.add<CarryGradientToEnd>("carry_gradient_to_end");
+  registry.add<CarryGradient>("carry_gradient_to_middle");
+  registry.add<CarryGradient>("carry_gradient_to_end");
   registry.add<AddInertiaCorrection>("add_inertia_correction");
   registry.add<SolveUmfpack>("solve_umfpack");
   registry.add<SolveBlock>("solve_block");

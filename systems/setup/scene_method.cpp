@@ -25,7 +25,8 @@ void read_transfer(Input& input, const SystemRegistry& registry, Scene& scene) {
                       "lumped mass, with or without what it leaves out: (E53), (E62)", "corrected") == "corrected";
       } else if (scheme.name == "flip") {
         scene.flip_blend = in.number(
-            "blend", {.doc = "share of FLIP, the rest is PIC", .fallback = 0.99, .at_least = 0, .at_most = 1});
+            "blend",
+            {.doc = "share of FLIP, the rest is PIC", .fallback = scene.flip_blend, .at_least = 0, .at_most = 1});
       } else if (scheme.name == "xpic") {
         scene.xpic_order = static_cast<int>(
             in.integer("order", {.doc = "order m; 1 is PIC", .fallback = 2, .at_least = 1, .at_most = 20}));

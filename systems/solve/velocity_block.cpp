@@ -15,19 +15,6 @@ constexpr std::size_t few = 10;  ///< one of so many
 
 }  // namespace
 
-/// Calls body(unknown, entry of c_v K) for the neighbours of an unknown that no wall holds.
-template <int Dim>
-template <class Body>
-void VelocityBlock<Dim>::for_each_friction(std::size_t unknown, const Body& body) const {
-  const std::size_t r = unknown / Dim;
-  const double* of_row = terms_.viscosity[r].data() + Dim * (unknown % Dim);
-  schur_->blocks().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      if (schur_->mobility()[Dim * r_j + d] != 0) body(Dim * r_j + d, terms_.c_v * of_row[Dim * Dim * k + d]);
-    }
-  });
-}
-
 /// What a row of A has beside its diagonal, over its inertia.
 template <int Dim>
 void VelocityBlock<Dim>::find_friction() {
@@ -60,20 +47,35 @@ void VelocityBlock<Dim>::collect_stiff(double least) {
   }
 }
 
+/// A row of A for a stiff unknown: the lower triangle of A_ss, and A_sn.
+template <int Dim>
+void VelocityBlock<Dim>::add_row(std::size_t i) {
+  const std::size_t own = stiff_[i];
+  const std::size_t r = own / Dim;
+  const double* of_row = terms_.viscosity[r].data() + Dim * (own % Dim);
+  const double inertia = terms_.c_a * terms_.m_i[terms_.node[r]];
+  schur_->blocks().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const std::size_t unknown = Dim * r_j + d;
+      const double value = terms_.c_v * of_row[Dim * Dim * k + d] + (unknown == own ? inertia : 0);
+      if (value == 0 || schur_->mobility()[unknown] == 0) continue;
+      if (place_[unknown] < 0) {
+        couplings_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(unknown), value});
+      } else if (unknown <= own) {
+        factors_.add(i, static_cast<std::size_t>(place_[unknown]), value);
+      }
+    }
+  });
+}
+
 template <int Dim>
 void VelocityBlock<Dim>::factorize() {
   place_.assign(Dim * terms_.node.size(), -1);
   for (std::size_t i = 0; i < stiff_.size(); ++i) place_[stiff_[i]] = static_cast<std::int32_t>(i);
   of_stiff_.resize(stiff_.size());
+  couplings_.clear();
   factors_.start(stiff_.size());
-  for (std::size_t i = 0; i < stiff_.size(); ++i) {
-    const double inertia = terms_.c_a * terms_.m_i[terms_.node[stiff_[i] / Dim]];
-    for_each_friction(stiff_[i], [&](std::size_t unknown, double value) {
-      const bool diagonal = unknown == stiff_[i];
-      if (place_[unknown] < 0 || unknown > stiff_[i] || (value == 0 && !diagonal)) return;
-      factors_.add(i, static_cast<std::size_t>(place_[unknown]), diagonal ? inertia + value : value);
-    });
-  }
+  for (std::size_t i = 0; i < stiff_.size(); ++i) add_row(i);
   if (!factors_.factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
@@ -98,16 +100,8 @@ void VelocityBlock<Dim>::solve(Values& v) {
   for_each_row(v.size(), [&](std::size_t i) {
     if (place_[i] < 0) v[i] *= schur_->mobility()[i];
   });
-  for_each_row(
-      stiff_.size(),
-      [&](std::size_t i) {
-        double sum = v[stiff_[i]];
-        for_each_friction(stiff_[i], [&](std::size_t unknown, double value) {
-          if (place_[unknown] < 0) sum -= value * v[unknown];
-        });
-        of_stiff_[i] = sum;
-      },
-      256);
+  for (std::size_t i = 0; i < stiff_.size(); ++i) of_stiff_[i] = v[stiff_[i]];
+  for (const Coupling& to : couplings_) of_stiff_[to.stiff] -= to.value * v[to.unknown];
   factors_.solve(of_stiff_);
   for (std::size_t i = 0; i < stiff_.size(); ++i) v[stiff_[i]] = of_stiff_[i];
 }

@@ -31,14 +31,21 @@ class VelocityBlock {
   void find_friction();
   void collect_stiff(double least);
   void factorize();
-  template <class Body>
-  void for_each_friction(std::size_t unknown, const Body& body) const;
+  void add_row(std::size_t i);
+
+  /// An entry of A_sn.
+  struct Coupling {
+    std::uint32_t stiff;  ///< place in `stiff_`
+    std::uint32_t unknown;
+    double value;
+  };
 
   const PressureSchur<Dim>* schur_ = nullptr;
   EquationTerms<Dim> terms_{};
   Values friction_;                   ///< of every unknown, over its inertia
   std::vector<std::uint32_t> stiff_;  ///< unknowns Dim r + d
   std::vector<std::int32_t> place_;   ///< of every unknown in `stiff_`, -1 if it is not there
+  std::vector<Coupling> couplings_;
   SparseCholesky factors_;
   Values of_stiff_;
   double error_ = 0;

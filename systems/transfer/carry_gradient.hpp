@@ -19,18 +19,10 @@
 
 namespace minamo {
 
-/// (E62), from the end of the step before to the middle of this one.
+/// (E62), half a step on: before P2G to the middle of the step, after G2P to its end.
 template <int Dim>
-struct CarryGradientToMiddle {
-  static constexpr std::string_view doc = "(E62) velocity gradient, carried to the middle of the step";
-  void operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
-                  Update<particle::VelocityGradient<Dim>> grad_v_p) const;
-};
-
-/// (E62), from the middle of the step to its end.
-template <int Dim>
-struct CarryGradientToEnd {
-  static constexpr std::string_view doc = "(E62) velocity gradient, carried to the end of the step";
+struct CarryGradient {
+  static constexpr std::string_view doc = "(E62) velocity gradient, carried on by half a step";
   void operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
                   Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };

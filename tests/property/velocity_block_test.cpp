@@ -1,4 +1,5 @@
 #include "support/dense_equations.hpp"
+#include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
 #include "components/fluid.hpp"
@@ -8,8 +9,6 @@
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "systems/solve/velocity_block.hpp"
-
-#include <random>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -102,10 +101,10 @@ TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is know
   CHECK((block.error() == 0) == is_exact);
   CHECK(block.error() <= 0.5);
 
-  std::mt19937 engine(3);
+  kernels::Random random(3);
   Values v(Dim * schur.rows());
   for (std::size_t i = 0; i < v.size(); ++i) {
-    const double number = static_cast<double>(engine()) / 4294967296.0 - 0.5;
+    const double number = random(-0.5, 0.5);
     v[i] = schur.mobility()[i] == 0 ? 0 : number / schur.mobility()[i];  // displacements about as large as the numbers
   }
   Values x = v;

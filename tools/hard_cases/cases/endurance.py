@@ -13,29 +13,34 @@ from scenes import box, down, scene
 LAST = 10.0  # s that count as the end
 
 
+def at_end(run: Run, column: str) -> np.ndarray:
+    """A column of the history over the last ten seconds."""
+    return run.history[column][run.history["time"] >= run.history["time"][-1] - LAST]
+
+
+def depth(run: Run) -> float:
+    """That of the water once it lies still: volume over width."""
+    return run.mass / run.scene["fluid"]["density"] / float(run.high[0] - run.low[0])
+
+
+def level(run: Run, potential_energy: np.ndarray) -> float:
+    """Mean level that has such a potential energy, over the depth at rest."""
+    return 2 * float(np.mean(potential_energy)) / (run.mass * -run.force[1]) / depth(run)
+
+
 def level_error(run: Run) -> float:
-    """Mean level of the last ten seconds, from the potential energy, against the volume over the width."""
-    late = run.history["time"] >= run.history["time"][-1] - LAST
-    g = -run.force[1]
-    level = 2 * float(np.mean(run.history["potential_energy"][late])) / (run.mass * g)
-    exact = run.mass / run.scene["fluid"]["density"] / float(run.high[0] - run.low[0])
-    return abs(level - exact) / exact
+    return abs(level(run, at_end(run, "potential_energy")) - 1)
 
 
 def level_below_waves(run: Run) -> float:
     """The same, signed, with the potential energy that waves have, which is as much as their kinetic energy, taken off."""
-    late = run.history["time"] >= run.history["time"][-1] - LAST
-    energy = float(np.mean((run.history["potential_energy"] - run.history["kinetic_energy"])[late]))
-    level = 2 * energy / (run.mass * -run.force[1])
-    return level / (run.mass / run.scene["fluid"]["density"] / float(run.high[0] - run.low[0])) - 1
+    return level(run, at_end(run, "potential_energy") - at_end(run, "kinetic_energy")) - 1
 
 
 def unrest(run: Run) -> float:
     """Mean speed at the end over sqrt(g H)."""
-    depth = run.mass / run.scene["fluid"]["density"] / float(run.high[0] - run.low[0])
-    late = run.history["time"] >= run.history["time"][-1] - LAST
-    square = 2 * float(np.mean(run.history["kinetic_energy"][late])) / run.mass
-    return float(np.sqrt(square / (-run.force[1] * depth)))
+    square = 2 * float(np.mean(at_end(run, "kinetic_energy"))) / run.mass
+    return float(np.sqrt(square / (-run.force[1] * depth(run))))
 
 
 def share_of_standing_wave(run: Run) -> float:
@@ -46,11 +51,9 @@ def share_of_standing_wave(run: Run) -> float:
     density = run.scene["fluid"]["density"]
     g = -run.force[1]
     k = np.pi / width
-    omega = np.sqrt(g * k * np.tanh(k * run.mass / density / width))
-    late = run.history["time"] >= run.history["time"][-1] - LAST
-    momentum = run.history["momentum_x"][late]
-    amplitude = np.sqrt(2) * float(np.std(momentum)) * k**2 / (2 * density * omega)
-    return float(density * g * amplitude**2 * width / 8 / np.mean(run.history["kinetic_energy"][late]))
+    omega = np.sqrt(g * k * np.tanh(k * depth(run)))
+    amplitude = np.sqrt(2) * float(np.std(at_end(run, "momentum_x"))) * k**2 / (2 * density * omega)
+    return float(density * g * amplitude**2 * width / 8 / np.mean(at_end(run, "kinetic_energy")))
 
 
 def energy_drift(run: Run) -> float:
