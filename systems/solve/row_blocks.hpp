@@ -35,8 +35,9 @@ class RowBlocks {
     std::array<std::uint32_t, lines> beside;   ///< slot with the same x in a line of the stencil, y fastest
     std::array<std::int32_t, width> row;       ///< -1 where there is none
     std::size_t at(std::size_t place) const {  ///< where the neighbour at a place of the stencil begins
-      return beside[place / 5] + place % 5 - 2;
+      return line(place / 5) + place % 5;
     }
+    std::size_t line(std::size_t number) const { return beside[number] - 2; }  ///< where the five of a line begin
   };
   /// Slots of one line that follow one another.
   struct Run {
