@@ -29,23 +29,37 @@ constexpr std::size_t wider(std::size_t place) {
   return out;
 }
 
-/// sum[J] += weight from[J - K] for the J within reach of I and two nodes of K; `to_k` from I to K.
-template <int Dim, int Reach, int Axis = Dim - 1>
-inline void add_shifted(const Index<Dim>& to_k, const Lanes& weight, const double* from, std::size_t stride,
-                        Lanes* sum) {
-  constexpr std::size_t size = 2 * Reach + 1;
-  constexpr auto step_to = signed_size(power(size, Axis));
-  const auto step_from = signed_size(power(std::size_t{5}, Axis) * stride);
-  const int shift = to_k[static_cast<std::size_t>(Axis)];
-  for (int j = std::max(-2, -Reach - shift); j <= std::min(2, Reach - shift); ++j) {
-    const double* there = from + (j + 2) * step_from;
-    Lanes* to = sum + (j + shift + Reach) * step_to;
-    if constexpr (Axis == 0) {
-      *to += weight * load(there);
-    } else {
-      add_shifted<Dim, Reach, Axis - 1>(to_k, weight, there, stride, to);
-    }
+/// sum[J - I] += weight[K - I] from[J - K] along x, for K and J up to two nodes from I and K; `from` belongs to the
+/// first K, entries for the next J are `step` further.
+template <int Reach>
+[[gnu::always_inline]] inline void add_line(const std::array<Lanes, 5>& weight, const double* from, std::size_t step,
+                                            std::array<Lanes, 2 * Reach + 1>& sum) {
+  constexpr auto beside = static_cast<std::size_t>(4 - Reach);
+  const auto add = [&]<std::size_t Pair>() __attribute__((always_inline)) {
+    constexpr std::size_t k = Pair / 5;
+    constexpr std::size_t j = Pair % 5;
+    if constexpr (k + j >= beside && k + j <= 8 - beside) sum[k + j - beside] += weight[k] * load(from + k + j * step);
+  };
+  [&]<std::size_t... Pair>(std::index_sequence<Pair...>) __attribute__((always_inline)) {
+    (add.template operator()<Pair>(), ...);
   }
+  (std::make_index_sequence<25>());
+}
+
+/// Where the line at J - I begins in a stencil of (2 Reach + 1)^d, from the lines at K - I and J - K; none if it is
+/// not there.
+template <int Dim, int Reach>
+constexpr std::optional<std::size_t> line_in(std::size_t to_k, std::size_t from_k) {
+  constexpr std::size_t size = 2 * Reach + 1;
+  std::size_t begin = 0;
+  for (std::size_t d = 1, step = size; d < static_cast<std::size_t>(Dim); ++d, step *= size) {
+    const std::size_t at = to_k % 5 + from_k % 5 + Reach;
+    if (at < 4 || at > 4 + 2 * Reach) return std::nullopt;
+    begin += (at - 4) * step;
+    to_k /= 5;
+    from_k /= 5;
+  }
+  return begin;
 }
 
 template <int Dim>
@@ -102,28 +116,50 @@ bool wide_stencil_fits(const Grid<Dim>& grid) {
 
 }  // namespace
 
+/// c_v N_IK/(c_a m_K) for the rows I of a block and the nodes K in a line of their stencil, by direction.
+template <int Dim>
+auto CompactPressure<Dim>::surface_weights(const From& from, const Block& block, std::size_t line) const
+    -> std::array<std::array<Lanes, 5>, Dim> {
+  const BlockEntries<Dim>& push = from.schur.push_entries();
+  const double* to_block = push.at(block.slot);
+  const std::size_t stride = push.stride(block.slot);
+  const double* per_mass = per_mass_.data() + block.line(line);
+  std::array<const double*, RowBlocks<Dim>::width> from_block;
+  for (std::size_t lane = 0; lane < from_block.size(); ++lane) {
+    const std::int32_t row = block.row[lane];
+    from_block[lane] = row < 0 ? no_row.data() : from.terms.divergence[static_cast<std::size_t>(row)].data();
+  }
+  std::array<std::array<Lanes, 5>, Dim> weight;
+  for (std::size_t x = 0; x < 5; ++x) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const std::size_t entry = Dim * (5 * line + x) + d;
+      weight[d][x] = (load(to_block + entry * stride) + take(from_block, entry)) *
+                     load(per_mass + d * from.schur.blocks().slots() + x);
+    }
+  }
+  return weight;
+}
+
 /// Adds c_v N (c_a m)^-1 D^T to the rows of a block, J at its place in a stencil of (2 Reach + 1)^d.
 template <int Dim>
 template <int Reach>
 void CompactPressure<Dim>::add_surface(const From& from, const Block& block, Lanes* sum) const {
   const BlockEntries<Dim>& push = from.schur.push_entries();
-  const double* to_block = push.at(block.slot);
-  const std::size_t stride = push.stride(block.slot);
-  for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-    const std::uint32_t base = block.beside[k / 5];
+  for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line) {
+    const std::uint32_t base = block.beside[line];
     if (RowBlocks<Dim>::is_beyond(base)) continue;
-    const std::size_t there = block.at(k);
-    const Index<Dim> to_k = offset_of<Dim>(k, 5);
-    for (std::size_t d = 0; d < Dim; ++d) {
-      Lanes n = load(to_block + (Dim * k + d) * stride);
-      for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
-        const std::int32_t row = block.row[lane];
-        if (row >= 0)
-          n[static_cast<Eigen::Index>(lane)] += from.terms.divergence[static_cast<std::size_t>(row)][Dim * k + d];
+    const auto weight = surface_weights(from, block, line);
+    const std::size_t stride = push.stride(base);
+    const double* of_line = push.at(block.line(line), base);
+    for (std::size_t on = 0; on < RowBlocks<Dim>::lines; ++on) {
+      const auto begin = line_in<Dim, Reach>(line, on);
+      if (!begin) continue;
+      std::array<Lanes, 2 * Reach + 1> sum_of_line;
+      sum_of_line.fill(Lanes::Zero());
+      for (std::size_t d = 0; d < Dim; ++d) {
+        add_line<Reach>(weight[d], of_line + (5 * on * Dim + d) * stride, Dim * stride, sum_of_line);
       }
-      const Lanes weight = n * load(per_mass_.data() + d * from.schur.blocks().slots() + there);
-      const std::size_t stride_k = push.stride(base);
-      add_shifted<Dim, Reach>(to_k, weight, push.at(there, base) + d * stride_k, Dim * stride_k, sum);
+      for (std::size_t x = 0; x < sum_of_line.size(); ++x) sum[*begin + x] += sum_of_line[x];
     }
   }
 }

@@ -57,6 +57,7 @@ class CompactPressure {
     double of_laplacian;
   };
   void fill_rows(const From& from, const Fluid& fluid);
+  std::array<std::array<Lanes, 5>, Dim> surface_weights(const From& from, const Block& block, std::size_t line) const;
   template <int Reach>
   void add_surface(const From& from, const Block& block, Lanes* sum) const;
   void fill_block(const From& from, const Block& block);

@@ -39,28 +39,29 @@ void PressureSchur<Dim>::fill_block(const EquationTerms<Dim>& t, const Block& bl
   double* push = push_.at(block.slot);
   double* spread = spread_.at(block.slot);
   const std::size_t stride = push_.stride(block.slot);
+  std::array<const double*, RowBlocks<Dim>::width> to_other, from_other, stabilization;
   for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
     const std::size_t back = stencil_size<Dim> - 1 - k;
     for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
       const std::int32_t row = block.row[lane];
-      const std::int32_t other = row < 0 ? -1 : blocks_.row(block.at(k) + lane);
-      if (other < 0) {
-        for (std::size_t d = 0; d < Dim; ++d) push[(Dim * k + d) * stride + lane] = 0;
-        for (std::size_t d = 0; d <= Dim; ++d) spread[((Dim + 1) * k + d) * stride + lane] = 0;
-        continue;
-      }
+      const std::int32_t other = blocks_.row(block.at(k) + lane);
+      const bool is_there = row >= 0 && other >= 0;
       const auto r = static_cast<std::size_t>(row);
-      const auto& to_other = t.divergence[r];
-      const auto& from_other = t.divergence[static_cast<std::size_t>(other)];
-      const auto& stabilization = t.stabilization[r];
-      for (std::size_t d = 0; d < Dim; ++d) {
-        push[(Dim * k + d) * stride + lane] = from_other[Dim * back + d];
-        spread[((Dim + 1) * k + d) * stride + lane] =
-            t.c_v * to_other[Dim * k + d] + t.c_a * stabilization[(Dim + 1) * k + d];
-      }
-      const double e = k == back ? t.pressure_per_mass * t.m_i[t.node[r]] : 0;
-      spread[((Dim + 1) * k + Dim) * stride + lane] = stabilization[(Dim + 1) * k + Dim] + e;
+      to_other[lane] = is_there ? t.divergence[r].data() + Dim * k : no_row.data();
+      stabilization[lane] = is_there ? t.stabilization[r].data() + (Dim + 1) * k : no_row.data();
+      from_other[lane] =
+          is_there ? t.divergence[static_cast<std::size_t>(other)].data() + Dim * back : no_row.data();
     }
+    for (std::size_t d = 0; d < Dim; ++d) {
+      store(take(from_other, d), push + (Dim * k + d) * stride);
+      store(t.c_v * take(to_other, d) + t.c_a * take(stabilization, d), spread + ((Dim + 1) * k + d) * stride);
+    }
+    store(take(stabilization, Dim), spread + ((Dim + 1) * k + Dim) * stride);
+  }
+  double* own = spread + ((Dim + 1) * (stencil_size<Dim> / 2) + Dim) * stride;
+  for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
+    if (block.row[lane] < 0) continue;
+    own[lane] += t.pressure_per_mass * t.m_i[t.node[static_cast<std::size_t>(block.row[lane])]];
   }
 }
 

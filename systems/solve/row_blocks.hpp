@@ -23,6 +23,12 @@ namespace minamo {
 using Lanes = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
 inline Lanes load(const double* from) { return Eigen::Map<const Lanes>(from); }
 inline void store(const Lanes& value, double* to) { Eigen::Map<Lanes>{to} = value; }
+/// Entry i of four rows of a table.
+inline Lanes take(const std::array<const double*, 4>& rows, std::size_t i) {
+  return {rows[0][i], rows[1][i], rows[2][i], rows[3][i]};
+}
+/// A row for the places without one, as long as any.
+inline constexpr std::array<double, 4 * stencil_size<3>> no_row{};
 
 template <int Dim>
 class RowBlocks {
