@@ -7,6 +7,7 @@
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include <cstddef>
+#include <utility>
 
 namespace minamo {
 
@@ -39,13 +40,14 @@ void for_each_row(std::size_t rows, const Body& body, std::size_t rows_per_task 
 /// combine(... combine(start, value(0)) ..., value(rows - 1)) up to the order, which depends on `rows` alone.
 template <class T, class Value, class Combine>
 T reduce_rows(std::size_t rows, const T& start, const Value& value, const Combine& combine) {
+  const auto of_range = [&](std::size_t begin, std::size_t end, T sum) {
+    for (std::size_t row = begin; row != end; ++row) sum = combine(sum, value(row));
+    return sum;
+  };
+  if (rows <= grain) return of_range(0, rows, start);
   return tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::size_t>(0, rows, grain), start,
-      [&](const auto& range, T sum) {
-        for (std::size_t row = range.begin(); row != range.end(); ++row) sum = combine(sum, value(row));
-        return sum;
-      },
-      combine);
+      [&](const auto& range, T sum) { return of_range(range.begin(), range.end(), std::move(sum)); }, combine);
 }
 
 }  // namespace minamo

@@ -53,10 +53,4 @@ constinit const AxisBasis high_wall_basis = make_basis(-2, {{{0, 0, 0}, {0, -1, 
 constinit const AxisBasis inner_basis =
     make_basis(-1, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
 
-double axis_integral(int node, int last) {
-  const int from_wall = std::min(node, last - node);
-  if (from_wall == 0) return 13. / 24;
-  return from_wall == 1 ? 23. / 24 : 1;
-}
-
 }  // namespace minamo

@@ -12,6 +12,8 @@
 
 #include "components/grid.hpp"
 
+#include <algorithm>
+
 namespace minamo {
 
 /// Powers of the local coordinate in a weight (0, 1, 2), and in a product of two weights (0 ... 4).
@@ -54,7 +56,11 @@ inline const AxisBasis& axis_basis(int node, int last) {
 }
 
 /// Integral of a node's weight over its axis, in units of h: 13/24, 23/24, 1, ... from a wall.
-double axis_integral(int node, int last);
+inline double axis_integral(int node, int last) {
+  const int from_wall = std::min(node, last - node);
+  if (from_wall == 0) return 13. / 24;
+  return from_wall == 1 ? 23. / 24 : 1;
+}
 
 template <int Dim>
 const AxisBasis& axis_basis(const Grid<Dim>& grid, std::size_t axis, int node) {

@@ -16,8 +16,6 @@ constexpr std::size_t blocks_per_task = 32;
 /// factorization than they cost in iterations.
 constexpr double full = 0.9;
 
-constexpr std::ptrdiff_t signed_size(std::size_t n) { return static_cast<std::ptrdiff_t>(n); }
-
 /// Where the neighbour at a place of the stencil of 5^d has its place in one of (2 Reach + 1)^d.
 template <int Dim, int Reach>
 constexpr std::size_t wider(std::size_t place) {
@@ -60,16 +58,6 @@ constexpr std::optional<std::size_t> line_in(std::size_t to_k, std::size_t from_
     from_k /= 5;
   }
   return begin;
-}
-
-template <int Dim>
-Index<Dim> offset_of(std::size_t place, int size) {
-  Index<Dim> offset;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(Dim); ++d) {
-    offset[d] = static_cast<int>(place % static_cast<std::size_t>(size)) - size / 2;
-    place /= static_cast<std::size_t>(size);
-  }
-  return offset;
 }
 
 /// Finds rows of nodes up to four nodes away from one.
@@ -196,6 +184,34 @@ void CompactPressure<Dim>::fill_block(const From& from, const Block& block) {
   }
 }
 
+namespace {
+
+template <int Dim>
+struct WidePlace {
+  std::size_t number;
+  Index<Dim> offset;
+};
+
+/// The places of the wide stencil that are not in the compact one.
+template <int Dim>
+const auto& places_beyond() {
+  static const auto places = [] {
+    std::array<WidePlace<Dim>, power(std::size_t{9}, Dim) - stencil_size<Dim>> made;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < power(std::size_t{9}, Dim); ++k) {
+      Index<Dim> offset;
+      for (std::size_t d = 0, rest = k; d < static_cast<std::size_t>(Dim); ++d, rest /= 9) {
+        offset[d] = static_cast<int>(rest % 9) - 4;
+      }
+      if (std::any_of(offset.begin(), offset.end(), [](int o) { return std::abs(o) > 2; })) made[count++] = {k, offset};
+    }
+    return made;
+  }();
+  return places;
+}
+
+}  // namespace
+
 /// Keeps of the wide stencil what lies beyond the compact one, in the rows of thin nodes.
 template <int Dim>
 void CompactPressure<Dim>::fill_beyond(const From& from, const Block& block, const Lanes* wide) {
@@ -203,14 +219,11 @@ void CompactPressure<Dim>::fill_beyond(const From& from, const Block& block, con
     if (block.row[lane] < 0 || !thin_[static_cast<std::size_t>(block.row[lane])]) continue;
     auto& beyond = beyond_[static_cast<std::size_t>(block.row[lane])];
     WideStencil<Dim> stencil(from.terms, from.grid, static_cast<std::size_t>(block.row[lane]));
-    for (std::size_t k = 0; k < power(std::size_t{9}, Dim); ++k) {
-      const double value = wide[k][static_cast<Eigen::Index>(lane)];
+    for (const auto& [number, offset] : places_beyond<Dim>()) {
+      const double value = wide[number][static_cast<Eigen::Index>(lane)];
       if (value == 0) continue;
-      const Index<Dim> offset = offset_of<Dim>(k, 9);
-      if (std::all_of(offset.begin(), offset.end(), [](int o) { return std::abs(o) <= 2; })) continue;
       const std::int32_t there = stencil.row(offset);
-      if (there < 0) continue;
-      beyond.push_back({static_cast<std::uint32_t>(there), value});
+      if (there >= 0) beyond.push_back({static_cast<std::uint32_t>(there), value});
     }
   }
 }

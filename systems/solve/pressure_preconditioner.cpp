@@ -13,7 +13,7 @@ namespace {
 
 /// Multiplications up to which single precision saves less than its failures cost, and from which on an envelope is
 /// slower than a sparse factorization, in single and in double precision.
-constexpr double narrowest_single = 1e7;
+constexpr double narrowest_single = 1e6;
 constexpr double widest_single = 1e10;
 constexpr double widest_double = 1e9;
 

@@ -24,12 +24,11 @@ class Stencil {
     visit<Dim - 1>(window(node), 0, {}, find, body);
   }
 
-  /// Neighbours inside the grid, whether in the table or not.
-  std::size_t places_inside(std::uint32_t node) const {
-    const Window around = window(node);
-    std::size_t count = 1;
-    for (std::size_t d = 0; d < Dim; ++d) count *= around.end[d] - around.begin[d];
-    return count;
+  /// Whether all neighbours inside the grid are in the table and meet the condition.
+  template <class Condition>
+  bool all_of(std::uint32_t node, const Condition& condition) const {
+    typename SiteRows<Dim>::Finder find(rows_);
+    return all_of<Dim - 1>(window(node), {}, find, condition);
   }
 
  private:
@@ -69,6 +68,21 @@ class Stencil {
         visit<Axis - 1>(around, 5 * place + step, at, find, body);
       }
     }
+  }
+
+  template <int Axis, class Condition>
+  bool all_of(const Window& around, const Address& from, Finder& find, const Condition& condition) const {
+    constexpr auto axis = static_cast<std::size_t>(Axis);
+    for (std::size_t step = around.begin[axis]; step < around.end[axis]; ++step) {
+      const Address at = from + around.part[axis][step];
+      if constexpr (Axis == 0) {
+        const auto row = find(at);
+        if (!row || !condition(*row)) return false;
+      } else {
+        if (!all_of<Axis - 1>(around, at, find, condition)) return false;
+      }
+    }
+    return true;
   }
 
   Grid<Dim> grid_;

@@ -26,13 +26,7 @@ void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>>
     e_i[i] = 0;
     if (v_i[i] == 0) return;
     const double excess = v_i[i] - full_volume<Dim>(*grid, sites[i]);
-    bool counts = excess >= 0 || half_full(i);
-    if (excess < 0 && counts) {
-      const auto node = static_cast<std::uint32_t>(i);
-      std::size_t full = 0;
-      stencil.for_each_neighbour(node, [&](std::size_t, std::uint32_t j) { full += half_full(j); });
-      counts = full == stencil.places_inside(node);
-    }
+    const bool counts = excess >= 0 || (half_full(i) && stencil.all_of(static_cast<std::uint32_t>(i), half_full));
     if (counts) e_i[i] = excess;
   });
 }
