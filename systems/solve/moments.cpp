@@ -24,32 +24,28 @@ void contract(std::size_t groups, const Factor& factor, const double* in, double
   }
 }
 
-/// Direction by direction, the last one first; `contract_x` is left to do, from one group to the next.
-template <int Dim, std::size_t N, class FactorOf, class ContractX>
-void contract_all(const std::array<double, stencil_size<Dim>>& moments, const FactorOf& factor_of,
-                  const ContractX& contract_x) {
-  if constexpr (Dim == 2) {
-    std::array<double, N * 5> y_done;
-    contract<5, N>(1, factor_of(1), moments.data(), y_done.data());
-    contract_x(N, y_done.data());
-  } else {
-    std::array<double, N * 25> z_done;
-    std::array<double, N * N * 5> y_done;
-    contract<25, N>(1, factor_of(2), moments.data(), z_done.data());
-    contract<5, N>(N, factor_of(1), z_done.data(), y_done.data());
-    contract_x(N * N, y_done.data());
-  }
+using Pairs = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
+
+/// sum_k factor[k][q ... q + 3] in[k step]
+[[gnu::always_inline]] inline Pairs contract_pairs(const AxisBasis::PairProducts& factor, std::size_t q,
+                                                   const double* in, std::size_t step) {
+  const auto term = [&](std::size_t k) -> Pairs { return Eigen::Map<const Pairs>(factor[k].data() + q) * in[k * step]; };
+  return ((term(0) + term(1)) + (term(2) + term(3))) + term(4);
 }
 
-/// out[g][q] = sum_k factor[k][q] in[g][k], vectorized over pairs.
-void contract_pairs(std::size_t groups, const AxisBasis::PairProducts& factor, const double* in, double* out) {
-  using Pairs = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
-  for (std::size_t g = 0; g < groups; ++g, in += product_powers, out += padded_pairs) {
+/// The pairs of two directions from the moments of a plane, y first: out[padded_pairs (pair of y) + pair of x].
+/// Vectorized over pairs.
+void contract_plane(const AxisBasis::PairProducts& factor_x, const AxisBasis::PairProducts& factor_y, const double* in,
+                    double* out) {
+  std::array<double, product_powers * padded_pairs> y_done;  // by power of x, then pair of y
+  for (std::size_t x = 0; x < product_powers; ++x) {
     for (std::size_t q = 0; q < padded_pairs; q += 4) {
-      const auto of_power = [&](std::size_t k) { return Eigen::Map<const Pairs>(factor[k].data() + q); };
-      Eigen::Map<Pairs>{out + q} =
-          ((of_power(0) * in[0] + of_power(1) * in[1]) + (of_power(2) * in[2] + of_power(3) * in[3])) +
-          of_power(4) * in[4];
+      Eigen::Map<Pairs>{y_done.data() + padded_pairs * x + q} = contract_pairs(factor_y, q, in + x, product_powers);
+    }
+  }
+  for (std::size_t y = 0; y < 9; ++y, out += padded_pairs) {
+    for (std::size_t q = 0; q < padded_pairs; q += 4) {
+      Eigen::Map<Pairs>{out + q} = contract_pairs(factor_x, q, y_done.data() + y, padded_pairs);
     }
   }
 }
@@ -90,21 +86,37 @@ void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim
 template <int Dim>
 CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors) {
   CellMatrix<Dim> done;
-  contract_all<Dim, 9>(
-      moments, [&](std::size_t d) { return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[k][q]; }; },
-      [&](std::size_t groups, const double* in) { contract_pairs(groups, *factors[0], in, done.data()); });
+  if constexpr (Dim == 2) {
+    contract_plane(*factors[0], *factors[1], moments.data(), done.data());
+  } else {
+    constexpr std::size_t plane = stencil_size<2>;
+    std::array<double, 9 * plane> z_done;
+    contract<plane, 9>(
+        1, [&f = *factors[2]](std::size_t q, std::size_t k) { return f[k][q]; }, moments.data(), z_done.data());
+    for (std::size_t z = 0; z < 9; ++z) {
+      contract_plane(*factors[0], *factors[1], z_done.data() + plane * z, done.data() + 9 * padded_pairs * z);
+    }
+  }
   return done;
 }
 
 template <int Dim>
 CellVector<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const NodeFactors<Dim>& factors) {
-  CellVector<Dim> done;
   const auto factor_of = [&](std::size_t d) {
     return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[q][k]; };
   };
-  contract_all<Dim, 3>(moments, factor_of, [&](std::size_t groups, const double* in) {
-    contract<1, 3>(groups, factor_of(0), in, done.data());
-  });
+  CellVector<Dim> done;
+  if constexpr (Dim == 2) {
+    std::array<double, 3 * 5> y_done;
+    contract<5, 3>(1, factor_of(1), moments.data(), y_done.data());
+    contract<1, 3>(3, factor_of(0), y_done.data(), done.data());
+  } else {
+    std::array<double, 3 * 25> z_done;
+    std::array<double, 9 * 5> y_done;
+    contract<25, 3>(1, factor_of(2), moments.data(), z_done.data());
+    contract<5, 3>(3, factor_of(1), z_done.data(), y_done.data());
+    contract<1, 3>(9, factor_of(0), y_done.data(), done.data());
+  }
   return done;
 }
 

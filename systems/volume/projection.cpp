@@ -55,8 +55,8 @@ void take_shift(const std::vector<double>& x, std::span<const std::int32_t> row,
   });
 }
 
-/// A shift is a correction: two digits less of it do no harm.
-double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2, 100 * tolerance.relative); }
+/// A shift is a correction: three digits less of it do no harm.
+double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2, 1000 * tolerance.relative); }
 
 }  // namespace
 
