@@ -32,16 +32,7 @@ class SiteRows {
     numbers_.start(count);
   }
   /// Gives a site a row, by the next number_rows().
-  void add(const Index<Dim>& site) { add(address(site)); }
-  void add(const Address& at) {
-    const std::size_t before = numbers_.size();
-    const std::uint32_t page = numbers_.number(at.page);
-    if (page == before) {
-      if (page == one_past_.size()) one_past_.emplace_back();
-      one_past_[page].fill(0);
-    }
-    one_past_[page][at.within] = 1;
-  }
+  void add(const Index<Dim>& site) { Adder (*this)(address(site)); }
   /// Numbers the sites that were added in their order.
   /// \return how many there are
   std::size_t number_rows();
@@ -65,6 +56,31 @@ class SiteRows {
   using Page = std::array<std::uint32_t, power(width, Dim)>;  ///< 1 + row; 0: no row
 
  public:
+  /// Gives rows to sites near each other, by the next number_rows(); no other may give any meanwhile.
+  class Adder {
+   public:
+    explicit Adder(SiteRows& rows) : rows_(rows) {}
+    void operator()(const Address& at) {
+      if (!sites_ || at.page != page_) turn_to(at.page);
+      (*sites_)[at.within] = 1;
+    }
+
+   private:
+    void turn_to(std::size_t page) {
+      const std::size_t before = rows_.numbers_.size();
+      const std::uint32_t number = rows_.numbers_.number(page);
+      if (number == before) {
+        if (number == rows_.one_past_.size()) rows_.one_past_.emplace_back();
+        rows_.one_past_[number].fill(0);
+      }
+      page_ = page;
+      sites_ = &rows_.one_past_[number];
+    }
+    SiteRows& rows_;
+    std::size_t page_ = 0;
+    Page* sites_ = nullptr;
+  };
+
   /// Finds rows of sites near each other, most of them on the page of the one before.
   class Finder {
    public:

@@ -42,13 +42,14 @@ void number_end_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resi
                       Write<end_node::Site<Dim>> sites) {
   rows.start(grid);
   rows.runs.clear();
+  typename SiteRows<Dim>::Adder add(rows);
   DualCellFinder<Dim> cell(grid);
   Vec<Dim> y;
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     if (!cell.finds_another(x_p[p], y)) continue;
     rows.runs.push_back({cell.own(), static_cast<std::uint32_t>(p), {}});
     for_each_address<Dim>(grid, rows, SupportBox<Dim>(grid, cell.own()),
-                          [&](std::size_t, const auto& address) { rows.add(address); });
+                          [&](std::size_t, const auto& address) { add(address); });
   }
   nodes.resize(rows.number_rows());
   rows.for_each([&](const Index<Dim>& site, std::uint32_t i) { sites[i] = site; });

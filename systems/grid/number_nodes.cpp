@@ -48,9 +48,10 @@ void NumberNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, 
                                   Update<node::Site<Dim>> sites, Write<node::Fixed> fixed,
                                   Update<NumberingBuffer> buffer) const {
   rows->start(*grid);
+  typename SiteRows<Dim>::Adder add(*rows);
   for (const auto& cell : cells->cells) {
     for_each_address<Dim>(*grid, *rows, SupportBox<Dim>(*grid, cell.node),
-                          [&](std::size_t, const auto& address) { rows->add(address); });
+                          [&](std::size_t, const auto& address) { add(address); });
   }
   buffer->from.resize(rows->number_rows());
   find_origin<Dim>(*rows, sites.span(), buffer->from);

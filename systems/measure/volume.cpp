@@ -31,13 +31,13 @@ void MeasureOverlap<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Re
                                      Write<measure::Overlap> overlap) const {
   number_end_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
   gather_node_volume<Dim>(*grid, *rows, fluid->density, x_p.span(), m_p.span(), v_i.span());
-  double excess = 0;
-  for (std::size_t i = 0; i < v_i.size(); ++i) {
-    if (v_i[i] > 0) excess += std::max(0.0, v_i[i] - full_volume<Dim>(*grid, sites[i]));
-  }
-  double total = 0;
-  for (const double m : m_p) total += m / fluid->density;
-  overlap->value = excess / total;
+  const auto excess_of = [&](std::size_t i) {
+    return v_i[i] > 0 ? std::max(0.0, v_i[i] - full_volume<Dim>(*grid, sites[i])) : 0;
+  };
+  const double excess = reduce_rows(v_i.size(), 0.0, excess_of, std::plus<>());
+  const double mass = reduce_rows(
+      m_p.size(), 0.0, [&](std::size_t p) { return m_p[p]; }, std::plus<>());
+  overlap->value = excess * fluid->density / mass;
 }
 
 template struct MeasureDivergence<2>;

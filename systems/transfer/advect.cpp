@@ -2,10 +2,12 @@
 
 #include "systems/transfer/gather.hpp"
 
+#include <atomic>
+
 namespace minamo {
 
 template <int Dim>
-Placed<Dim> inside_box(const Grid<Dim>& grid, Vec<Dim> x) {
+Placed<Dim> put_inside_box(const Grid<Dim>& grid, Vec<Dim> x) {
   bool put_back = false;
   for (int d = 0; d < Dim; ++d) {
     if (x[d] >= grid.low[d] && x[d] <= grid.high[d]) continue;
@@ -23,16 +25,17 @@ template <int Dim>
 void Advect<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                              Read<particle::Configuration<Dim>> y_p, Read<node::Displacement<Dim>> u_i,
                              Update<particle::Position<Dim>> x_p, Update<PutBack> put_back) const {
-  gather<Dim>(*grid, *cells, y_p.span(), u_i.span(), [&](std::size_t p, const Vec<Dim>& u) { x_p[p] += u; });
-  for (Vec<Dim>& x : x_p) {
-    const Placed<Dim> placed = inside_box<Dim>(*grid, x);
-    x = placed.x;
-    put_back->count += placed.put_back;
-  }
+  std::atomic<std::int64_t> count = 0;
+  gather<Dim>(*grid, *cells, y_p.span(), u_i.span(), [&](std::size_t p, const Vec<Dim>& u) {
+    const Placed<Dim> placed = inside_box<Dim>(*grid, x_p[p] + u);
+    x_p[p] = placed.x;
+    if (placed.put_back) ++count;
+  });
+  put_back->count += count;
 }
 
-template Placed<2> inside_box<2>(const Grid<2>&, Vec<2>);
-template Placed<3> inside_box<3>(const Grid<3>&, Vec<3>);
+template Placed<2> put_inside_box<2>(const Grid<2>&, Vec<2>);
+template Placed<3> put_inside_box<3>(const Grid<3>&, Vec<3>);
 template struct Advect<2>;
 template struct Advect<3>;
 

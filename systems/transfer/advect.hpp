@@ -8,6 +8,7 @@
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/system.hpp"
+#include "systems/grid/support.hpp"
 
 namespace minamo {
 
@@ -18,9 +19,20 @@ struct Placed {
   bool put_back;  ///< whether a wall had to hold it
 };
 
+/// inside_box() of a point that may lie outside.
+template <int Dim>
+Placed<Dim> put_inside_box(const Grid<Dim>& grid, Vec<Dim> x);
+
 /// The point itself, its image along periodic axes, or a point just inside the wall that it went through.
 template <int Dim>
-Placed<Dim> inside_box(const Grid<Dim>& grid, Vec<Dim> x);
+inline Placed<Dim> inside_box(const Grid<Dim>& grid, const Vec<Dim>& x) {
+  bool stays = true;
+  for (int d = 0; d < Dim; ++d) {
+    const double margin = grid.periodic[static_cast<std::size_t>(d)] ? 0 : off_wall * grid.spacing;
+    stays = stays && x[d] >= grid.low[d] + margin && x[d] <= grid.high[d] - margin;
+  }
+  return stays ? Placed<Dim>{x, false} : put_inside_box<Dim>(grid, x);
+}
 
 /// (E11)  x_p^{n+1} = x_p^n + sum_I S_I(y_p) u_I. A particle that would leave the box is put back just inside the wall
 /// and counted.
