@@ -108,7 +108,7 @@ auto PressureSchur<Dim>::push_block(const Block& block) const -> std::array<Lane
     const double* p = pressure_.data() + block.line(line);
     for (std::size_t d = 0; d < Dim; ++d) sum[d] += line_sum(entry + d * stride, Dim * stride, p);
   }
-  return {sum};
+  return sum;
 }
 
 /// B w + (T + e) p of the pressure and velocity in the slots.
