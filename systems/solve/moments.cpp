@@ -29,7 +29,9 @@ using Pairs = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
 /// sum_k factor[k][q ... q + 3] in[k step]
 [[gnu::always_inline]] inline Pairs contract_pairs(const AxisBasis::PairProducts& factor, std::size_t q,
                                                    const double* in, std::size_t step) {
-  const auto term = [&](std::size_t k) -> Pairs { return Eigen::Map<const Pairs>(factor[k].data() + q) * in[k * step]; };
+  const auto term = [&](std::size_t k) -> Pairs {
+    return Eigen::Map<const Pairs>(factor[k].data() + q) * in[k * step];
+  };
   return ((term(0) + term(1)) + (term(2) + term(3))) + term(4);
 }
 
@@ -40,7 +42,7 @@ void contract_plane(const AxisBasis::PairProducts& factor_x, const AxisBasis::Pa
   std::array<double, product_powers * padded_pairs> y_done;  // by power of x, then pair of y
   for (std::size_t x = 0; x < product_powers; ++x) {
     for (std::size_t q = 0; q < padded_pairs; q += 4) {
-      Eigen::Map<Pairs>{y_done.data() + padded_pairs * x + q} = contract_pairs(factor_y, q, in + x, product_powers);
+      Eigen::Map<Pairs>{y_done.data() + padded_pairs* x + q} = contract_pairs(factor_y, q, in + x, product_powers);
     }
   }
   for (std::size_t y = 0; y < 9; ++y, out += padded_pairs) {

@@ -49,8 +49,7 @@ void PressureSchur<Dim>::fill_block(const EquationTerms<Dim>& t, const Block& bl
       const auto r = static_cast<std::size_t>(row);
       to_other[lane] = is_there ? t.divergence[r].data() + Dim * k : no_row.data();
       stabilization[lane] = is_there ? t.stabilization[r].data() + (Dim + 1) * k : no_row.data();
-      from_other[lane] =
-          is_there ? t.divergence[static_cast<std::size_t>(other)].data() + Dim * back : no_row.data();
+      from_other[lane] = is_there ? t.divergence[static_cast<std::size_t>(other)].data() + Dim * back : no_row.data();
     }
     for (std::size_t d = 0; d < Dim; ++d) {
       store(take(from_other, d), push + (Dim * k + d) * stride);
