@@ -32,7 +32,10 @@ class SiteRows {
     numbers_.start(count);
   }
   /// Gives a site a row, by the next number_rows().
-  void add(const Index<Dim>& site) { Adder (*this)(address(site)); }
+  void add(const Index<Dim>& site) {
+    Adder add_at(*this);
+    add_at(address(site));
+  }
   /// Numbers the sites that were added in their order.
   /// \return how many there are
   std::size_t number_rows();

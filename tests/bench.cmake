@@ -18,6 +18,15 @@ foreach(text "| 40 x 40, 8 ms | 1 | 800 | 792 | 3 |" "interFoam: ratio"
   require_in("${page}" "${text}")
 endforeach()
 
+# Three tries of two steps, of 2, 1 and 3 us: the second was taken back after its first system.
+set(events "[{'name': name, 'ts': ts, 'dur': dur} for name, ts, dur in
+  (('a', 0, 1), ('b', 1, 1), ('a', 10, 1), ('a', 12, 1), ('b', 13, 2))]")
+execute_process(COMMAND ${PYTHON} -B -c "from measure import step_seconds; print(round(1e6 * step_seconds(${events}), 6))"
+  WORKING_DIRECTORY ${SOURCE}/tools/benchmarking OUTPUT_VARIABLE microseconds COMMAND_ERROR_IS_FATAL ANY)
+if(NOT microseconds STREQUAL "3.0\n")
+  message(FATAL_ERROR "a step of 3 us measured as ${microseconds}")
+endif()
+
 execute_process(COMMAND ${bench} --list OUTPUT_VARIABLE names COMMAND_ERROR_IS_FATAL ANY)
 require_in("${names}" "  space_32")
 

@@ -4,6 +4,7 @@
 #include "systems/solve/neighbours.hpp"
 
 #include <cmath>
+#include <functional>
 
 namespace minamo {
 
