@@ -42,7 +42,8 @@ void contract_plane(const AxisBasis::PairProducts& factor_x, const AxisBasis::Pa
   std::array<double, product_powers * padded_pairs> y_done;  // by power of x, then pair of y
   for (std::size_t x = 0; x < product_powers; ++x) {
     for (std::size_t q = 0; q < padded_pairs; q += 4) {
-      Eigen::Map<Pairs>{y_done.data() + padded_pairs* x + q} = contract_pairs(factor_y, q, in + x, product_powers);
+      double* to = y_done.data() + padded_pairs * x + q;
+      Eigen::Map<Pairs>{to} = contract_pairs(factor_y, q, in + x, product_powers);
     }
   }
   for (std::size_t y = 0; y < 9; ++y, out += padded_pairs) {

@@ -1,3 +1,4 @@
+#include "support/grids.hpp"
 #include "support/kernels.hpp"
 
 #include "components/sites.hpp"
@@ -10,16 +11,6 @@ using namespace minamo;
 using namespace minamo::kernels;
 
 namespace {
-
-/// Pages of all kinds: whole ones, cut ones, a single one along an axis.
-template <int Dim>
-Grid<Dim> long_grid() {
-  Grid<Dim> grid;
-  constexpr std::array<int, 3> cells{61, 18, 7};
-  for (std::size_t d = 0; d < Dim; ++d) grid.cells[d] = cells[d];
-  grid.periodic[0] = true;
-  return grid;
-}
 
 /// Random sites by their places in the order of the grid, some of them twice.
 template <int Dim>

@@ -1,3 +1,4 @@
+#include "support/grids.hpp"
 #include "support/kernels.hpp"
 
 #include "systems/solve/stencil.hpp"
@@ -11,19 +12,9 @@ using namespace minamo::kernels;
 
 namespace {
 
-/// Around in x; between walls in y and z.
-template <int Dim>
-Grid<Dim> mixed_grid() {
-  Grid<Dim> grid;
-  constexpr std::array<int, 3> cells{13, 9, 6};
-  for (std::size_t d = 0; d < Dim; ++d) grid.cells[d] = cells[d];
-  grid.periodic[0] = true;
-  return grid;
-}
-
 template <int Dim>
 struct Table {
-  Grid<Dim> grid = mixed_grid<Dim>();
+  Grid<Dim> grid = long_grid<Dim>();
   SiteRows<Dim> rows;
   std::vector<Index<Dim>> sites;
 

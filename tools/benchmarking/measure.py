@@ -67,22 +67,17 @@ def step_seconds(events: list[dict[str, Any]]) -> float:
     """Wall time per step, from the begin of its first system to the end of its last; what went into steps that were
     taken back is in it. Frames are left out. The events are in the order of their begin."""
     calls: Counter[str] = Counter()
-    seen: set[str] = set()
-    begin = end = total = 0.0
+    tries: list[dict[str, dict[str, Any]]] = [{}]  # by system
     for event in events:
         name = event["name"]
         if name in OUTPUT_SYSTEMS:
             continue
-        if name in seen:  # again: the next step
-            total += end - begin
-            seen.clear()
-        if not seen:
-            begin = event["ts"]
-            end = begin
-        seen.add(name)
+        if name in tries[-1]:
+            tries.append({})
+        tries[-1][name] = event
         calls[name] += 1
-        end = max(end, event["ts"] + event["dur"])
-    return 1e-6 * (total + end - begin) / min(calls.values())
+    spans = (max(e["ts"] + e["dur"] for e in one.values()) - min(e["ts"] for e in one.values()) for one in tries)
+    return 1e-6 * sum(spans) / min(calls.values())
 
 
 def median_of(measured: list[Measured]) -> Measured:
