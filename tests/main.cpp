@@ -24,10 +24,10 @@ std::string as_test_spec(std::string_view name) {
   return spec;
 }
 
-#ifdef __SANITIZE_THREAD__
-constexpr bool is_for_races = true;
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr bool is_sanitized = true;
 #else
-constexpr bool is_for_races = false;
+constexpr bool is_sanitized = false;
 #endif
 
 std::string quoted(const std::string& text) { return "[===[" + text + "]===]"; }
@@ -39,9 +39,8 @@ void write_ctest_file(const std::filesystem::path& file, const std::filesystem::
     if (test.isHidden()) continue;
     std::string labels;
     for (const std::string& tag : test.tags) labels += (labels.empty() ? "" : ";") + tag;
-    // A quick test takes milliseconds; the sanitizers and a busy machine make that seconds, the thread sanitizer
-    // minutes.
-    const bool quick = !is_for_races && std::any_of(test.tags.begin(), test.tags.end(), is_quick);
+    // A quick test takes milliseconds to seconds; the sanitizers and a busy machine make that minutes.
+    const bool quick = !is_sanitized && std::any_of(test.tags.begin(), test.tags.end(), is_quick);
     const int timeout_s = quick ? 120 : 1200;
     script << "add_test(" << quoted(test.name) << ' ' << quoted(program.string()) << ' '
            << quoted(as_test_spec(test.name)) << ")\n"

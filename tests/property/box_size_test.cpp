@@ -65,8 +65,9 @@ TEMPLATE_TEST_CASE_SIG("what a step keeps and goes through does not depend on th
   CAPTURE(volume);
   SceneRun small(pond<Dim>(32, volume));
   SceneRun large(pond<Dim>(Dim == 2 ? 2048 : 256, volume));
-  small.step(5);
-  large.step(5);
+  // The second starts from what the first left.
+  small.step(Dim == 2 ? 5 : 2);
+  large.step(Dim == 2 ? 5 : 2);
   CHECK(differences(sizes<Dim>(small.world()), sizes<Dim>(large.world())).empty());
   CHECK(differences(state(small.world()), state(large.world())).empty());
   // Nodes within a cell of the pond's 12 x 6 (x 6) cells, and what runs out in a few steps.
