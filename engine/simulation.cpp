@@ -42,11 +42,9 @@ class Stepper {
   void plan(double next_frame) {
     const double uncut = wanted();
     const double step = uncut * control_.share();
-    double target = plan_.step ? next_tick(uncut) : towards(std::min(next_frame, plan_.end), step);
-    // The last step may be shorter than its ticks.
-    ticks_ = plan_.step && target < plan_.end + 1e-6 * step ? control_.ticks_ahead() : 0;
+    ticks_ = control_.ticks;
+    double target = plan_.step ? along_ticks(uncut, step) : towards(std::min(next_frame, plan_.end), step);
     if (target > plan_.end - 1e-6 * step) target = plan_.end;
-    // Where an earlier run ended between two ticks, the first step of a continuation leads back to them.
     const bool is_whole = plan_.step && std::abs(target - clock_.time - step) < 1e-6 * step;
     clock_.step = is_whole ? step : target - clock_.time;
     clock_.end_of_step = target;
@@ -54,7 +52,7 @@ class Stepper {
   void accept() {
     clock_.time = clock_.end_of_step;
     ++clock_.index;
-    control_.accept(ticks_);
+    control_.accept(ticks_ - control_.ticks);
   }
 
  private:
@@ -66,16 +64,28 @@ class Stepper {
     if (rest > (1 + 1e-3) * step) return clock_.time + rest / 2;
     return std::max(goal, clock_.time + 1e-3 * step);
   }
-  double next_tick(double uncut) const {
+  /// Where a fixed step ends: on its next tick. The end need not be one, nor need the place where an earlier run ended;
+  /// what would leave a sliver is shared by two steps.
+  double along_ticks(double uncut, double step) {
     const double tick = uncut / static_cast<double>(StepControl::ticks_per_step);
-    return static_cast<double>(control_.ticks + control_.ticks_ahead()) * tick;
+    std::int64_t next = control_.ticks + control_.ticks_ahead();
+    while (static_cast<double>(next) * tick < clock_.time + 1e-6 * step) next += control_.ticks_ahead();
+    const double target = static_cast<double>(next) * tick;
+    const double rest = plan_.end - clock_.time;
+    if (std::abs(target - plan_.end) > 1e-6 * step) {
+      if (rest <= step) return plan_.end;
+      if (rest < 1.5 * step) return clock_.time + rest / 2;
+      if (target < clock_.time + step / 2) return (clock_.time + target + step) / 2;
+    }
+    ticks_ = next;
+    return target;
   }
 
   const TimePlan& plan_;
   World& world_;
   Clock& clock_;
   StepControl& control_;
-  std::int64_t ticks_ = 0;  ///< of the attempt
+  std::int64_t ticks_ = 0;  ///< where the attempt ends, or those before it
 };
 
 std::string shown(double seconds) {

@@ -50,10 +50,10 @@ enum class Beginning {
 /// Runs `start` and a frame once, then steps up to the end. Frames and checkpoints fall on the first step that reaches
 /// their time; a checkpoint is written after the start and at the end, too. A frame that shows the end out of turn
 /// comes after that checkpoint, so that a longer run does not have it. A fixed step is shortened only to end on
-/// `plan.end`; chosen ones also to meet frames, the last two before one by the same share. An attempt at a step that
-/// throws StepRejected is taken back and made again at half the length (StepControl). If the shortest is rejected, too,
-/// or something else is thrown, the run ends as `failed`; a set `stop` ends it as `interrupted` after the step. Both
-/// leave a checkpoint of the last accepted state.
+/// `plan.end`, the last two by the same share where one would be a sliver; chosen ones also to meet frames, in the same
+/// way. An attempt at a step that throws StepRejected is taken back and made again at half the length (StepControl). If
+/// the shortest is rejected, too, or something else is thrown, the run ends as `failed`; a set `stop` ends it as
+/// `interrupted` after the step. Both leave a checkpoint of the last accepted state.
 Outcome run_simulation(World& world, Schedule& start, Schedule& step, Schedule& frame, const TimePlan& plan,
                        const Observers& observers, const std::atomic<bool>& stop,
                        Beginning beginning = Beginning::start);

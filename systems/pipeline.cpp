@@ -137,7 +137,7 @@ std::vector<Slot> step_slots(const Needs& needs) {
        with({"activate", "find_neighbours", "hold_velocity_at_walls"}, needs.newmark, "hold_acceleration_at_walls")},
       {"predict", with({needs.newmark ? "predict_newmark" : "predict_midpoint"}, needs.ode, "integrate_ode")},
       {"force", force_systems(needs)},
-      {"assemble", assemble_systems(needs)},
+      {"assemble", with(assemble_systems(needs), !needs.newmark, "damp_divergence")},
       {"solve", solve_systems(needs)},
       {"correct", {needs.newmark ? "correct_newmark" : "correct_midpoint"}},
       {"g2p", g2p_systems(needs)},

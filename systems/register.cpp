@@ -7,6 +7,7 @@
 #include "systems/grid/walls.hpp"
 #include "systems/integrate/body_force.hpp"
 #include "systems/integrate/configuration.hpp"
+#include "systems/integrate/damp_divergence.hpp"
 #include "systems/integrate/midpoint.hpp"
 #include "systems/integrate/newmark.hpp"
 #include "systems/integrate/ode.hpp"
@@ -93,6 +94,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<CarryGradient>("carry_gradient_to_middle");
   registry.add<CarryGradient>("carry_gradient_to_end");
   registry.add<AddInertiaCorrection>("add_inertia_correction");
+  registry.add<DampDivergence>("damp_divergence");
   registry.add<SolveUmfpack>("solve_umfpack");
   registry.add<SolveBlock>("solve_block");
   registry.add<SolveBlockViscous>("solve_block_viscous");

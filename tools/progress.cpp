@@ -39,8 +39,10 @@ void Progress::show(const Clock& clock, const SolveReport& solve) {
   const double share = done(clock);
   const double remaining = share > done_before_ ? now * (1 - share) / (share - done_before_) : 0;
   fmt::print(stderr,
-             "\r\033[K{:3.0f} %  t = {:.5g} of {:.5g} s  step {}  dt = {:.3g} s  {} particles  {} unknowns  {} left",
-             100 * share, clock.time, end_, clock.index, clock.step, particles_, solve.unknowns, duration(remaining));
+             "\r\033[K{:3.0f} %  t = {:.5g} of {:.5g} s  step {}  dt = {:.3g} s  {} particles  {} unknowns  {} "
+             "iterations  {} left",
+             100 * share, clock.time, end_, clock.index, clock.step, particles_, solve.unknowns, solve.iterations,
+             duration(remaining));
   std::fflush(stderr);
 }
 

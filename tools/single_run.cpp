@@ -86,6 +86,17 @@ void close_history(const fs::path& folder, World& world) {
   }
 }
 
+/// A system after the history, or beside it, has rejected the step.
+void take_back_row(const fs::path& folder, World& world) {
+  HistoryFile& history = world.resource<HistoryFile>();
+  const std::int64_t rows = world.resource<RunTotals>().rows;
+  if (history.rows <= rows) return;
+  history.file.close();
+  cut_history((folder / "history.csv").string(), rows);
+  history.file.open(folder / "history.csv", std::ios::app);
+  history.rows = rows;
+}
+
 }  // namespace
 
 void write_text(const fs::path& path, const std::string& text) {
@@ -131,7 +142,11 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const Syst
   MemoryReserve reserve;
   const Observers observers{
       .after_step = [&](const Clock& clock) { progress.show(clock, world.resource<SolveReport>()); },
-      .after_rejection = warn_of_rejection,
+      .after_rejection =
+          [&](const Clock& clock, const std::string& why) {
+            warn_of_rejection(clock, why);
+            take_back_row(plan.folder, world);
+          },
       .write_checkpoint =
           [&] {
             reserve.release();

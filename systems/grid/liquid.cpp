@@ -12,6 +12,12 @@ constexpr double liquid_from = 0.5;
 }  // namespace
 
 template <int Dim>
+double liquid_share(const Grid<Dim>& grid, const SupportBox<Dim>& around, double density, double mass) {
+  const double filled = mass / (density * full_volume<Dim>(grid, around));
+  return std::clamp((filled - spray) / (liquid_from - spray), 0.0, 1.0);
+}
+
+template <int Dim>
 void FindLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
                                  Read<node::Mass> m_i, Write<LiquidShare> liquid) const {
   liquid->of_cell.resize(cells->cells.size());
@@ -19,11 +25,12 @@ void FindLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> 
     const Support<Dim> support(*grid, cell);
     double mass = 0;
     for (const std::size_t i : support.node) mass += m_i[i];
-    const double filled = mass / (fluid->density * full_volume<Dim>(*grid, support));
-    liquid->of_cell[c] = std::clamp((filled - spray) / (liquid_from - spray), 0.0, 1.0);
+    liquid->of_cell[c] = liquid_share<Dim>(*grid, support, fluid->density, mass);
   });
 }
 
+template double liquid_share<2>(const Grid<2>&, const SupportBox<2>&, double, double);
+template double liquid_share<3>(const Grid<3>&, const SupportBox<3>&, double, double);
 template struct FindLiquid<2>;
 template struct FindLiquid<3>;
 

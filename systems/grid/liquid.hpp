@@ -10,6 +10,10 @@
 
 namespace minamo {
 
+/// w_c of (E61) from the mass of the nodes of a dual cell.
+template <int Dim>
+double liquid_share(const Grid<Dim>& grid, const SupportBox<Dim>& around, double density, double mass);
+
 /// (E61)  w_c = min(1, max(0, 5 f_c - 1.5)), f_c = sum_J m_J / (rho sum_J V_J) over the nodes of a dual cell, V_J
 /// (E39). A cell full of particles that is alone has f_c = 0.1 to 0.24, one at a corner of a body 0.44, one in a film
 /// as thick as a cell 0.49 and more, one at a surface 0.66.

@@ -67,7 +67,7 @@ void gather_node_volume(const Grid<Dim>& grid, EndSites<Dim>& rows, double densi
     const std::size_t end = r + 1 < rows.runs.size() ? rows.runs[r + 1].begin : x_p.size();
     const SupportBox<Dim> support(grid, run.node);
     for (std::size_t p = run.begin; p < end; ++p) {
-      const Weights<Dim> weights(support, fold<Dim>(grid, x_p[p]));
+      const Weights<Dim> weights(support, in_cell<Dim>(grid, support.centre, x_p[p]));
       const double v = m_p[p] / density;
       for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { run.volume[k] += weights(offset) * v; });
     }

@@ -46,6 +46,17 @@ struct Surroundings {
   }
 };
 
+/// Where a point is that DualCellFinder has in the dual cell around `centre`: on the far side of a periodic cell the
+/// point itself, which fold() takes to the other end of the axis.
+template <int Dim>
+Vec<Dim> in_cell(const Grid<Dim>& grid, const Vec<Dim>& centre, const Vec<Dim>& x) {
+  bool is_there = true;
+  for (int d = 0; d < Dim; ++d) {
+    is_there = is_there && std::abs(x[d] - centre[d]) <= grid.spacing && x[d] >= grid.low[d] && x[d] <= grid.high[d];
+  }
+  return is_there ? x : fold<Dim>(grid, x);
+}
+
 /// The dual cell of one point after the other: found anew only where a point is not in that of the one before, as few
 /// particles are that have just been sorted and moved.
 template <int Dim>

@@ -1,15 +1,29 @@
 #include "systems/integrate/body_force.hpp"
 
+#include "engine/step_control.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/transfer/scatter.hpp"
 
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
 namespace minamo {
+
+namespace {
+
+/// \param where  the place, if the force depends on it
+[[noreturn]] void refuse(const Instant& instant, const std::string& where) {
+  throw StepRejected(fmt::format("body_force: not finite{} at t = {:.6g} s", where, instant.time));
+}
+
+}  // namespace
 
 template <int Dim, class When>
 void UniformBodyForceAt<Dim, When>::operator()(Read<BodyForce> b, Read<When> when, Read<node::Mass> m_i,
                                                Write<node::BodyForce<Dim>> b_i) const {
   Arguments arguments(instant_of(*when));
   const Vec<Dim> everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
+  if (!everywhere.allFinite()) refuse(instant_of(*when), "");
   for_each_row(b_i.size(), [&](std::size_t i) { b_i[i] = m_i[i] > 0 ? everywhere : Vec<Dim>(Vec<Dim>::Zero()); });
 }
 
@@ -21,6 +35,8 @@ void SampleBodyForceAt<Dim, When>::operator()(Read<BodyForce> b, Read<When> when
   // One after the other: an expression keeps its variables inside.
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     b_p[p] = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(y_p[p]));
+    if (b_p[p].allFinite()) continue;
+    refuse(instant_of(*when), fmt::format(" at ({:.6g}) m", fmt::join(y_p[p].begin(), y_p[p].end(), ", ")));
   }
 }
 

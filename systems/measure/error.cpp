@@ -3,6 +3,8 @@
 #include "engine/parallel.hpp"
 #include "systems/measure/weighted_mean.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cmath>
 
 namespace minamo {
@@ -52,6 +54,12 @@ struct PressureSum {
   }
 };
 
+/// What is exact at the start may end in the course of the run.
+void require_finite(double sum_of_squares, const char* name, const Instant& instant) {
+  if (std::isfinite(sum_of_squares)) return;
+  throw std::runtime_error(fmt::format("exact: the {} is not finite at t = {:.6g} s", name, instant.time));
+}
+
 }  // namespace
 
 // The density is the same everywhere, so that masses weigh like volumes.
@@ -67,6 +75,7 @@ void MeasureErrorVelocityAt<Dim, When>::operator()(Read<exact::Velocity> exact, 
     const Vec<Dim> v = vector_at<Dim>(exact->of_part[part], arguments.at<Dim>(x_p[p]));
     part_sum.join({m_p[p], m_p[p] * (v_p[p] - v).squaredNorm(), m_p[p] * v.squaredNorm()});
   });
+  require_finite(sum.exact, "velocity", instant_of(*when));
   columns->set("error_velocity", relative(sum.difference, sum.exact, sum.weight));
 }
 
@@ -83,6 +92,7 @@ void MeasureErrorPressureAt<Dim, When>::operator()(Read<exact::Pressure> exact, 
     part_sum.exact.add(m_p[p], pressure);
   });
   const auto squares = [&](const WeightedMean& q) { return exact->is_free ? q.scatter : q.squares(); };
+  require_finite(sum.exact.squares(), "pressure", instant_of(*when));
   columns->set("error_pressure", relative(squares(sum.difference), squares(sum.exact), sum.exact.weight));
 }
 

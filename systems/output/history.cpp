@@ -79,6 +79,7 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   for (const auto& column : further->columns) fmt::format_to(out, ",{}", column.value);
   row.push_back('\n');
   history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
+  history->rows = totals->rows;
   if (!history->file) throw std::runtime_error("history.csv: cannot be written");
 }
 

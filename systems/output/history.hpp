@@ -17,6 +17,7 @@ namespace minamo {
 /// Where the history goes; nothing is written while it is closed.
 struct HistoryFile {
   std::ofstream file;
+  std::int64_t rows = 0;  ///< written, among them that of a step which is taken back
   static constexpr ComponentInfo info{"history.file", "", "", Lifetime::cache};
 };
 

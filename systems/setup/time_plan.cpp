@@ -3,6 +3,9 @@
 #include "components/instant.hpp"
 #include "components/particle.hpp"
 
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,18 +20,26 @@ double largest_speed(World& world) {
   return std::sqrt(squared);
 }
 
-/// |b| in the middle of the box, now.
+/// The largest |b_p|, now.
 template <int Dim>
-double force(const Scene& scene, World& world) {
+double largest_force(const Scene& scene, World& world) {
   Instant now{.time = world.resource<Clock>().time, .ode = {}, .ode_count = 0};
   if (!scene.ode.empty()) now = world.resource<ode::Values>();
-  Vec<Dim> middle;
-  for (int d = 0; d < Dim; ++d) {
-    const auto axis = static_cast<std::size_t>(d);
-    middle[d] = 0.5 * (scene.grid.low[axis] + scene.grid.high[axis]);
-  }
   Arguments arguments(now);
-  return vector_at<Dim>(scene.body_force, arguments.at<Dim>(middle)).norm();
+  const bool is_uniform = std::none_of(scene.body_force.begin(), scene.body_force.end(),
+                                       [](const Expression& b) { return b.uses("x") || b.uses("y") || b.uses("z"); });
+  double squared = 0;
+  for (const Vec<Dim>& x : world.column<particle::Position<Dim>>()) {
+    const double of_particle = vector_at<Dim>(scene.body_force, arguments.at<Dim>(x)).squaredNorm();
+    if (!std::isfinite(of_particle)) {
+      throw std::runtime_error(
+          fmt::format("time: no step can be chosen, body_force is not finite at ({:.6g}) m, t = {:.6g} s",
+                      fmt::join(x.begin(), x.end(), ", "), now.time));
+    }
+    squared = std::max(squared, of_particle);
+    if (is_uniform) break;
+  }
+  return std::sqrt(squared);
 }
 
 /// The positive root of (v + b dt) dt = distance, in the form that survives b = 0.
@@ -48,7 +59,7 @@ TimePlan make_time_plan(const Scene& scene) {
   if (plan.step) return plan;
   plan.choose_step = [scene](World& world) {
     const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);
-    const double b = scene.dimension == 2 ? force<2>(scene, world) : force<3>(scene, world);
+    const double b = scene.dimension == 2 ? largest_force<2>(scene, world) : largest_force<3>(scene, world);
     const double dt = crossing_time(v, b, scene.time.cfl * scene.grid.spacing);
     return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every});
   };

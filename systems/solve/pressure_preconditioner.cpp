@@ -142,9 +142,29 @@ bool PressurePreconditioner<Dim>::factorize_narrow(const CompactPressure<Dim>& c
   return cost < widest_double && factorize_envelope(compact, 0, double_);
 }
 
+/// Entries beyond the stencil above the diagonal that have none across from them, by the row across: a thin row has
+/// some, a whole one none.
+template <int Dim>
+void PressurePreconditioner<Dim>::find_one_sided(const CompactPressure<Dim>& compact) {
+  one_sided_.clear();
+  for (std::size_t r = 0; r < order_.size(); ++r) {
+    for (const auto& entry : compact.beyond(r)) {
+      const auto& across = compact.beyond(entry.row);
+      const auto is_back = [r](const auto& back) { return back.row == r; };
+      if (entry.row > r && std::none_of(across.begin(), across.end(), is_back)) {
+        one_sided_.push_back({entry.row, r, entry.value});
+      }
+    }
+  }
+  std::sort(one_sided_.begin(), one_sided_.end(),
+            [](const auto& a, const auto& b) { return std::tie(a.row, a.column) < std::tie(b.row, b.column); });
+}
+
 /// The symmetric part of the compact matrix.
 template <int Dim>
 bool PressurePreconditioner<Dim>::factorize_symmetric(const CompactPressure<Dim>& compact) {
+  find_one_sided(compact);
+  auto next = one_sided_.begin();
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
     compact.for_each_near_pair(r, [&](std::size_t r_j, double value, double back) {
@@ -153,6 +173,7 @@ bool PressurePreconditioner<Dim>::factorize_symmetric(const CompactPressure<Dim>
     for (const auto& entry : compact.beyond(r)) {
       if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(compact.beyond(entry.row), r)) / 2);
     }
+    for (; next != one_sided_.end() && next->row == r; ++next) sparse_.add(r, next->column, next->value / 2);
   }
   return sparse_.factorize(kind_for<Dim>(order_.size()));
 }

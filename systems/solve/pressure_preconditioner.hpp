@@ -38,6 +38,7 @@ class PressurePreconditioner {
   template <class Scalar>
   bool factorize_envelope(const CompactPressure<Dim>& compact, double least_pivot, EnvelopeLu<Scalar>& envelope);
   bool factorize_narrow(const CompactPressure<Dim>& compact, DoublePrecision& precision);
+  void find_one_sided(const CompactPressure<Dim>& compact);
   bool factorize_symmetric(const CompactPressure<Dim>& compact);
   bool factorize_pressure(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
 
@@ -53,6 +54,11 @@ class PressurePreconditioner {
   EnvelopeLu<float> single_;
   EnvelopeLu<double> double_;
   SparseCholesky sparse_;
+  struct OneSided {
+    std::size_t row, column;
+    double value;
+  };
+  std::vector<OneSided> one_sided_;  ///< work space
 };
 
 }  // namespace minamo

@@ -12,7 +12,12 @@ namespace minamo {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-using Backend = Eigen::UmfPackLU<Matrix>;
+struct Backend : Eigen::UmfPackLU<Matrix> {
+  /// Eigen says of all that goes wrong that the matrix is at fault.
+  void require_memory() const {
+    if (m_fact_errorCode == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
+  }
+};
 static_assert(SparseBackend<Backend, Matrix>);
 
 std::string place(const Clock& clock, std::size_t unknowns) {
@@ -38,10 +43,13 @@ SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const 
   const Eigen::Map<const Eigen::VectorXd> b(right_hand_side.data(), size);
   auto& [backend, revision] = *factors.impl;
   if (revision != pattern.revision) {
+    revision = 0;
     backend.analyzePattern(matrix);
+    backend.require_memory();
     revision = pattern.revision;
   }
   backend.factorize(matrix);
+  backend.require_memory();
   if (backend.info() != Eigen::Success) {
     throw StepRejected("solve: UMFPACK finds the matrix singular " + place(clock, right_hand_side.size()));
   }

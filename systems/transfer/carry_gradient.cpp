@@ -15,13 +15,14 @@ constexpr double unresolved = 0.1;
 
 template <int Dim>
 Mat<Dim> carried(double tau, const Mat<Dim>& grad_v) {
-  const double strain = tau * grad_v.norm();
-  const double share = std::clamp((unresolved - strain) / (unresolved - resolved), 0.0, 1.0);
+  const double share = resolved_share(tau * grad_v.norm());
   if (share == 0) return grad_v;
   return grad_v * (Mat<Dim>::Identity() + share * tau * grad_v).inverse();
 }
 
 }  // namespace
+
+double resolved_share(double strain) { return std::clamp((unresolved - strain) / (unresolved - resolved), 0.0, 1.0); }
 
 template <int Dim>
 void CarryGradient<Dim>::operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,

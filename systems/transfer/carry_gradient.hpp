@@ -19,6 +19,9 @@
 
 namespace minamo {
 
+/// f of (E62), how much of a strain |tau grad v| the grid resolves.
+double resolved_share(double strain);
+
 /// (E62), half a step on: before P2G to the middle of the step, after G2P to its end.
 template <int Dim>
 struct CarryGradient {

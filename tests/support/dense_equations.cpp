@@ -84,6 +84,50 @@ Sums<Dim> sum_over_particles(scene_run::SceneRun& run, double time) {
   return s;
 }
 
+/// e of (E63), written out: what the midpoint rule takes for the divergence of v^n.
+template <int Dim>
+Eigen::VectorXd divergence_at_start(scene_run::SceneRun& run, const Sums<Dim>& s) {
+  World& world = run.world();
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  const auto v_n = kernels::on_grid<Dim, node::Velocity<Dim>>(world);
+  const auto sites = world.column<node::Site<Dim>>();
+  const double tau = world.resource<Clock>().step / 2;
+  const double rho = run.scene().density;
+  // The dual cell of a node on a wall has the wall and the next two.
+  const auto middle = [&](const Index<Dim>& site, std::size_t d) { return std::clamp(site[d], 1, grid.cells[d] - 1); };
+  Eigen::VectorXd e = Eigen::VectorXd::Zero(s.mass.size());
+  for (const Index<Dim>& site : sites) {
+    const auto I = static_cast<Eigen::Index>(grid.row(site));
+    if (s.mass[I] == 0) continue;
+    Mat<Dim> g = Mat<Dim>::Zero();
+    double mass = 0;
+    double volume = 0;
+    for (const Index<Dim>& other : sites) {
+      const auto j = grid.row(other);
+      const auto J = static_cast<Eigen::Index>(j);
+      g += v_n[j] * s.divergence.template block<1, Dim>(I, Dim * J) * rho / s.mass[I];
+      bool near = true;
+      for (std::size_t d = 0; d < Dim; ++d) near = near && std::abs(middle(site, d) - other[d]) <= 1;
+      if (near) mass += s.mass[J];
+    }
+    // V_J of (E39), also of dry nodes.
+    for (int k = 0; k < (Dim == 3 ? 27 : 9); ++k) {
+      double v = std::pow(grid.spacing, Dim);
+      for (int d = 0, rest = k; d < Dim; ++d, rest /= 3) {
+        const auto axis = static_cast<std::size_t>(d);
+        const int at = middle(site, axis) + rest % 3 - 1;
+        const int from_wall = std::min(at, grid.cells[axis] - at);
+        v *= from_wall == 0 ? 13. / 24 : from_wall == 1 ? 23. / 24 : 1;
+      }
+      volume += v;
+    }
+    const double w = std::clamp(5 * mass / (rho * volume) - 1.5, 0.0, 1.0);
+    const double f = std::clamp(2 - 20 * tau * g.norm(), 0.0, 1.0);
+    e[I] = s.mass[I] / rho * (g.trace() + w * f * tau * (g * g).trace());
+  }
+  return e;
+}
+
 }  // namespace
 
 // One function, because it is one formula read from top to bottom.
@@ -99,6 +143,8 @@ Equations assemble(scene_run::SceneRun& run) {
   const double rho = run.scene().density;
   const double tau = 1 / std::sqrt(std::pow(2 * rho / dt, 2) + std::pow(4 * run.scene().viscosity / (h * h), 2));
   const double e = 1e-6 * dt / (rho * rho * h * h);
+  Eigen::VectorXd let_out = Eigen::VectorXd::Zero(s.mass.size());
+  if (run.scene().integrator == "midpoint") let_out = 0.1 * divergence_at_start<Dim>(run, s);
 
   const auto unknowns = static_cast<Eigen::Index>(world.rows<ActiveNodes>() * (Dim + 1));
   Equations eq{Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns)};
@@ -113,6 +159,7 @@ Equations assemble(scene_run::SceneRun& run) {
       eq.right_hand_side[at(i, d)] += s.mass[I] * (b_i[d] - kin.a_known[i][d]);
     }
     eq.matrix(at(i, Dim), at(i, Dim)) += e * s.mass[I];
+    eq.right_hand_side[at(i, Dim)] += let_out[I];
     for (std::size_t j = 0; j < row.size(); ++j) {
       const auto J = static_cast<Eigen::Index>(j);
       if (s.mass[J] == 0) continue;

@@ -88,10 +88,20 @@ TEST_CASE("a run with a fixed step ends exactly at its end", "[unit]") {
 
 TEST_CASE("a fixed step that does not divide the end is shortened once", "[unit]") {
   Run run;
+  run(fixed(1.0, 0.22, 1));
+  REQUIRE(run.log().steps.size() == 5);
+  CHECK(run.log().steps[3] == Approx(0.22).epsilon(1e-14));
+  CHECK(run.log().steps[4] == Approx(0.12).epsilon(1e-14));  // 1 - 4 x 0.22, a rounding
+  CHECK(run.clock().time == 1.0);
+}
+
+TEST_CASE("a sliver that a fixed step would leave at the end is shared with the step before", "[unit]") {
+  Run run;
   run(fixed(1.0, 0.3, 1));
   REQUIRE(run.log().steps.size() == 4);
-  CHECK(run.log().steps[2] == 0.3);
-  CHECK(run.log().steps[3] == Approx(0.1).epsilon(1e-14));  // 1 - 3 x 0.3, a rounding
+  CHECK(run.log().steps[1] == 0.3);
+  CHECK(run.log().steps[2] == Approx(0.2).epsilon(1e-14));
+  CHECK(run.log().steps[3] == Approx(0.2).epsilon(1e-14));
   CHECK(run.clock().time == 1.0);
 }
 
