@@ -143,6 +143,16 @@ TEST_CASE("check accepts every scene", "[scene]") {
   CHECK_THAT(end.output, Catch::Contains("dam_break.json: valid, 800 particles"));
 }
 
+TEST_CASE("an exact solution that ends in the course of the run fails it", "[scene]") {
+  const Folder folder;
+  const ProgramEnd end =
+      run_program(dam_break(folder / "out", {"--set", R"json(/exact={"velocity": ["sqrt(0.0045 - t)", 0]})json"}));
+  CHECK(end.code == 3);
+  CHECK_THAT(end.output, Catch::Contains("exact: the velocity is not finite at t = 0.005 s"));
+  CHECK(text_of(folder / "out/history.csv").find("nan") == std::string::npos);
+  CHECK(json_of(folder / "out/summary.json")["steps"] == 4);
+}
+
 TEST_CASE("a run that fails ends with 3, says where, and leaves a checkpoint and a summary", "[scene]") {
   const Folder folder;
   // The force leaves the range of numbers at t = 0.0032; no step is short enough to get there.
