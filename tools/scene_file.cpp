@@ -44,17 +44,36 @@ void require_memory(const Scene& scene, const std::string& file) {
 
 }  // namespace
 
+void drop_keys_of_replaced_schemes(Json& scene, const std::set<std::string>& overridden,
+                                   const SystemRegistry& registry) {
+  Input::Document document(scene, {});
+  read_scene(document.root(), registry);
+  document.finish();
+  for (const Problem& problem : document.problems()) {
+    const auto slash = problem.pointer.rfind('/');
+    if (slash == std::string::npos || !problem.what.starts_with("unknown key") ||
+        !overridden.contains(problem.pointer.substr(0, slash) + "/scheme") || overridden.contains(problem.pointer)) {
+      continue;
+    }
+    const Json::json_pointer key(problem.pointer);
+    scene[key.parent_pointer()].erase(key.back());
+  }
+}
+
 SceneFile load_scene(const std::string& path, const std::vector<std::string>& overrides,
                      const SystemRegistry& registry) {
   Json json = read_json(path);
   std::vector<Problem> problems;
+  std::set<std::string> overridden;
   for (const std::string& assignment : overrides) {
     try {
       set_value(json, assignment);
+      overridden.insert(assignment.substr(0, assignment.find('=')));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
+  if (!overridden.empty()) drop_keys_of_replaced_schemes(json, overridden, registry);
   return understand_scene(json, path, registry, std::move(problems));
 }
 

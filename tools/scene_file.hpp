@@ -5,6 +5,7 @@
 #include "systems/pipeline.hpp"
 #include "systems/setup/scene.hpp"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct SceneFile {
   Scene scene;
   Json as_run;  ///< with defaults and overrides filled in; reads as the same scene
 };
+
+/// Takes out of a block like `transfer`, whose `scheme` is among the overridden pointers, what the file has there for
+/// another scheme: with "/transfer/scheme" set to "flip" the "inertia" of "tpic". What is overridden itself stays.
+void drop_keys_of_replaced_schemes(Json& scene, const std::set<std::string>& overridden,
+                                   const SystemRegistry& registry);
 
 /// \throws InputError with all problems of the file.
 SceneFile load_scene(const std::string& path, const std::vector<std::string>& overrides,

@@ -106,17 +106,24 @@ void set_time_step(Json& scene, const Study& study, const Combination& combinati
 }
 
 /// The document of the scene with what the study and the variant change.
-Json scene_of(const Json& scene, const Study& study, const Combination& combination, const std::string& file) {
+Json scene_of(const Json& scene, const Study& study, const Combination& combination, const std::string& file,
+              const SystemRegistry& registry) {
   Json changed = scene;
-  for (const auto& [pointer, value] : study.settings) set_value(changed, pointer, value, file);
+  std::set<std::string> overridden;
+  const auto set = [&](const std::string& pointer, const Json& value) {
+    set_value(changed, pointer, value, file);
+    overridden.insert(pointer);
+  };
+  for (const auto& [pointer, value] : study.settings) set(pointer, value);
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {
-    if (is_pointer(study.parameters[k].key)) set_value(changed, study.parameters[k].key, combination.values[k], file);
+    if (is_pointer(study.parameters[k].key)) set(study.parameters[k].key, combination.values[k]);
   }
   for (std::size_t k = 0; k < study.parameters.size(); ++k) {
     if (study.parameters[k].key == resolution_key) set_cells(changed, combination.values[k], file);
   }
   set_time_step(changed, study, combination, file);
   if (study.end) set_value(changed, "/time/end", *study.end, file);
+  drop_keys_of_replaced_schemes(changed, overridden, registry);
   return changed;
 }
 
@@ -151,7 +158,7 @@ Variant make_variant(const Json& scene, const Study& study, const Combination& c
                      const SystemRegistry& registry) {
   Variant variant;
   variant.name = combination.name;
-  variant.scene = understand_scene(scene_of(scene, study, combination, file), file, registry);
+  variant.scene = understand_scene(scene_of(scene, study, combination, file, registry), file, registry);
   const auto missing = missing_for(study.error, variant.scene.scene, study.file);
   if (!missing.empty()) throw InputError(missing);
   for (std::size_t k = 0; k < combination.values.size(); ++k) {

@@ -111,6 +111,27 @@ TEST_CASE("the scene as run has defaults and overrides, and gives the same bits 
   CHECK(differing_fields(folder / "first", folder / "second", "3").empty());
 }
 
+TEST_CASE("a scheme can be overridden alone: keys of the one in the file go with it", "[scene]") {
+  const Folder folder;
+  const std::string changed = GENERATE(R"(/transfer/scheme="flip")", R"(/transfer/scheme="apic")",
+                                       R"(/integrator/scheme="midpoint")", R"(/solver/scheme="umfpack")");
+  CAPTURE(changed);
+  REQUIRE(run_program(
+              {"run", scene("dam_break.json"), "--out", folder / "out", "--steps", "1", "--quiet", "--set", changed})
+              .code == 0);
+  // What the new scheme knows, too, stays as it is in the file.
+  const Json transfer = json_of(folder / "out/scene.json")["transfer"];
+  CHECK((transfer["scheme"] == "flip" || transfer["inertia"] == "lumped"));
+}
+
+TEST_CASE("an override that the new scheme does not know is an error", "[scene]") {
+  const Folder folder;
+  const ProgramEnd wrong = run_program({"run", scene("dam_break.json"), "--out", folder / "out", "--set",
+                                        R"(/transfer/scheme="flip")", "--set", R"(/transfer/inertia="lumped")"});
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.output, Catch::Contains("/transfer/inertia: unknown key with scheme \"flip\""));
+}
+
 TEST_CASE("bad input ends with 2 and runs nothing", "[scene]") {
   const Folder folder;
   const auto [set, message] =

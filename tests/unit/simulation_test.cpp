@@ -278,62 +278,61 @@ TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {
 
 TEST_CASE("the step from a CFL number sees the force where the particles are", "[unit]") {
   // None in the middle of the box, where there is no liquid.
-  const Scene scene = scene_run::read(scene_run::with(scene_run::scene_of_file("dam_break.json"),
-                                                      {R"(/time={"end": 5, "cfl": 0.4})",
-                                                       R"b(/body_force=["100*(x - 0.292)", "100*(y - 0.292)"])b"}));
+  const Scene scene = scene_run::read(
+      scene_run::with(scene_run::scene_of_file("dam_break.json"),
+                      {R"(/time={"end": 5, "cfl": 0.4})", R"b(/body_force=["100*(x - 0.292)", "100*(y - 0.292)"])b"}));
   World world;
-    world.resize<Particles>(2);
-    world.column<particle::Velocity<2>>();
-    world.column<particle::Position<2>>()[0] = {0.292, 0.292};
-    world.column<particle::Position<2>>()[1] = {0.292, 0.092};
-    const double dt = make_time_plan(scene).choose_step(world);
-    CHECK(20 * dt * dt == Approx(0.4 * 0.0146).epsilon(1e-13));
+  world.resize<Particles>(2);
+  world.column<particle::Velocity<2>>();
+  world.column<particle::Position<2>>()[0] = {0.292, 0.292};
+  world.column<particle::Position<2>>()[1] = {0.292, 0.092};
+  const double dt = make_time_plan(scene).choose_step(world);
+  CHECK(20 * dt * dt == Approx(0.4 * 0.0146).epsilon(1e-13));
 }
 
 TEST_CASE("no step is chosen from a force that is not finite", "[unit]") {
-  const Scene scene = scene_run::read(scene_run::with(scene_run::scene_of_file("dam_break.json"),
-                                                      {R"(/time={"end": 5, "cfl": 0.4})",
-                                                       R"b(/body_force=["1/(x - 0.292)", 0])b"}));
+  const Scene scene =
+      scene_run::read(scene_run::with(scene_run::scene_of_file("dam_break.json"),
+                                      {R"(/time={"end": 5, "cfl": 0.4})", R"b(/body_force=["1/(x - 0.292)", 0])b"}));
   World world;
-      world.resize<Particles>(1);
-      world.column<particle::Velocity<2>>();
-      world.column<particle::Position<2>>()[0] = {0.292, 0.292};
-      CHECK_THROWS_WITH(make_time_plan(scene).choose_step(world),
-                        Catch::Contains("body_force is not finite at (0.292, 0.292) m"));
+  world.resize<Particles>(1);
+  world.column<particle::Velocity<2>>();
+  world.column<particle::Position<2>>()[0] = {0.292, 0.292};
+  CHECK_THROWS_WITH(make_time_plan(scene).choose_step(world),
+                    Catch::Contains("body_force is not finite at (0.292, 0.292) m"));
 }
 
 TEST_CASE("the step from a CFL number is at most max_step and the time between frames", "[unit]") {
-      const Json still = scene_run::with(scene_run::scene_of_file("dam_break.json"), {"/body_force=[0, 0]"});
-      World world;
-      world.resize<Particles>(1);
-      world.column<particle::Velocity<2>>();
-      const Scene bounded =
-          scene_run::read(scene_run::with(still, {R"(/time={"end": 5, "cfl": 0.4, "max_step": 0.01})"}));
-      CHECK(make_time_plan(bounded).choose_step(world) == 0.01);
-      const Scene unbounded = scene_run::read(scene_run::with(still, {R"(/time={"end": 5, "cfl": 0.4})"}));
-      CHECK(make_time_plan(unbounded).choose_step(world) == 0.1);
+  const Json still = scene_run::with(scene_run::scene_of_file("dam_break.json"), {"/body_force=[0, 0]"});
+  World world;
+  world.resize<Particles>(1);
+  world.column<particle::Velocity<2>>();
+  const Scene bounded = scene_run::read(scene_run::with(still, {R"(/time={"end": 5, "cfl": 0.4, "max_step": 0.01})"}));
+  CHECK(make_time_plan(bounded).choose_step(world) == 0.01);
+  const Scene unbounded = scene_run::read(scene_run::with(still, {R"(/time={"end": 5, "cfl": 0.4})"}));
+  CHECK(make_time_plan(unbounded).choose_step(world) == 0.1);
 }
 
 TEST_CASE("a step that is rejected after a continuation between two ticks still goes on in time", "[unit]") {
-      Run run;
-      run(fixed(0.0047, 0.001, 1));
-      REQUIRE(run.clock().time == 0.0047);
-      run.log().steps.clear();
-      run.faults() = {.fail_from = 1e9, .fail_frame_from = 1e9, .longest = 2.5e-4, .between = {0.0047, 0.006}};
-      run(fixed(0.01, 0.001, 1), Beginning::continuation);
-      for (const double step : run.log().steps) CHECK(step > 1e-5);
-      CHECK(run.control().rejected > 0);
-      CHECK(run.clock().time == 0.01);
+  Run run;
+  run(fixed(0.0047, 0.001, 1));
+  REQUIRE(run.clock().time == 0.0047);
+  run.log().steps.clear();
+  run.faults() = {.fail_from = 1e9, .fail_frame_from = 1e9, .longest = 2.5e-4, .between = {0.0047, 0.006}};
+  run(fixed(0.01, 0.001, 1), Beginning::continuation);
+  for (const double step : run.log().steps) CHECK(step > 1e-5);
+  CHECK(run.control().rejected > 0);
+  CHECK(run.clock().time == 0.01);
 }
 
 TEST_CASE("a continuation shares the sliver before the next tick with the step after it", "[unit]") {
-      Run run;
-      run(fixed(0.3999, 0.1, 1));
-      run.log().steps.clear();
-      run(fixed(1.0, 0.1, 1), Beginning::continuation);
-      REQUIRE(run.log().steps.size() == 7);
-      CHECK(run.log().steps[0] == Approx(0.05005));
-      CHECK(run.log().steps[1] == Approx(0.05005));
-      CHECK(run.log().steps[2] == 0.1);
-      CHECK(run.clock().time == 1.0);
+  Run run;
+  run(fixed(0.3999, 0.1, 1));
+  run.log().steps.clear();
+  run(fixed(1.0, 0.1, 1), Beginning::continuation);
+  REQUIRE(run.log().steps.size() == 7);
+  CHECK(run.log().steps[0] == Approx(0.05005));
+  CHECK(run.log().steps[1] == Approx(0.05005));
+  CHECK(run.log().steps[2] == 0.1);
+  CHECK(run.clock().time == 1.0);
 }
