@@ -211,7 +211,7 @@ Outcome run_simulation(World& world, Schedule& start, Schedule& step, Schedule& 
   try {
     if (beginning == Beginning::start) loop.start(start);
   } catch (const std::exception& failure) {
-    return {Ending::failed, message_of(failure)};
+    return {Ending::failed, message_of(failure) + " (before the first step)"};
   }
   try {
     if (beginning == Beginning::start) loop.checkpoint();

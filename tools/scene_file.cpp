@@ -42,6 +42,18 @@ void require_memory(const Scene& scene, const std::string& file) {
         {}}});
 }
 
+/// What is wrong at or below an overridden pointer is not in the file.
+std::vector<Problem> with_overrides_named(std::vector<Problem> problems, const std::vector<std::string>& overrides) {
+  for (Problem& problem : problems) {
+    for (const std::string& assignment : overrides) {
+      const std::string pointer = assignment.substr(0, assignment.find('='));
+      if (problem.pointer == pointer || problem.pointer.starts_with(pointer + "/"))
+        problem.file = "--set " + assignment;
+    }
+  }
+  return problems;
+}
+
 }  // namespace
 
 void drop_keys_of_replaced_schemes(Json& scene, const std::set<std::string>& overridden,
@@ -73,8 +85,13 @@ SceneFile load_scene(const std::string& path, const std::vector<std::string>& ov
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
-  if (!overridden.empty()) drop_keys_of_replaced_schemes(json, overridden, registry);
-  return understand_scene(json, path, registry, std::move(problems));
+  if (overridden.empty()) return understand_scene(json, path, registry, std::move(problems));
+  drop_keys_of_replaced_schemes(json, overridden, registry);
+  try {
+    return understand_scene(json, path, registry, std::move(problems));
+  } catch (const InputError& error) {
+    throw InputError(with_overrides_named(error.problems(), overrides));
+  }
 }
 
 SceneFile understand_scene(const Json& json, const std::string& path, const SystemRegistry& registry,

@@ -171,19 +171,18 @@ void give_solution(const Impl<Dim>& s, std::vector<double>& x) {
 
 /// The monolithic system, where the iteration has failed: rare, and what UMFPACK is for.
 template <int Dim>
-SolveReport solve_directly(const Clock& clock, const Grid<Dim>& grid, const EquationTerms<Dim>& terms,
-                           const std::vector<double>& b, Impl<Dim>& s, std::vector<double>& x) {
+SolveReport solve_directly(const Grid<Dim>& grid, const EquationTerms<Dim>& terms, const std::vector<double>& b,
+                           Impl<Dim>& s, std::vector<double>& x) {
   fill_monolithic<Dim>(terms, grid, s.direct_pattern, s.direct_values);
-  return solve_monolithic(s.direct, clock, s.direct_pattern, s.direct_values, b, x);
+  return solve_monolithic(s.direct, s.direct_pattern, s.direct_values, b, x);
 }
 
 bool is_solved(const Gmres::Report& report) { return report.converged && std::isfinite(report.residual); }
 
 template <int Dim>
-SolveReport solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid, double tolerance,
-                  const matrix::StabilizationScale& scale, const Rates& rates, const EquationTerms<Dim>& terms,
-                  std::span<const double> p_i, const std::vector<double>& b, DoublePrecision& precision, Impl<Dim>& s,
-                  std::vector<double>& x) {
+SolveReport solve(const Grid<Dim>& grid, const Fluid& fluid, double tolerance, const matrix::StabilizationScale& scale,
+                  const Rates& rates, const EquationTerms<Dim>& terms, std::span<const double> p_i,
+                  const std::vector<double>& b, DoublePrecision& precision, Impl<Dim>& s, std::vector<double>& x) {
   s.terms = terms;
   s.is_direct = false;
   prepare<Dim>(s, terms, grid, fluid, scale, rates, precision);
@@ -193,7 +192,7 @@ SolveReport solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid,
   const Gmres::Report done = solve_blocks<Dim>(s, tolerance, Gmres::Start::x);
   if (!is_solved(done)) {
     s.is_direct = true;
-    SolveReport report = solve_directly<Dim>(clock, grid, terms, b, s, x);
+    SolveReport report = solve_directly<Dim>(grid, terms, b, s, x);
     report.iterations = done.iterations;
     return report;
   }
@@ -204,15 +203,15 @@ SolveReport solve(const Clock& clock, const Grid<Dim>& grid, const Fluid& fluid,
 }  // namespace
 
 template <int Dim>
-void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const Clock& clock, const Grid<Dim>& grid,
-                 double tolerance, std::vector<double>& x) {
+void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const Grid<Dim>& grid, double tolerance,
+                 std::vector<double>& x) {
   Impl<Dim>& s = *factors.impl;
   if (s.is_direct) return solve_again(s.direct, b, x);
   take_right_hand_side<Dim>(s, b);
   if (is_solved(solve_blocks<Dim>(s, tolerance, Gmres::Start::zero))) {
     give_solution<Dim>(s, x);
   } else {
-    solve_directly<Dim>(clock, grid, s.terms, b, s, x);
+    solve_directly<Dim>(grid, s.terms, b, s, x);
   }
 }
 
@@ -238,8 +237,8 @@ void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<F
                                  divergence.span(),
                                  stabilization.span(),
                                  {}};
-  *report = solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(),
-                       right_hand_side->values, *precision, *factors->impl, solution->values);
+  *report = solve<Dim>(*grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(), right_hand_side->values,
+                       *precision, *factors->impl, solution->values);
 }
 
 template <int Dim>
@@ -265,8 +264,8 @@ void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid,
                                  divergence.span(),
                                  stabilization.span(),
                                  viscosity.span()};
-  *report = solve<Dim>(*clock, *grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(),
-                       right_hand_side->values, *precision, *factors->impl, solution->values);
+  *report = solve<Dim>(*grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(), right_hand_side->values,
+                       *precision, *factors->impl, solution->values);
 }
 
 template struct BlockFactors<2>;
@@ -275,9 +274,7 @@ template struct SolveBlock<2>;
 template struct SolveBlock<3>;
 template struct SolveBlockViscous<2>;
 template struct SolveBlockViscous<3>;
-template void solve_again(BlockFactors<2>&, const std::vector<double>&, const Clock&, const Grid<2>&, double,
-                          std::vector<double>&);
-template void solve_again(BlockFactors<3>&, const std::vector<double>&, const Clock&, const Grid<3>&, double,
-                          std::vector<double>&);
+template void solve_again(BlockFactors<2>&, const std::vector<double>&, const Grid<2>&, double, std::vector<double>&);
+template void solve_again(BlockFactors<3>&, const std::vector<double>&, const Grid<3>&, double, std::vector<double>&);
 
 }  // namespace minamo

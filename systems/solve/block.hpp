@@ -34,13 +34,13 @@ struct BlockFactors {
 /// Sets x to the solution for another right-hand side b, with the operators and factors of the last solve, in the same
 /// step. \throws StepRejected as SolveBlock.
 template <int Dim>
-void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const Clock& clock, const Grid<Dim>& grid,
-                 double tolerance, std::vector<double>& x);
+void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const Grid<Dim>& grid, double tolerance,
+                 std::vector<double>& x);
 
 template <int Dim>
 struct SolveBlock {
   static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, inviscid";
-  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with step, time and size.
+  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                   Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
@@ -53,7 +53,7 @@ struct SolveBlock {
 template <int Dim>
 struct SolveBlockViscous {
   static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, viscous";
-  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with step, time and size.
+  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                   Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,

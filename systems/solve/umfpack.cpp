@@ -20,8 +20,8 @@ struct Backend : Eigen::UmfPackLU<Matrix> {
 };
 static_assert(SparseBackend<Backend, Matrix>);
 
-std::string place(const Clock& clock, std::size_t unknowns) {
-  return fmt::format("(step {}, t = {:.6g} s, {} unknowns)", clock.index + 1, clock.time, unknowns);
+[[noreturn]] void reject(const char* why, Eigen::Index unknowns) {
+  throw StepRejected(fmt::format("solve: {} ({} unknowns)", why, unknowns));
 }
 
 }  // namespace
@@ -34,9 +34,8 @@ struct UmfpackFactors::Impl {
 UmfpackFactors::UmfpackFactors() : impl(std::make_unique<Impl>()) {}
 UmfpackFactors::~UmfpackFactors() = default;
 
-SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const matrix::Pattern& pattern,
-                             const std::vector<double>& values, const std::vector<double>& right_hand_side,
-                             std::vector<double>& solution) {
+SolveReport solve_monolithic(UmfpackFactors& factors, const matrix::Pattern& pattern, const std::vector<double>& values,
+                             const std::vector<double>& right_hand_side, std::vector<double>& solution) {
   const auto size = static_cast<Eigen::Index>(right_hand_side.size());
   const Eigen::Map<const Matrix> matrix(size, size, static_cast<Eigen::Index>(values.size()), pattern.outer.data(),
                                         pattern.inner.data(), values.data());
@@ -51,23 +50,21 @@ SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const 
   backend.factorize(matrix);
   backend.require_memory();
   if (backend.info() != Eigen::Success) {
-    throw StepRejected("solve: UMFPACK finds the matrix singular " + place(clock, right_hand_side.size()));
+    reject("UMFPACK finds the matrix singular", size);
   }
   solution.resize(right_hand_side.size());
   Eigen::Map<Eigen::VectorXd> x(solution.data(), size);
   x = backend.solve(b);
-  if (!x.allFinite()) {
-    throw StepRejected("solve: the solution is not finite " + place(clock, right_hand_side.size()));
-  }
+  if (!x.allFinite()) reject("the solution is not finite", size);
   const double norm = b.norm();
   return {.unknowns = size, .iterations = 0, .residual = norm > 0 ? (b - matrix * x).norm() / norm : 0};
 }
 
 template <int Dim>
-void SolveUmfpack<Dim>::operator()(Read<Clock> clock, Read<matrix::Pattern> pattern, Read<matrix::Values> values,
+void SolveUmfpack<Dim>::operator()(Read<matrix::Pattern> pattern, Read<matrix::Values> values,
                                    Read<matrix::RightHandSide> right_hand_side, Update<UmfpackFactors> factors,
                                    Write<matrix::Solution> solution, Write<SolveReport> report) const {
-  *report = solve_monolithic(*factors, *clock, *pattern, values->values, right_hand_side->values, solution->values);
+  *report = solve_monolithic(*factors, *pattern, values->values, right_hand_side->values, solution->values);
 }
 
 void solve_again(UmfpackFactors& factors, const std::vector<double>& b, std::vector<double>& x) {

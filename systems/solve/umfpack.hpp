@@ -5,7 +5,6 @@
 
 #include "components/matrix.hpp"
 #include "components/node.hpp"
-#include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
 
@@ -25,10 +24,9 @@ struct UmfpackFactors {
 };
 
 /// Factorizes the monolithic matrix and solves.
-/// \throws StepRejected if the matrix is singular or the solution is not finite, with step, time and size.
-SolveReport solve_monolithic(UmfpackFactors& factors, const Clock& clock, const matrix::Pattern& pattern,
-                             const std::vector<double>& values, const std::vector<double>& right_hand_side,
-                             std::vector<double>& solution);
+/// \throws StepRejected if the matrix is singular or the solution is not finite, with the size.
+SolveReport solve_monolithic(UmfpackFactors& factors, const matrix::Pattern& pattern, const std::vector<double>& values,
+                             const std::vector<double>& right_hand_side, std::vector<double>& solution);
 
 /// Sets x to the solution for another right-hand side b, by the factors of the last factorization.
 /// \throws StepRejected if it is not finite.
@@ -37,8 +35,8 @@ void solve_again(UmfpackFactors& factors, const std::vector<double>& b, std::vec
 template <int Dim>
 struct SolveUmfpack {
   static constexpr std::string_view doc = "solve the monolithic system by UMFPACK";
-  /// \throws StepRejected if the matrix is singular or the solution is not finite, with step, time and size.
-  void operator()(Read<Clock> clock, Read<matrix::Pattern> pattern, Read<matrix::Values> values,
+  /// \throws StepRejected if the matrix is singular or the solution is not finite, with the size.
+  void operator()(Read<matrix::Pattern> pattern, Read<matrix::Values> values,
                   Read<matrix::RightHandSide> right_hand_side, Update<UmfpackFactors> factors,
                   Write<matrix::Solution> solution, Write<SolveReport> report) const;
 };

@@ -74,17 +74,16 @@ void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rat
 }
 
 template <int Dim>
-void SolveVolumeBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Rates> rates,
-                                       Read<VolumeRate> rate, Read<SolverTolerance> tolerance, Read<node::Row> row,
-                                       Read<node::Fixed>, Read<node::Mass>, Read<WetSites<Dim>>,
-                                       Read<node::Site<Dim>> sites, Read<matrix::Node> node,
-                                       Read<matrix::Divergence<Dim>>, Read<matrix::Stabilization<Dim>>,
-                                       Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
-                                       Update<BlockFactors<Dim>> factors, Update<VolumeEquations> equations,
-                                       Write<node::Shift<Dim>> d_i) const {
+void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate,
+                                       Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed>,
+                                       Read<node::Mass>, Read<WetSites<Dim>>, Read<node::Site<Dim>> sites,
+                                       Read<matrix::Node> node, Read<matrix::Divergence<Dim>>,
+                                       Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows,
+                                       Read<end_node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
+                                       Update<VolumeEquations> equations, Write<node::Shift<Dim>> d_i) const {
   auto& [b, x] = *equations;
   fill_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span(), b);
-  solve_again<Dim>(*factors, b, *clock, *grid, shift_tolerance(*tolerance), x);
+  solve_again<Dim>(*factors, b, *grid, shift_tolerance(*tolerance), x);
   take_shift<Dim>(x, row.span(), d_i.span());
 }
 

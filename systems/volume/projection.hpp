@@ -53,12 +53,12 @@ struct SolveVolumeBlock {
   static constexpr std::string_view doc = "(E37) d_I, by the operators of the step";
   /// The viscous matrix, where a scene has one, is looked at too; no system writes it after the solve.
   /// \throws StepRejected as SolveBlock.
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate,
-                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed>, Read<node::Mass>,
-                  Read<WetSites<Dim>>, Read<node::Site<Dim>> sites, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>>, Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows,
-                  Read<end_node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
-                  Update<VolumeEquations> equations, Write<node::Shift<Dim>> d_i) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate, Read<SolverTolerance> tolerance,
+                  Read<node::Row> row, Read<node::Fixed>, Read<node::Mass>, Read<WetSites<Dim>>,
+                  Read<node::Site<Dim>> sites, Read<matrix::Node> node, Read<matrix::Divergence<Dim>>,
+                  Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
+                  Update<BlockFactors<Dim>> factors, Update<VolumeEquations> equations,
+                  Write<node::Shift<Dim>> d_i) const;
 };
 
 /// (E38)  x_p += sum_I S_I(x_p) d_I, at most 0.1 h.
