@@ -20,13 +20,11 @@ double liquid_around(const Grid<Dim>& grid, const Index<Dim>& own, double densit
                      const typename matrix::Neighbour<Dim>::value_type& neighbour, std::span<const double> m_i) {
   const SupportBox<Dim> cell(grid, own);
   double mass = 0;
-  for_each_neighbour<Dim>(neighbour, [&](std::size_t place, std::uint32_t j) {
-    bool is_of_cell = true;
-    for (std::size_t d = 0; d < Dim; ++d, place /= 5) {
-      const int step = static_cast<int>(place % 5) - 2 - (cell.first[d] - own[d]);
-      is_of_cell = is_of_cell && step >= 0 && step < 3;
-    }
-    if (is_of_cell) mass += m_i[j];
+  for_each_support<Dim>([&](std::size_t, const Index<Dim>& offset) {
+    int place = 0;
+    for (std::size_t d = Dim; d-- > 0;) place = 5 * place + cell.first[d] - own[d] + offset[d] + 2;
+    const std::int32_t j = neighbour[static_cast<std::size_t>(place)];
+    if (j != matrix::Neighbour<Dim>::none) mass += m_i[static_cast<std::size_t>(j)];
   });
   return liquid_share<Dim>(grid, cell, density, mass);
 }
