@@ -50,17 +50,24 @@ void World::renumber(std::string_view table, std::span<const std::optional<std::
   }
 }
 
+namespace {
+
+/// What a step that is taken back must leave as it was: the rows of constant columns may have changed places.
+bool is_kept(Lifetime lifetime) { return lifetime == Lifetime::state || lifetime == Lifetime::constant; }
+
+}  // namespace
+
 void World::mark() {
   marked_rows_ = rows_;
   for (const auto& storage : by_id_) {
-    if (storage && storage->info().lifetime == Lifetime::state) storage->mark();
+    if (storage && is_kept(storage->info().lifetime)) storage->mark();
   }
 }
 
 void World::roll_back() {
   for (const auto& storage : by_id_) {
     if (!storage) continue;
-    if (storage->info().lifetime == Lifetime::state) {
+    if (is_kept(storage->info().lifetime)) {
       storage->roll_back();
     } else if (!storage->table().empty()) {
       storage->resize(marked_rows_.at(std::string(storage->table())));

@@ -75,6 +75,9 @@ void drop_keys_of_replaced_schemes(Json& scene, const std::set<std::string>& ove
 SceneFile load_scene(const std::string& path, const std::vector<std::string>& overrides,
                      const SystemRegistry& registry) {
   Json json = read_json(path);
+  if (json.is_object() && json.contains("scene") && json.contains("vary")) {
+    throw InputError({{path, {}, "is a study, not a scene", "a scene; studies are run by `minamo study`", {}, {}}});
+  }
   std::vector<Problem> problems;
   std::set<std::string> overridden;
   for (const std::string& assignment : overrides) {
@@ -103,6 +106,7 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
   if (problems.empty()) problems = misplaced_systems(file.scene, registry, path);
   if (!problems.empty()) throw InputError(std::move(problems));
   file.as_run = document.echo();
+  file.as_run.erase("$schema");  // relative to where the file was
   return file;
 }
 

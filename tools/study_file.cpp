@@ -144,6 +144,9 @@ std::vector<std::string> variables_of(const std::vector<Parameter>& parameters) 
 }
 
 Study read_study(const Json& json, const std::string& path) {
+  if (json.is_object() && json.contains("grid") && !json.contains("scene")) {
+    throw InputError({{path, {}, "is a scene, not a study", "a study; scenes are run by `minamo run`", {}, {}}});
+  }
   Input::Document document(json, path);
   Study study = read(document.root());
   document.finish();

@@ -157,3 +157,16 @@ TEST_CASE("a study of a file that is no scene is refused", "[error]") {
                    "  got       [1,2] (list)\n");
   CHECK(run.code == 2);
 }
+
+TEST_CASE("a scene in the place of a study is one problem, as is a study in the place of a scene", "[error]") {
+  const StudyFolder folder(R"({"scene": "scene.json", "vary": {"cells": [8]}, "error": "velocity"})");
+  const ProgramOutput study = output_of_program(folder / "", {"study", "scene.json"});
+  CHECK(study.code == 2);
+  CHECK(study.err == "scene.json: is a scene, not a study\n  expected  a study; scenes are run by `minamo run`\n");
+  const std::string command = GENERATE("run", "check");
+  CAPTURE(command);
+  const ProgramOutput scene = output_of_program(folder / "", {command, "a.json"});
+  CHECK(scene.code == 2);
+  CHECK(scene.err == "a.json: is a study, not a scene\n  expected  a scene; studies are run by `minamo study`\n");
+  CHECK_FALSE(fs::exists(folder / "out"));
+}

@@ -29,6 +29,9 @@ struct Slope : Column<Rows, double> {
 struct Stress : Column<Rows, Eigen::Matrix<double, 3, 3, Eigen::DontAlign>> {
   static constexpr ComponentInfo info{"row.stress", "σ", "Pa", Lifetime::state};
 };
+struct Colour : Column<Rows, double> {
+  static constexpr ComponentInfo info{"row.colour", "", "1", Lifetime::constant};
+};
 struct Label : Column<Rows, std::string> {
   static constexpr ComponentInfo info{"row.label", "l", "1", Lifetime::state};
 };
@@ -120,14 +123,14 @@ TEST_CASE("making a known table known again keeps its rows", "[unit]") {
 
 TEST_CASE("after a reorder row k is what row order[k] was", "[unit]") {
   World world = world_with_heights({10, 11, 12, 13});
-  world.reorder<Rows>(std::array<std::uint32_t, 4>{2, 0, 3, 1});
+  Resize<Rows>(world).reorder(std::array<std::uint32_t, 4>{2, 0, 3, 1});
   CHECK(values(world.column<Height>()) == std::vector<double>{12, 10, 13, 11});
 }
 
 TEST_CASE("a reorder leaves scratch as it is", "[unit]") {
   World world = world_with_heights({10, 11});
   world.column<Slope>()[0] = 5;
-  world.reorder<Rows>(std::array<std::uint32_t, 2>{1, 0});
+  Resize<Rows>(world).reorder(std::array<std::uint32_t, 2>{1, 0});
   CHECK(values(world.column<Slope>()) == std::vector<double>{5, 0});
 }
 
@@ -135,8 +138,8 @@ TEST_CASE("a second reorder of the same length moves no array to new memory", "[
   World world = world_with_heights({10, 11});
   const std::array<std::uint32_t, 2> order{1, 0};
   const double* first = world.column<Height>().data();
-  world.reorder<Rows>(order);
-  world.reorder<Rows>(order);
+  Resize<Rows>(world).reorder(order);
+  Resize<Rows>(world).reorder(order);
   CHECK(world.column<Height>().data() == first);
 }
 
@@ -265,4 +268,18 @@ TEST_CASE("a mark stands for the state then, not for that of an earlier mark", "
   update(world, 0, 5);
   world.roll_back();
   CHECK(values(world.column<Height>()) == std::vector<double>{4, 2, 3});
+}
+
+TEST_CASE("constant columns go back with the rows of their table", "[unit]") {
+  World world;
+  world.resize<Rows>(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    world.column<Height>()[k] = static_cast<double>(k);
+    world.column<Colour>()[k] = 10 * static_cast<double>(k);
+  }
+  world.mark();
+  Resize<Rows>(world).reorder(std::vector<std::uint32_t>{2, 0, 1});
+  REQUIRE(world.column<Colour>()[0] == 20);
+  world.roll_back();
+  for (std::size_t k = 0; k < 3; ++k) CHECK(world.column<Colour>()[k] == 10 * world.column<Height>()[k]);
 }
