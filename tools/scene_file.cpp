@@ -106,7 +106,6 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
   if (problems.empty()) problems = misplaced_systems(file.scene, registry, path);
   if (!problems.empty()) throw InputError(std::move(problems));
   file.as_run = document.echo();
-  file.as_run.erase("$schema");  // relative to where the file was
   return file;
 }
 
