@@ -1,7 +1,5 @@
 #include "systems/pipeline.hpp"
 
-#include <algorithm>
-
 namespace minamo {
 
 namespace {
@@ -34,13 +32,11 @@ struct Needs {
         newmark(scene.integrator == "newmark"),
         corrected_inertia(scene.corrected_inertia),
         viscous(scene.viscosity > 0),
+        uniform_force(has_uniform_force(scene)),
         ode(!scene.ode.empty()),
         exact_velocity(!scene.exact.velocity.empty()),
         exact_pressure(scene.exact.pressure.has_value()),
-        probes(!scene.probes.empty()) {
-    uniform_force = std::none_of(scene.body_force.begin(), scene.body_force.end(),
-                                 [](const Expression& b) { return b.uses("x") || b.uses("y") || b.uses("z"); });
-  }
+        probes(!scene.probes.empty()) {}
 };
 
 std::vector<std::string> force_systems(const Needs& needs) {

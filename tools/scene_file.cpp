@@ -9,6 +9,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 namespace minamo {
 
 namespace {
@@ -42,11 +44,14 @@ void require_memory(const Scene& scene, const std::string& file) {
         {}}});
 }
 
+/// The pointer of an override, /pointer=JSON.
+std::string pointer_of(const std::string& assignment) { return assignment.substr(0, assignment.find('=')); }
+
 /// What is wrong at or below an overridden pointer is not in the file.
 std::vector<Problem> with_overrides_named(std::vector<Problem> problems, const std::vector<std::string>& overrides) {
   for (Problem& problem : problems) {
     for (const std::string& assignment : overrides) {
-      const std::string pointer = assignment.substr(0, assignment.find('='));
+      const std::string pointer = pointer_of(assignment);
       if (problem.pointer == pointer || problem.pointer.starts_with(pointer + "/"))
         problem.file = "--set " + assignment;
     }
@@ -58,6 +63,8 @@ std::vector<Problem> with_overrides_named(std::vector<Problem> problems, const s
 
 void drop_keys_of_replaced_schemes(Json& scene, const std::set<std::string>& overridden,
                                    const SystemRegistry& registry) {
+  const auto is_scheme = [](const std::string& pointer) { return pointer.ends_with("/scheme"); };
+  if (std::none_of(overridden.begin(), overridden.end(), is_scheme)) return;
   Input::Document document(scene, {});
   read_scene(document.root(), registry);
   document.finish();
@@ -83,12 +90,11 @@ SceneFile load_scene(const std::string& path, const std::vector<std::string>& ov
   for (const std::string& assignment : overrides) {
     try {
       set_value(json, assignment);
-      overridden.insert(assignment.substr(0, assignment.find('=')));
+      overridden.insert(pointer_of(assignment));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
-  if (overridden.empty()) return understand_scene(json, path, registry, std::move(problems));
   drop_keys_of_replaced_schemes(json, overridden, registry);
   try {
     return understand_scene(json, path, registry, std::move(problems));

@@ -8,6 +8,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 namespace minamo {
 
 namespace {
@@ -179,6 +181,11 @@ Scene read_scene(Input& input, const SystemRegistry& registry) { return read_sce
 
 void describe_scene(Input& input, const SystemRegistry& registry) {
   for (const int dimension : {2, 3}) read_scene(input, registry, dimension);
+}
+
+bool has_uniform_force(const Scene& scene) {
+  return std::none_of(scene.body_force.begin(), scene.body_force.end(),
+                      [](const Expression& b) { return b.uses("x") || b.uses("y") || b.uses("z"); });
 }
 
 }  // namespace minamo

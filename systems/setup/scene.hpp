@@ -120,6 +120,9 @@ Scene read_scene(Input& input, const SystemRegistry& registry);
 /// Reads in description mode, in two and in three dimensions, so that schema and key table hold for both.
 void describe_scene(Input& input, const SystemRegistry& registry);
 
+/// Whether the body force is the same everywhere in space.
+bool has_uniform_force(const Scene& scene);
+
 /// x, y, z, t, the ode variables and the constants of a scene, as its expressions see them.
 ExpressionScope scene_scope(const std::map<std::string, double>& constants, const std::vector<OdeScene>& ode = {});
 

@@ -26,8 +26,7 @@ double largest_force(const Scene& scene, World& world) {
   Instant now{.time = world.resource<Clock>().time, .ode = {}, .ode_count = 0};
   if (!scene.ode.empty()) now = world.resource<ode::Values>();
   Arguments arguments(now);
-  const bool is_uniform = std::none_of(scene.body_force.begin(), scene.body_force.end(),
-                                       [](const Expression& b) { return b.uses("x") || b.uses("y") || b.uses("z"); });
+  const bool is_uniform = has_uniform_force(scene);
   double squared = 0;
   for (const Vec<Dim>& x : world.column<particle::Position<Dim>>()) {
     const double of_particle = vector_at<Dim>(scene.body_force, arguments.at<Dim>(x)).squaredNorm();
