@@ -6,10 +6,11 @@
 
 namespace minamo {
 
-/// Steps for which the preconditioner of the pressure is still to be factorized in double precision. [1]
-struct DoublePrecision {
+/// Steps for which the preconditioner of the pressure is still to be factorized whole: in double precision, with all
+/// that fills in. [1]
+struct WholeFactors {
   int steps = 0;
-  static constexpr ComponentInfo info{"solve.double_precision", "", "1", Lifetime::state};
+  static constexpr ComponentInfo info{"solve.whole_factors", "", "1", Lifetime::state};
 };
 
 }  // namespace minamo

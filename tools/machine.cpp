@@ -5,15 +5,30 @@
 #include <thread>
 
 #include <malloc.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 // There in the program only if its BLAS is OpenBLAS.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
+                       const int*, const double*, const int*, const double*, double*, const int*);
 
 namespace minamo {
 
+bool prepare_blas() {
+  if (!openblas_set_num_threads) return true;
+  openblas_set_num_threads(1);
+  void* const probe = mmap(nullptr, blas_work_space, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (probe == MAP_FAILED) return false;
+  munmap(probe, blas_work_space);
+  const int one = 1;
+  const double factor = 1;
+  double product = 0;
+  dgemm_("N", "N", &one, &one, &one, &factor, &factor, &one, &factor, &one, &factor, &product, &one);
+  return true;
+}
+
 int prepare_threads(int wanted) {
-  if (openblas_set_num_threads) openblas_set_num_threads(1);
   constexpr int gigabyte = 1 << 30;
   mallopt(M_MMAP_THRESHOLD, gigabyte);
   mallopt(M_TRIM_THRESHOLD, gigabyte);

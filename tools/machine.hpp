@@ -3,14 +3,22 @@
 /// The machine that a run happens on: threads, clocks, memory.
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 namespace minamo {
 
-/// Settles the number of threads (0: one per processor) and keeps BLAS and the allocator from working against it:
-/// one thread in BLAS, since a second pool of threads beside ours only costs; freed memory kept, since a sparse solver
-/// maps and unmaps its work arrays at every call.
+/// Address space that OpenBLAS works in, 128 MiB, and what goes with it. [byte]
+constexpr std::size_t blas_work_space = 160 << 20;
+
+/// One thread in BLAS, since a second pool of threads beside ours only costs; and the work space that OpenBLAS takes at
+/// its first call, now: where it does not get it, it tries again for ever, and no signal ends that.
+/// \return whether it got it; what it took is no longer in available_memory().
+bool prepare_blas();
+
+/// Settles the number of threads (0: one per processor) and keeps the allocator from working against it: freed memory
+/// is kept, since a sparse solver maps and unmaps its work arrays at every call.
 int prepare_threads(int wanted);
 
 std::string cpu_model();

@@ -6,6 +6,7 @@
 #include "systems/setup/scene_systems.hpp"
 #include "systems/setup/seed.hpp"
 #include "tools/available_memory.hpp"
+#include "tools/machine.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -30,18 +31,19 @@ std::string bytes_text(double bytes) {
 /// \throws InputError
 void require_memory(const Scene& scene, const std::string& file) {
   const SceneSize size = size_of(scene);
-  const double needed = memory_of(scene, size);
+  const bool has_blas = prepare_blas();
+  const double needed = memory_of(scene, size) + (has_blas ? 0 : blas_work_space);
   const AvailableMemory available = available_memory();
-  if (needed <= available.bytes) return;
+  if (has_blas && needed <= available.bytes) return;
   std::string what = "does not fit into memory; larger cells or fewer particles per cell need less";
   if (scene.solver == "umfpack") what += ", as does the solver \"block\"";
-  throw InputError(
-      {{file,
-        {},
-        what,
-        fmt::format("at most {}, {}", bytes_text(available.bytes), available.source),
-        fmt::format("about {}: {:.3g} particles on {:.3g} nodes", bytes_text(needed), size.particles, size.nodes),
-        {}}});
+  throw InputError({{file,
+                     {},
+                     what,
+                     fmt::format("at most {}, {}", bytes_text(available.bytes), available.source),
+                     fmt::format("about {}: {:.3g} particles on {:.3g} nodes{}", bytes_text(needed), size.particles,
+                                 size.nodes, has_blas ? "" : ", and BLAS"),
+                     {}}});
 }
 
 /// The pointer of an override, /pointer=JSON.

@@ -40,9 +40,14 @@ BlockFactors<Dim>::~BlockFactors() = default;
 
 namespace {
 
-/// About what UMFPACK costs.
-constexpr std::int64_t most_iterations = 100;
 constexpr int most_passes = 60;
+
+/// About what whole factors cost, if there are none, or what UMFPACK costs: many iterations in space, where its factors
+/// fill in.
+template <int Dim>
+std::int64_t most_iterations(const PressurePreconditioner<Dim>& preconditioner) {
+  return Dim == 3 && !preconditioner.is_incomplete() ? 500 : 100;
+}
 
 template <int Dim>
 using Impl = typename BlockFactors<Dim>::Impl;
@@ -67,7 +72,7 @@ Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double t
     for_each_row(r.size(), [&](std::size_t i) { s.unscaled[i] = r[i] / s.compact.scale()[i]; });
     s.preconditioner.solve(s.unscaled, out);
   };
-  const auto report = s.gmres.solve(apply, precondition, g, target, most_iterations, start, p);
+  const auto report = s.gmres.solve(apply, precondition, g, target, most_iterations(s.preconditioner), start, p);
   schur.push(p, u);
   add_scaled(1, f, u);
   s.velocity_block.solve(u);
@@ -139,11 +144,11 @@ Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
 
 template <int Dim>
 void prepare(Impl<Dim>& s, const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
-             const matrix::StabilizationScale& scale, const Rates& rates, DoublePrecision& precision) {
+             const matrix::StabilizationScale& scale, const Rates& rates, WholeFactors& whole) {
   s.schur.assemble(terms, grid);
   s.compact.assemble(terms, grid, fluid, laplacian_factor(rates, fluid, scale), s.schur);
   s.velocity_block.prepare(terms, s.schur);
-  s.preconditioner.prepare(s.compact, s.schur, terms, viscous_part<Dim>(terms, grid, fluid, scale), precision);
+  s.preconditioner.prepare(s.compact, s.schur, terms, viscous_part<Dim>(terms, grid, fluid, scale), whole);
   const std::size_t n = s.schur.rows();
   for (Values* v : {&s.mass, &s.pressure, &s.more_pressure, &s.g, &s.zero, &s.unscaled}) v->resize(n);
   std::fill(s.zero.begin(), s.zero.end(), 0.0);
@@ -182,14 +187,19 @@ bool is_solved(const Gmres::Report& report) { return report.converged && std::is
 template <int Dim>
 SolveReport solve(const Grid<Dim>& grid, const Fluid& fluid, double tolerance, const matrix::StabilizationScale& scale,
                   const Rates& rates, const EquationTerms<Dim>& terms, std::span<const double> p_i,
-                  const std::vector<double>& b, DoublePrecision& precision, Impl<Dim>& s, std::vector<double>& x) {
+                  const std::vector<double>& b, WholeFactors& whole, Impl<Dim>& s, std::vector<double>& x) {
   s.terms = terms;
   s.is_direct = false;
-  prepare<Dim>(s, terms, grid, fluid, scale, rates, precision);
+  prepare<Dim>(s, terms, grid, fluid, scale, rates, whole);
   take_right_hand_side<Dim>(s, b);
   // The pressure of the step before is near.
   for_each_row(s.pressure.size(), [&](std::size_t r) { s.pressure[r] = p_i[terms.node[r]]; });
-  const Gmres::Report done = solve_blocks<Dim>(s, tolerance, Gmres::Start::x);
+  Gmres::Report done = solve_blocks<Dim>(s, tolerance, Gmres::Start::x);
+  if (!is_solved(done) && s.preconditioner.complete(s.compact, s.schur, whole)) {
+    const std::int64_t before = done.iterations;
+    done = solve_blocks<Dim>(s, tolerance, Gmres::Start::zero);
+    done.iterations += before;
+  }
   if (!is_solved(done)) {
     s.is_direct = true;
     SolveReport report = solve_directly<Dim>(grid, terms, b, s, x);
@@ -222,7 +232,7 @@ void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<F
                                  Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                  Read<matrix::Divergence<Dim>> divergence,
                                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
-                                 Read<matrix::RightHandSide> right_hand_side, Update<DoublePrecision> precision,
+                                 Read<matrix::RightHandSide> right_hand_side, Update<WholeFactors> whole,
                                  Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
                                  Write<SolveReport> report) const {
   const EquationTerms<Dim> terms{rates->velocity,
@@ -238,7 +248,7 @@ void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<F
                                  stabilization.span(),
                                  {}};
   *report = solve<Dim>(*grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(), right_hand_side->values,
-                       *precision, *factors->impl, solution->values);
+                       *whole, *factors->impl, solution->values);
 }
 
 template <int Dim>
@@ -249,7 +259,7 @@ void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid,
                                         Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::Stabilization<Dim>> stabilization,
                                         Read<matrix::StabilizationScale> scale, Read<matrix::Viscosity<Dim>> viscosity,
-                                        Read<matrix::RightHandSide> right_hand_side, Update<DoublePrecision> precision,
+                                        Read<matrix::RightHandSide> right_hand_side, Update<WholeFactors> whole,
                                         Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
                                         Write<SolveReport> report) const {
   const EquationTerms<Dim> terms{rates->velocity,
@@ -265,7 +275,7 @@ void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid,
                                  stabilization.span(),
                                  viscosity.span()};
   *report = solve<Dim>(*grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(), right_hand_side->values,
-                       *precision, *factors->impl, solution->values);
+                       *whole, *factors->impl, solution->values);
 }
 
 template struct BlockFactors<2>;

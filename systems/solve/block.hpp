@@ -2,7 +2,7 @@
 /// \file
 /// Block elimination: the displacement is eliminated by the velocity block, and GMRES solves for the pressure, with a
 /// factorization of a compact pressure matrix as preconditioner. Equal to UMFPACK to the tolerance; a step in which
-/// GMRES does not converge is given to UMFPACK.
+/// GMRES does not converge, with an incomplete factorization and then with a complete one, is given to UMFPACK.
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
@@ -46,7 +46,7 @@ struct SolveBlock {
                   Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
-                  Read<matrix::RightHandSide> right_hand_side, Update<DoublePrecision> precision,
+                  Read<matrix::RightHandSide> right_hand_side, Update<WholeFactors> whole,
                   Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution, Write<SolveReport> report) const;
 };
 
@@ -60,8 +60,8 @@ struct SolveBlockViscous {
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                   Read<matrix::Viscosity<Dim>> viscosity, Read<matrix::RightHandSide> right_hand_side,
-                  Update<DoublePrecision> precision, Update<BlockFactors<Dim>> factors,
-                  Write<matrix::Solution> solution, Write<SolveReport> report) const;
+                  Update<WholeFactors> whole, Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
+                  Write<SolveReport> report) const;
 };
 
 }  // namespace minamo

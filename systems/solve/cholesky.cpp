@@ -4,6 +4,7 @@
 #include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
+#include <new>
 
 extern "C" void omp_set_max_active_levels(int);
 
@@ -21,6 +22,7 @@ struct SparseCholesky::Impl {
   Kind kind = Kind::complete;
 
   void sort_rows();
+  void require_memory();
   bool factorize_complete(const Eigen::Map<const Matrix>& matrix);
 };
 
@@ -61,6 +63,14 @@ void SparseCholesky::Impl::sort_rows() {
   }
 }
 
+/// What CHOLMOD has no memory for, or no 32-bit numbers, is no statement about the matrix.
+void SparseCholesky::Impl::require_memory() {
+  const int status = complete.cholmod().status;
+  if (status != CHOLMOD_OUT_OF_MEMORY && status != CHOLMOD_TOO_LARGE) return;
+  known_outer.clear();  // the analysis may be the part that is missing
+  throw std::bad_alloc();
+}
+
 bool SparseCholesky::Impl::factorize_complete(const Eigen::Map<const Matrix>& matrix) {
   // CHOLMOD asks OpenMP for four threads whatever the environment says; threads are TBB's business.
   omp_set_max_active_levels(0);
@@ -68,10 +78,12 @@ bool SparseCholesky::Impl::factorize_complete(const Eigen::Map<const Matrix>& ma
     // Dense blocks pay from a few thousand rows on.
     complete.setMode(rows < 2000 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodSupernodalLLt);
     complete.analyzePattern(matrix);
+    require_memory();
     known_outer = outer;
     known_inner = inner;
   }
   complete.factorize(matrix);
+  require_memory();
   return complete.info() == Eigen::Success;
 }
 

@@ -23,6 +23,7 @@ class SparseCholesky {
   void add(std::size_t row, std::size_t column, double value);
   /// The symbolic factorization is kept as long as the pattern is. False if the matrix is not positive definite; the
   /// incomplete factorization adds to the diagonal instead, until it is.
+  /// \throws std::bad_alloc if the factors do not fit into memory.
   bool factorize(Kind kind = Kind::complete);
   /// Overwrites b with the solution.
   void solve(Values& b);

@@ -22,16 +22,11 @@ constexpr double widest_double = 1e9;
 /// many nodes, pressures hang on e of (E27), a millionth of the diagonal.
 constexpr double least_pivot = 1e-3;
 
-/// Steps in double precision after one that needs it: spray does not vanish from one step to the next.
-constexpr int steps_in_double = 16;
+/// Steps with whole factors after one that needs them: spray does not vanish from one step to the next.
+constexpr int steps_with_whole_factors = 16;
 
 /// Rows from which on, in 3-D, the fill of a complete factorization costs more than the iterations that it saves.
 constexpr std::size_t most_complete = 20000;
-
-template <int Dim>
-SparseCholesky::Kind kind_for(std::size_t rows) {
-  return Dim == 3 && rows > most_complete ? SparseCholesky::Kind::incomplete : SparseCholesky::Kind::complete;
-}
 
 /// The value of an entry in a list, 0 if it is not there.
 template <class Entries>
@@ -130,14 +125,12 @@ bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>&
 }
 
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_narrow(const CompactPressure<Dim>& compact, DoublePrecision& precision) {
+bool PressurePreconditioner<Dim>::factorize_narrow(const CompactPressure<Dim>& compact, WholeFactors& whole) {
   const double cost = envelope_cost(first_);
-  if (precision.steps > 0) {
-    --precision.steps;
-  } else if (cost > narrowest_single && cost < widest_single) {
+  if (whole.steps == 0 && cost > narrowest_single && cost < widest_single) {
     kind_ = Kind::single_envelope;
     if (factorize_envelope(compact, least_pivot, single_)) return true;
-    precision.steps = steps_in_double;
+    whole.steps = steps_with_whole_factors;
   }
   kind_ = Kind::double_envelope;
   return cost < widest_double && factorize_envelope(compact, 0, double_);
@@ -176,36 +169,43 @@ bool PressurePreconditioner<Dim>::factorize_symmetric(const CompactPressure<Dim>
     }
     for (; next != one_sided_.end() && next->row == r; ++next) sparse_.add(r, next->column, next->value / 2);
   }
-  return sparse_.factorize(kind_for<Dim>(order_.size()));
+  return sparse_.factorize(is_incomplete() ? SparseCholesky::Kind::incomplete : SparseCholesky::Kind::complete);
 }
 
-/// T + e, with something of the diagonal: never indefinite.
+/// T + e, with as much of the diagonal as e: never indefinite, and no larger where e alone holds a pressure.
 template <int Dim>
 bool PressurePreconditioner<Dim>::factorize_pressure(const CompactPressure<Dim>& compact,
                                                      const PressureSchur<Dim>& schur) {
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    const double more = 1e-3 / (compact.scale()[r] * compact.scale()[r]);
+    const double more = 1e-6 / (compact.scale()[r] * compact.scale()[r]);
     schur.spread_entries().for_each_neighbour(r, Dim, Dim + 1, [&](std::size_t, std::size_t r_j, double value) {
       if (r_j <= r && value != 0) sparse_.add(r, r_j, value + (r_j == r ? more : 0));
     });
   }
-  return sparse_.factorize(kind_for<Dim>(order_.size()));
+  return sparse_.factorize(is_incomplete() ? SparseCholesky::Kind::incomplete : SparseCholesky::Kind::complete);
+}
+
+template <int Dim>
+void PressurePreconditioner<Dim>::factorize_sparse(const CompactPressure<Dim>& compact,
+                                                   const PressureSchur<Dim>& schur) {
+  // The symmetric part can be indefinite in spray.
+  if (factorize_symmetric(compact) || factorize_pressure(compact, schur)) return;
+  throw StepRejected("solve: the pressure matrix is not positive definite");
 }
 
 template <int Dim>
 void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur,
-                                          const EquationTerms<Dim>& terms, double viscous_part,
-                                          DoublePrecision& precision) {
+                                          const EquationTerms<Dim>& terms, double viscous_part, WholeFactors& whole) {
   find_order(terms);
   find_envelope(compact);
   ordered_.resize(order_.size());
-  if (!factorize_narrow(compact, precision)) {
-    kind_ = Kind::sparse;
-    // The symmetric part can be indefinite in spray.
-    if (!factorize_symmetric(compact) && !factorize_pressure(compact, schur)) {
-      throw StepRejected("solve: the pressure matrix is not positive definite");
-    }
+  const bool has_whole = whole.steps > 0;
+  const bool is_narrow = factorize_narrow(compact, whole);
+  if (has_whole) --whole.steps;
+  if (!is_narrow) {
+    kind_ = Dim == 3 && order_.size() > most_complete && !has_whole ? Kind::incomplete : Kind::complete;
+    factorize_sparse(compact, schur);
   }
   of_mass_.clear();
   if (viscous_part == 0) return;
@@ -213,8 +213,18 @@ void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, c
 }
 
 template <int Dim>
+bool PressurePreconditioner<Dim>::complete(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur,
+                                           WholeFactors& whole) {
+  if (!is_incomplete()) return false;
+  kind_ = Kind::complete;
+  factorize_sparse(compact, schur);
+  whole.steps = steps_with_whole_factors;
+  return true;
+}
+
+template <int Dim>
 void PressurePreconditioner<Dim>::solve(const Values& r, Values& out) {
-  if (kind_ == Kind::sparse) {
+  if (kind_ == Kind::complete || is_incomplete()) {
     out = r;
     sparse_.solve(out);
   } else {

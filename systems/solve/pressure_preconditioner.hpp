@@ -25,9 +25,13 @@ double viscous_part(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, cons
 template <int Dim>
 class PressurePreconditioner {
  public:
-  /// \throws StepRejected if the matrix cannot be factorized.
+  /// \throws StepRejected if the matrix cannot be factorized, std::bad_alloc if its factors do not fit into memory.
   void prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms,
-               double viscous_part, DoublePrecision& precision);
+               double viscous_part, WholeFactors& whole);
+  /// Whole factors in the place of incomplete ones, with which GMRES may not converge where few particles have many
+  /// nodes. \return whether they were incomplete. \throws as prepare()
+  bool complete(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, WholeFactors& whole);
+  bool is_incomplete() const { return kind_ == Kind::incomplete; }
   /// out = about S^-1 r.
   void solve(const Values& r, Values& out);
 
@@ -37,8 +41,9 @@ class PressurePreconditioner {
   void find_envelope(const CompactPressure<Dim>& compact);
   template <class Scalar>
   bool factorize_envelope(const CompactPressure<Dim>& compact, double least_pivot, EnvelopeLu<Scalar>& envelope);
-  bool factorize_narrow(const CompactPressure<Dim>& compact, DoublePrecision& precision);
+  bool factorize_narrow(const CompactPressure<Dim>& compact, WholeFactors& whole);
   void find_one_sided(const CompactPressure<Dim>& compact);
+  void factorize_sparse(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
   bool factorize_symmetric(const CompactPressure<Dim>& compact);
   bool factorize_pressure(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
 
@@ -49,8 +54,8 @@ class PressurePreconditioner {
   std::vector<std::uint32_t> count_;  ///< work space
   Values ordered_;
   Values of_mass_;  ///< b/V_I; empty if not viscous
-  enum class Kind { single_envelope, double_envelope, sparse };
-  Kind kind_ = Kind::sparse;
+  enum class Kind { single_envelope, double_envelope, complete, incomplete };
+  Kind kind_ = Kind::complete;
   EnvelopeLu<float> single_;
   EnvelopeLu<double> double_;
   SparseCholesky sparse_;

@@ -16,7 +16,7 @@ template <int Dim>
 class VelocityBlock {
  public:
   /// \param schur  assembled from the same terms; its blocks and mobility are kept by reference
-  /// \throws StepRejected if the factorization fails.
+  /// \throws StepRejected if the factorization fails, std::bad_alloc if it does not fit into memory.
   void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur);
   /// How much of a vector about is left of v - A solve(v); 0 if solve() is the inverse.
   double error() const { return error_; }

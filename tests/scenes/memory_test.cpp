@@ -18,16 +18,21 @@ std::string scene_path(const std::string& name) { return std::string(MINAMO_SOUR
 }  // namespace
 
 TEST_CASE("a run takes as much memory as was estimated, within the bounds that are documented", "[scene]") {
-  const auto [name, steps] =
-      GENERATE(table<std::string, std::string>({{"dam_break.json", "1000"}, {"dam_break_3d.json", "5"}}));
-  CAPTURE(name);
+  // Water, and honey: in space the factors of its velocities are most of what a run takes.
+  const auto [name, viscosity, steps, most] =
+      GENERATE(table<std::string, std::string, std::string, double>({{"dam_break.json", "1e-3", "1000", 2.4},
+                                                                     {"dam_break_3d.json", "1e-3", "5", 2.4},
+                                                                     {"dam_break_3d.json", "1e3", "1", 3}}));
+  CAPTURE(name, viscosity);
   const Folder folder;
-  REQUIRE(output_of_program(folder / "", {"run", scene_path(name), "--steps", steps, "--out", "out"}).code == 0);
+  const std::string override = "/fluid/viscosity=" + viscosity;
+  REQUIRE(output_of_program(folder / "", {"run", scene_path(name), "--steps", steps, "--out", "out", "--set", override})
+              .code == 0);
   const auto taken = read_json(folder / "out/summary.json").at("peak_memory_bytes").get<double>();
-  const Scene scene = scene_run::read(scene_run::scene_of_file(name));
+  const Scene scene = scene_run::read(scene_run::with(scene_run::scene_of_file(name), {override}));
   const double estimated = memory_of(scene, size_of(scene));
   CHECK(taken <= estimated);
-  CHECK(taken >= estimated / 2.4);
+  CHECK(taken >= estimated / most);
 }
 
 TEST_CASE("a run that does not fit into a limited address space is refused, and nothing is written", "[scene]") {
