@@ -58,7 +58,7 @@ struct Probes {
 };
 
 /// Further columns of the history, in the order in which systems first name them. A system that measures sets its
-/// columns in every step, the start included.
+/// columns in every step, the start included; NaN is an empty cell.
 struct Columns {
   struct Column {
     std::string name;

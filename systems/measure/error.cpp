@@ -6,6 +6,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <limits>
 
 namespace minamo {
 
@@ -54,6 +55,8 @@ struct PressureSum {
   }
 };
 
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
 /// What is exact at the start may end in the course of the run.
 void require_finite(double sum_of_squares, const char* name, const Instant& instant) {
   if (std::isfinite(sum_of_squares)) return;
@@ -69,6 +72,7 @@ void MeasureErrorVelocityAt<Dim, When>::operator()(Read<exact::Velocity> exact, 
                                                    Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
                                                    Read<particle::Velocity<Dim>> v_p,
                                                    Update<measure::Columns> columns) const {
+  if (instant_of(*when).time > exact->until) return columns->set("error_velocity", not_known);
   const Arguments start(instant_of(*when));
   const auto sum = sum_of_parts<VelocitySum>(x_p.size(), [&](VelocitySum& part_sum, std::size_t part, std::size_t p) {
     Arguments arguments = start;
@@ -84,6 +88,7 @@ void MeasureErrorPressureAt<Dim, When>::operator()(Read<exact::Pressure> exact, 
                                                    Read<particle::Mass> m_p, Read<particle::Configuration<Dim>> y_p,
                                                    Read<particle::Pressure> p_p,
                                                    Update<measure::Columns> columns) const {
+  if (instant_of(*when).time > exact->until) return columns->set("error_pressure", not_known);
   const Arguments start(instant_of(*when));
   const auto sum = sum_of_parts<PressureSum>(y_p.size(), [&](PressureSum& part_sum, std::size_t part, std::size_t p) {
     Arguments arguments = start;

@@ -4,7 +4,8 @@
 ///
 /// Both norms are relative. Where the exact field is zero at all particles (liquid at rest, the pressure of a free
 /// flight) there is nothing to relate to, and the column has the root mean square of the difference itself, in m/s or
-/// Pa. `When` tells the instant of the exact solution (components/instant.hpp).
+/// Pa. After the time up to which the solution is known it is NaN. `When` tells the instant of the exact solution
+/// (components/instant.hpp).
 
 #include "components/exact.hpp"
 #include "components/instant.hpp"

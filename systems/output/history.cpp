@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace minamo {
@@ -31,6 +32,12 @@ void require_known(const measure::Columns& further, std::int64_t known) {
   if (count <= known) return;
   throw std::runtime_error(fmt::format("column {} of history.csv was not measured at the start",
                                        further.columns[static_cast<std::size_t>(known)].name));
+}
+
+/// Sets `last` to the value of a column, if it has one.
+void keep_measured(const measure::Columns& columns, std::string_view name, double& last) {
+  const double* value = columns.find(name);
+  if (value != nullptr && !std::isnan(*value)) last = *value;
 }
 
 }  // namespace
@@ -63,6 +70,8 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   totals->overlap_max = std::max(totals->overlap_max, overlap->value);
   totals->active_nodes_max = std::max(totals->active_nodes_max, static_cast<std::int64_t>(active.size()));
   totals->unknowns_max = std::max(totals->unknowns_max, solve->unknowns);
+  keep_measured(*further, "error_velocity", totals->error_velocity);
+  keep_measured(*further, "error_pressure", totals->error_pressure);
   ++totals->rows;
   if (!history->file.is_open()) return;
 
@@ -76,7 +85,13 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   for (int d = 0; d < rotations<Dim>; ++d) fmt::format_to(out, ",{}", momentum->angular[d]);
   fmt::format_to(out, ",{},{},{},{},{},{}", speed->value, divergence->value, overlap->value, active.size(),
                  solve->iterations, solve->residual);
-  for (const auto& column : further->columns) fmt::format_to(out, ",{}", column.value);
+  for (const auto& column : further->columns) {
+    if (std::isnan(column.value)) {
+      row.push_back(',');
+    } else {
+      fmt::format_to(out, ",{}", column.value);
+    }
+  }
   row.push_back('\n');
   history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
   history->rows = totals->rows;

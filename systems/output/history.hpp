@@ -11,6 +11,7 @@
 #include "systems/measure/energy_watch.hpp"
 
 #include <fstream>
+#include <limits>
 
 namespace minamo {
 
@@ -37,6 +38,9 @@ struct RunTotals {
   std::int64_t unknowns_max = 0;
   std::int64_t rows = 0;
   std::int64_t columns = 0;  ///< of measure::Columns
+  // The last that were measured; NaN: none was.
+  double error_velocity = std::numeric_limits<double>::quiet_NaN();
+  double error_pressure = std::numeric_limits<double>::quiet_NaN();
   static constexpr ComponentInfo info{"history.totals", "", "", Lifetime::state};
 };
 

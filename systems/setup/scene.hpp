@@ -8,6 +8,7 @@
 #include "systems/transfer/scheme.hpp"
 
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -66,9 +67,10 @@ struct OdeScene {
 
 /// Empty where the scene says nothing of a field.
 struct ExactScene {
-  std::vector<Expression> velocity;    ///< [m/s]
-  std::optional<Expression> pressure;  ///< [Pa]
-  bool pressure_is_free = false;       ///< known up to a constant only
+  std::vector<Expression> velocity;                        ///< [m/s]
+  std::optional<Expression> pressure;                      ///< [Pa]
+  bool pressure_is_free = false;                           ///< known up to a constant only
+  double until = std::numeric_limits<double>::infinity();  ///< known up to this time [s]
 };
 
 struct ProbeScene {

@@ -75,6 +75,8 @@ ExactScene read_exact(Input& input, const Scene& scene) {
                   "free: the pressure is known up to a constant only, as in a closed box that is full; its error is "
                   "measured with the volume means of both pressures removed",
                   "fixed") == "free";
+    exact.until = in.optional_number("until", {.unit = "s", .doc = "time up to which it is known", .at_least = 0})
+                      .value_or(exact.until);
     for (std::size_t d = 0; d < exact.velocity.size(); ++d) {
       check_coordinates(in, fmt::format("velocity/{}", d), exact.velocity[d], scene.dimension);
     }

@@ -49,12 +49,16 @@ void check_exact(const std::string& pointer, const Expression& field, const Scen
 
 template <int Dim>
 void seed_exact(const Scene& scene, const std::string& file, World& world, std::vector<Problem>& problems) {
-  if (!scene.exact.velocity.empty()) world.resource<exact::Velocity>().of_part.fill(scene.exact.velocity);
+  if (!scene.exact.velocity.empty()) {
+    world.resource<exact::Velocity>().of_part.fill(scene.exact.velocity);
+    world.resource<exact::Velocity>().until = scene.exact.until;
+  }
   for (std::size_t d = 0; d < scene.exact.velocity.size(); ++d) {
     check_exact<Dim>(fmt::format("/exact/velocity/{}", d), scene.exact.velocity[d], scene, file, world, problems);
   }
   if (!scene.exact.pressure) return;
-  world.resource<exact::Pressure>() = {std::vector(exact::parts, *scene.exact.pressure), scene.exact.pressure_is_free};
+  world.resource<exact::Pressure>() = {std::vector(exact::parts, *scene.exact.pressure), scene.exact.pressure_is_free,
+                                       scene.exact.until};
   check_exact<Dim>("/exact/pressure", *scene.exact.pressure, scene, file, world, problems);
 }
 

@@ -4,6 +4,7 @@
 #include "support/scene_run.hpp"
 
 #include <catch2/catch.hpp>
+#include <spdlog/fmt/fmt.h>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -74,6 +75,21 @@ TEST_CASE("probes come after the columns of every history, errors last", "[unit]
   CHECK(further == std::vector<std::string>{"wall_pressure", "wall_velocity_x", "wall_velocity_y", "error_velocity",
                                             "error_pressure"});
   CHECK(std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.size() == columns_2d + 5; }));
+}
+
+TEST_CASE("errors end with what is known of the exact solution, and the totals keep the last", "[unit]") {
+  SceneRun run(with(small_scene(), {R"(/exact={"velocity": [0, 0], "pressure": 0, "until": 0.0015})"}));
+  const Folder folder;
+  run.world().resource<HistoryFile>().file.open(folder / "history.csv");
+  run.step(2);
+  run.world().resource<HistoryFile>().file.close();
+  const auto lines = split(text_of(folder / "history.csv"), '\n');
+  CHECK_THAT(lines.at(3), Catch::EndsWith(",,"));  // at 2 ms, after 0, 1 ms
+  const auto last_known = split(lines.at(2), ',');
+  const RunTotals& totals = run.world().resource<RunTotals>();
+  CHECK(last_known.at(columns_2d) == fmt::format("{}", totals.error_velocity));
+  CHECK(last_known.at(columns_2d + 1) == fmt::format("{}", totals.error_pressure));
+  CHECK(totals.error_pressure > 0);
 }
 
 TEST_CASE("a column that the header does not have ends the run", "[error]") {

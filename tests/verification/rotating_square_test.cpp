@@ -35,6 +35,18 @@ TEST_CASE("the rotating square has the exact pressure in its centre after a step
   CHECK(centre_pressure(run.world()) == Approx(exact_centre).epsilon(0.04));
 }
 
+TEST_CASE("the rotating square starts with its exact pressure", "[verification]") {
+  const auto error = [](const std::string& cells) {
+    SceneRun run(with(scene_of_file("rotating_square.json"), {"/grid/cells=[" + cells + ", " + cells + "]"}));
+    run.start();
+    return *run.world().resource<measure::Columns>().find("error_pressure");
+  };
+  const double coarse = error("50");
+  const double paper = error("100");
+  CHECK(paper < 0.005);         // 0.0039, with 1 % as the aim
+  CHECK(coarse / paper > 3.5);  // 4.3: second order
+}
+
 TEST_CASE("the rotating square starts with its exact angular momentum", "[verification]") {
   SceneRun run(patch("newmark"));
   run.start();

@@ -76,7 +76,7 @@ def _with_columns(plot: Plot, runs: list[Run]) -> Plot:
 
 
 def _says_something(values: np.ndarray | None, column: str) -> bool:
-    if values is None or not np.any(np.nan_to_num(values)):
+    if values is None or not np.any(np.nan_to_num(values)) or np.isfinite(values).sum() < 2:
         return False
     return column != "dt" or np.ptp(values[1:-1]) > 1e-9 * values.max() if len(values) > 3 else True
 
