@@ -48,6 +48,13 @@ struct VelocityGradient : Column<Particles, Mat<Dim>> {
   static constexpr ComponentInfo info{"particle.velocity_gradient", "grad v_p", "1/s", Lifetime::state};
 };
 
+/// Second derivatives of the velocity, in the order xx xy yy, in space xx xy xz yy yz zz: as much of them as the
+/// transfer keeps. [1/(m s)]
+template <int Dim>
+struct VelocityCurvature : Column<Particles, Eigen::Matrix<double, Dim, Dim*(Dim + 1) / 2>> {
+  static constexpr ComponentInfo info{"particle.velocity_curvature", "H_p", "1/(m s)", Lifetime::state};
+};
+
 /// Acceleration a_p. [m/s^2]
 template <int Dim>
 struct Acceleration : Column<Particles, Vec<Dim>> {

@@ -34,6 +34,7 @@
 #include "systems/transfer/pic_flip.hpp"
 #include "systems/transfer/scheme.hpp"
 #include "systems/transfer/tpic.hpp"
+#include "systems/transfer/tpic2.hpp"
 #include "systems/transfer/xpic.hpp"
 #include "systems/volume/delta.hpp"
 #include "systems/volume/projection.hpp"
@@ -52,6 +53,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<P2GVelocityPic>("p2g_velocity_pic");
   registry.add<P2GAccelerationPic>("p2g_acceleration_pic");
   registry.add<P2GVelocityTpic>("p2g_velocity_tpic");
+  registry.add<P2GVelocityTpic2>("p2g_velocity_tpic2");
   registry.add<P2GAccelerationTpic>("p2g_acceleration_tpic");
 
   registry.add<Activate>("activate");
@@ -105,6 +107,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<G2PVelocityPic>("g2p_velocity_pic");
   registry.add<G2PVelocityFlip>("g2p_velocity_flip");
   registry.add<G2PVelocityTpic>("g2p_velocity_tpic");
+  registry.add<G2PVelocityTpic2>("g2p_velocity_tpic2");
   registry.add<G2PVelocityApic>("g2p_velocity_apic");
   registry.add<G2PAccelerationApic>("g2p_acceleration_apic");
   registry.add<FilterVelocityXpic>("filter_velocity_xpic");

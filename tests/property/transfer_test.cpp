@@ -2,6 +2,7 @@
 
 #include "systems/transfer/pic_flip.hpp"
 #include "systems/transfer/tpic.hpp"
+#include "systems/transfer/tpic2.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -12,6 +13,9 @@ using namespace minamo::kernels;
 namespace {
 
 constexpr std::size_t particles = 600;
+
+template <int Dim>
+using Curvature = typename particle::VelocityCurvature<Dim>::value_type;
 
 /// v = A x + b.
 template <int Dim>
@@ -29,6 +33,26 @@ void set_velocities(World& world, std::uint64_t seed) {
   for (Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) v = random.vector<Dim>(-1, 1);
   for (Mat<Dim>& grad_v : world.column<particle::VelocityGradient<Dim>>()) grad_v = random.matrix<Dim>(-1, 1);
 }
+
+/// v = b + A x + sum_ab H_ab x_a x_b / 2.
+template <int Dim>
+struct Quadratic {
+  Affine<Dim> affine;
+  Curvature<Dim> second;
+  explicit Quadratic(Random& random) : affine(random) {
+    for (Eigen::Index k = 0; k < second.cols(); ++k) second.col(k) = random.vector<Dim>(-1, 1);
+  }
+  Vec<Dim> operator()(const Vec<Dim>& x) const {
+    Vec<Dim> v = affine(x);
+    Eigen::Index column = 0;
+    for (int a = 0; a < Dim; ++a) {
+      for (int b = a; b < Dim; ++b) v += (a == b ? 0.5 : 1) * x[a] * x[b] * second.col(column++);
+    }
+    return v;
+  }
+};
+
+void make_all_liquid(World& world, std::size_t cells) { world.resource<LiquidShare>().of_cell.assign(cells, 1); }
 
 template <int Dim>
 Vec<Dim> particle_momentum(World& world) {
@@ -118,6 +142,72 @@ TEMPLATE_TEST_CASE_SIG("TPIC P2G reproduces an affine velocity at every node wit
     if (m_i[i] > 0) worst = std::max(worst, (v_i[i] - affine(node_position<Dim>(grid, i))).norm());
   }
   CHECK(worst < 1e-13);  // a mean of velocities of size 10
+}
+
+TEMPLATE_TEST_CASE_SIG("second derivatives do not change what P2G gives of linear momentum", "[property]",
+                       ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, particles, 5);
+  set_velocities<Dim>(world, 6);
+  Random random(7);
+  for (auto& h_p : world.column<particle::VelocityCurvature<Dim>>()) {
+    for (Eigen::Index k = 0; k < h_p.cols(); ++k) h_p.col(k) = random.vector<Dim>(-1, 1);
+  }
+  run<P2GVelocityTpic2<Dim>>(world);
+  CHECK((nodal_momentum<Dim>(world) - particle_momentum<Dim>(world)).norm() < sum_rounding);
+}
+
+TEMPLATE_TEST_CASE_SIG("TPIC of second order gives a quadratic velocity to the particles and back", "[property]",
+                       ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, particles, 21);
+  Random random(22);
+  const Quadratic<Dim> quadratic(random);
+  const Grid<Dim> grid = small_grid<Dim>();
+  const auto v_new = world.column<node::NewVelocity<Dim>>();
+  for (std::size_t i = 0; i < v_new.size(); ++i) v_new[i] = quadratic(node_position<Dim>(grid, i));
+  make_all_liquid(world, world.resource<OccupiedCells<Dim>>().cells.size());
+  G2PVelocityTpic2<Dim> g2p;
+  g2p.share = 1;
+  run(world, g2p);
+  run<P2GVelocityTpic2<Dim>>(world);
+  const auto m_i = world.column<node::Mass>();
+  const auto v_i = world.column<node::Velocity<Dim>>();
+  double worst = 0;
+  int seen = 0;
+  for (std::size_t i = 0; i < m_i.size(); ++i) {
+    // Weights are linear in the half cells at walls.
+    bool inside = m_i[i] > 0;
+    for (int d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<std::size_t>(d);
+      inside = inside && grid.index(i)[axis] >= 2 && grid.index(i)[axis] <= grid.cells[axis] - 2;
+    }
+    if (!inside) continue;
+    ++seen;
+    worst = std::max(worst, (v_i[i] - v_new[i]).norm());
+  }
+  CHECK(seen > 0);
+  CHECK(worst < 1e-12);  // velocities of size 30, second derivatives over h^2 = 1/4
+}
+
+TEMPLATE_TEST_CASE_SIG("TPIC of second order without second derivatives is TPIC", "[property]", ((int Dim), Dim), 2,
+                       3) {
+  World world;
+  fill<Dim>(world, particles, 23);
+  Random random(24);
+  for (Vec<Dim>& v : world.column<node::NewVelocity<Dim>>()) v = random.vector<Dim>(-1, 1);
+  make_all_liquid(world, world.resource<OccupiedCells<Dim>>().cells.size());
+  G2PVelocityTpic2<Dim> g2p;
+  g2p.share = 0;
+  run(world, g2p);
+  run<P2GVelocityTpic2<Dim>>(world);
+  const auto v_i = world.column<node::Velocity<Dim>>();
+  const std::vector<Vec<Dim>> second_order(v_i.begin(), v_i.end());
+  run<G2PVelocityTpic<Dim>>(world);
+  run<P2GVelocityTpic<Dim>>(world);
+  double worst = 0;
+  for (std::size_t i = 0; i < v_i.size(); ++i) worst = std::max(worst, (second_order[i] - v_i[i]).norm());
+  CHECK(worst < 1e-13);
 }
 
 TEMPLATE_TEST_CASE_SIG("P2G leaves a node without mass at rest", "[property]", ((int Dim), Dim), 2, 3) {

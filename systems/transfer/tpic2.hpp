@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// TPIC of second order (ours): particles carry the second derivatives of the velocity, too, the third term of a Taylor
+/// series around them. What TPIC damps is what that series leaves out.
+
+#include "components/cells.hpp"
+#include "components/grid.hpp"
+#include "components/node.hpp"
+#include "components/particle.hpp"
+#include "engine/input.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E64)  v_I = sum_p S_Ip m_p (v_p + grad v_p r + sum_ab H_ab (r_a r_b - D_ab) / 2) / m_I, r = x_I - y_p,
+/// D_p = sum_I S_Ip r (x) r, so that no term changes the momentum.
+template <int Dim>
+struct P2GVelocityTpic2 {
+  static constexpr std::string_view doc = "(E64) v_I^n, TPIC of second order";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                  Read<particle::VelocityGradient<Dim>> grad_v_p, Read<particle::VelocityCurvature<Dim>> h_p,
+                  Read<node::Mass> m_i, Write<node::Velocity<Dim>> v_i) const;
+};
+
+/// (E17), (E18), (E65)  H_ab = s w_c sum_I v_I^{n+1} d^2 S_Ip / dx_a dx_b, w_c of (E61). s = 0 is TPIC; with s = 1
+/// particles give back whatever quadratic field they took, and nothing damps.
+template <int Dim>
+struct G2PVelocityTpic2 {
+  static constexpr std::string_view doc = "(E17) (E18) (E65) v_p and two derivatives, TPIC of second order";
+  double share = 0.5;  ///< s [1]
+
+  G2PVelocityTpic2() = default;
+  explicit G2PVelocityTpic2(Input& in);
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
+                  Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+                  Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p,
+                  Write<particle::VelocityCurvature<Dim>> h_p) const;
+};
+
+}  // namespace minamo
