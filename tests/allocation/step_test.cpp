@@ -105,6 +105,7 @@ TEST_CASE("a step allocates nothing after the first ones", "[property]") {
       {R"(/transfer={"scheme":"flip"})", R"(/integrator={"scheme":"newmark"})"},
       {R"(/integrator={"scheme":"newmark"})"},
       {R"(/transfer={"scheme":"apic"})", R"(/integrator={"scheme":"newmark"})"},
+      {R"(/transfer={"scheme":"tpic2"})"},
       {R"(/transfer={"scheme":"xpic"})"},
       {R"(/stabilization={"scheme":"oss"})"},
       {R"(/stabilization={"scheme":"vms"})"},

@@ -28,14 +28,18 @@ Json water(const std::string& shape, const std::string& velocity = "[0, 0]", int
   return {{"shape", Json::parse(shape)}, {"per_cell", per_cell}, {"velocity", Json::parse(velocity)}};
 }
 
+bool carries_gradient(const std::string& transfer) {
+  return registry().choices<TransferScheme>().at(transfer).carries_gradient;
+}
+
 /// Every transfer scheme, integrator and volume correction; the inertia that cannot gain energy, where there is a
 /// choice.
 Json any_method_and_volume(Json scene) {
-  const std::string transfer = GENERATE("pic", "flip", "tpic", "apic", "xpic");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic");
   const std::string integrator = GENERATE("newmark", "midpoint");
   const std::string volume = GENERATE("none", "delta", "projection");
   scene = with_method(scene, transfer, integrator);
-  if (transfer == "tpic" || transfer == "apic") scene["transfer"]["inertia"] = "lumped";
+  if (carries_gradient(transfer)) scene["transfer"]["inertia"] = "lumped";
   scene["volume"] = {{"scheme", volume}};
   return scene;
 }
@@ -92,11 +96,11 @@ TEST_CASE("nothing that is thrown into walls and corners is lost or gains energy
   CAPTURE(shape, velocity, wall);
   Json scene = room(2, water(shape, velocity, per_cell), 1.0 / 256);
   scene["walls"] = wall;
-  const std::string transfer = GENERATE("pic", "flip", "tpic", "apic", "xpic");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic");
   const std::string volume = GENERATE("none", "delta", "projection");
   CAPTURE(transfer, volume);
   scene = with_method(scene, transfer, "midpoint");
-  if (transfer == "tpic" || transfer == "apic") scene["transfer"]["inertia"] = "lumped";
+  if (carries_gradient(transfer)) scene["transfer"]["inertia"] = "lumped";
   scene["volume"] = {{"scheme", volume}};
   SceneRun run(scene);
   CHECK(largest_gain<2>(run, 40) < lift);
@@ -118,10 +122,10 @@ TEST_CASE("nothing is lost in space, nor gains energy", "[property]") {
       {R"({"box": {"low": [0.3, 0.3, 0.3], "high": [0.33, 0.33, 0.33]}})", "[-16, -16, -16]", 1},
       {R"({"box": {"low": [0, 0, 0], "high": [0.25, 0.25, 0.5]}})", "[0, 0, 0]", 2},
   }));
-  const std::string transfer = GENERATE("pic", "flip", "tpic", "apic", "xpic");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic");
   CAPTURE(shape, velocity, transfer);
   Json scene = with_method(room(3, water(shape, velocity, per_cell), 1.0 / 256), transfer, "midpoint");
-  if (transfer == "tpic" || transfer == "apic") scene["transfer"]["inertia"] = "lumped";
+  if (carries_gradient(transfer)) scene["transfer"]["inertia"] = "lumped";
   SceneRun run(scene);
   CHECK(largest_gain<3>(run, 10) < lift);
   CHECK(lost<3>(run.world()) == 0);
