@@ -73,31 +73,6 @@ std::optional<Json> json_of(const std::optional<T>& value) {
   return value ? std::optional(Json(*value)) : std::nullopt;
 }
 
-std::optional<double> check_number(InputPlace& place, const std::string& at, const Json& value, const Number& rule) {
-  if (!value.is_number())
-    place.note(at, "wrong type", phrase(rule).one, value);
-  else if (!fits(rule, value.get<double>()))
-    place.note(at, "out of range", phrase(rule).one, value);
-  else
-    return value.get<double>();
-  return {};
-}
-
-std::optional<std::int64_t> check_integer(InputPlace& place, const std::string& at, const Json& value,
-                                          const Integer& rule) {
-  const double number = value.is_number() ? value.get<double>() : 0;
-  const bool representable = number >= -0x1p63 && number < 0x1p63;
-  if (!value.is_number())
-    place.note(at, "wrong type", phrase(rule).one, value);
-  else if (std::trunc(number) != number)
-    place.note(at, "not a whole number", phrase(rule).one, value);
-  else if (!representable || !fits(rule, value.get<std::int64_t>()))
-    place.note(at, "out of range", phrase(rule).one, value);
-  else
-    return value.get<std::int64_t>();
-  return {};
-}
-
 std::optional<Expression> parsed(InputPlace& place, const std::string& at, const Json& value,
                                  const ExpressionScope& scope, const Number& rule) {
   try {
@@ -124,10 +99,75 @@ std::optional<Expression> check_expression(InputPlace& place, const std::string&
   return {};
 }
 
+/// A number, or what an expression in constants comes to; nothing, with the problem noted, if it is neither.
+std::optional<double> evaluated(InputPlace& place, const std::string& at, const Json& value, const Number& range,
+                                const std::string& expected) {
+  const auto& scope = place.record->of_numbers;
+  if (value.is_number()) return value.get<double>();
+  if (value.is_string() && scope) {
+    const auto expression = parsed(place, at, value, *scope, range);
+    return expression ? std::optional((*expression)({})) : std::nullopt;
+  }
+  place.note(at, "wrong type", expected, value);
+  return {};
+}
+
+std::optional<double> check_number(InputPlace& place, const std::string& at, const Json& value, const Number& rule) {
+  const auto number = evaluated(place, at, value, rule, phrase(rule).one);
+  if (!number || fits(rule, *number)) return number;
+  place.note(at, "out of range", phrase(rule).one, value);
+  return {};
+}
+
+std::optional<std::int64_t> check_integer(InputPlace& place, const std::string& at, const Json& value,
+                                          const Integer& rule) {
+  const auto number = evaluated(place, at, value, {}, phrase(rule).one);
+  if (!number) return {};
+  const bool representable = *number >= -0x1p63 && *number < 0x1p63;
+  // A whole number beyond 2^53 is none of a double.
+  const auto whole = [&] { return value.is_number() ? value.get<std::int64_t>() : static_cast<std::int64_t>(*number); };
+  if (std::trunc(*number) != *number) {
+    place.note(at, "not a whole number", phrase(rule).one, value);
+  } else if (!representable || !fits(rule, whole())) {
+    place.note(at, "out of range", phrase(rule).one, value);
+  } else {
+    return whole();
+  }
+  return {};
+}
+
 Json expression_schema(const Number& rule) {
   Json schema = schema_of(rule);
   schema["type"] = Json::array({"number", "string"});
   return schema;
+}
+
+template <class Rule>
+Json number_schema(const InputPlace& place, const Rule& rule) {
+  Json schema = schema_of(rule);
+  if (place.record->of_numbers) schema["type"] = Json::array({schema["type"], "string"});
+  return schema;
+}
+
+Json json_of_value(double value) { return json_number(value); }
+Json json_of_value(std::int64_t value) { return value; }
+template <class T>
+Json json_of_value(const std::vector<T>& values) {
+  Json list = Json::array();
+  for (const T& value : values) list.push_back(json_of_value(value));
+  return list;
+}
+
+/// Echoes what expressions came to; numbers stay as they were written.
+template <class Value>
+std::optional<Value> echo_evaluated(InputPlace& place, std::string_view key, std::optional<Value> value) {
+  const Json* written = place.find(key);
+  if (!value || !written) return value;
+  const bool is_text = written->is_array() ? std::any_of(written->begin(), written->end(),
+                                                         [](const Json& element) { return element.is_string(); })
+                                           : written->is_string();
+  if (is_text) place.echo[std::string(key)] = json_of_value(*value);
+  return value;
 }
 
 std::optional<Expression> constant(const std::optional<double>& value) {
@@ -136,24 +176,28 @@ std::optional<Expression> constant(const std::optional<double>& value) {
 
 }  // namespace
 
+void Input::use_constants(const std::map<std::string, double>& constants) {
+  place_->record->of_numbers = ExpressionScope{{}, constants};
+}
+
 double Input::number(std::string_view key, const Number& rule) {
-  return read_key(*place_, key_shape(key, phrase(rule).one, schema_of(rule), rule.doc, json_of(rule.fallback)),
-                  rule.fallback,
-                  [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); })
+  const auto check = [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); };
+  KeyShape shape = key_shape(key, phrase(rule).one, number_schema(*place_, rule), rule.doc, json_of(rule.fallback));
+  return echo_evaluated(*place_, key, read_key(*place_, std::move(shape), rule.fallback, check))
       .value_or(harmless(rule));
 }
 
 std::optional<double> Input::optional_number(std::string_view key, const Number& rule) {
-  KeyShape shape = key_shape(key, phrase(rule).one, schema_of(rule), rule.doc, {});
+  const auto check = [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); };
+  KeyShape shape = key_shape(key, phrase(rule).one, number_schema(*place_, rule), rule.doc, {});
   shape.presence = KeyShape::Presence::optional;
-  return read_key(*place_, std::move(shape), std::optional<double>(),
-                  [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); });
+  return echo_evaluated(*place_, key, read_key(*place_, std::move(shape), std::optional<double>(), check));
 }
 
 std::int64_t Input::integer(std::string_view key, const Integer& rule) {
-  return read_key(*place_, key_shape(key, phrase(rule).one, schema_of(rule), rule.doc, json_of(rule.fallback)),
-                  rule.fallback,
-                  [&](const std::string& at, const Json& value) { return check_integer(*place_, at, value, rule); })
+  const auto check = [&](const std::string& at, const Json& value) { return check_integer(*place_, at, value, rule); };
+  KeyShape shape = key_shape(key, phrase(rule).one, number_schema(*place_, rule), rule.doc, json_of(rule.fallback));
+  return echo_evaluated(*place_, key, read_key(*place_, std::move(shape), rule.fallback, check))
       .value_or(harmless(rule));
 }
 
@@ -221,15 +265,15 @@ std::string Input::known_name(std::string_view key, std::span<const std::string>
 
 std::vector<double> Input::numbers(std::string_view key, std::size_t size, const Number& rule) {
   const auto check = [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); };
-  KeyShape shape = list_shape(key, phrase(rule), schema_of(rule), size, rule.doc, json_of(rule.fallback));
-  return read_elements(*place_, std::move(shape), size, rule.fallback, check)
+  KeyShape shape = list_shape(key, phrase(rule), number_schema(*place_, rule), size, rule.doc, json_of(rule.fallback));
+  return echo_evaluated(*place_, key, read_elements(*place_, std::move(shape), size, rule.fallback, check))
       .value_or(std::vector<double>(size, harmless(rule)));
 }
 
 std::vector<std::int64_t> Input::integers(std::string_view key, std::size_t size, const Integer& rule) {
   const auto check = [&](const std::string& at, const Json& value) { return check_integer(*place_, at, value, rule); };
-  KeyShape shape = list_shape(key, phrase(rule), schema_of(rule), size, rule.doc, json_of(rule.fallback));
-  return read_elements(*place_, std::move(shape), size, rule.fallback, check)
+  KeyShape shape = list_shape(key, phrase(rule), number_schema(*place_, rule), size, rule.doc, json_of(rule.fallback));
+  return echo_evaluated(*place_, key, read_elements(*place_, std::move(shape), size, rule.fallback, check))
       .value_or(std::vector<std::int64_t>(size, harmless(rule)));
 }
 

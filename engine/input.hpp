@@ -35,6 +35,10 @@ class Input {
   /// The whole document; `document` must outlive it.
   class Document;
 
+  /// From here on a string in the place of a number, or of a whole number, is an expression in these constants. What it
+  /// comes to is what is echoed.
+  void use_constants(const std::map<std::string, double>& constants);
+
   double number(std::string_view key, const Number& rule);
   /// Like number(), for a key that may be absent without a default.
   std::optional<double> optional_number(std::string_view key, const Number& rule);

@@ -79,7 +79,7 @@ Input::Document::Document(std::shared_ptr<InputRecord> record)
     : record_(std::move(record)), root_(root_place(record_)) {}
 
 Input::Document::Document(const Json& json, std::string file)
-    : Document(std::make_shared<InputRecord>(InputRecord{std::move(file), {}, {}, {}})) {
+    : Document(std::make_shared<InputRecord>(InputRecord{std::move(file), {}, {}, {}, {}})) {
   InputPlace& root = *root_.place_;
   root.standing = InputPlace::Standing::present;
   if (json.is_object()) {

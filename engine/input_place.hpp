@@ -58,7 +58,8 @@ struct InputRecord {
   std::string file;
   bool describing = false;
   std::vector<Problem> problems;
-  std::set<std::string> unsound;  ///< pointers of the problems
+  std::set<std::string> unsound;              ///< pointers of the problems
+  std::optional<ExpressionScope> of_numbers;  ///< what a string in the place of a number may use, once that is known
 };
 
 /// An object of the document, or the lack of one.

@@ -151,6 +151,7 @@ Scene read_scene(Input& input, const SystemRegistry& registry, std::optional<int
   const auto dimension = static_cast<std::size_t>(scene.dimension);
   scene.constants = input.named_numbers("constants", "numbers that expressions may use by name");
   check_constants(input, scene.constants);
+  input.use_constants(scene.constants);
   scene.ode = read_ode(input, scene.constants);
   input.object("grid", "the box and its cells", Input::Presence::required,
                [&](Input& grid) { scene.grid = read_grid(grid, dimension); });

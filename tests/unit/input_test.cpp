@@ -49,6 +49,40 @@ TEST_CASE("a number and a text are expressions", "[unit]") {
   CHECK(value_of<Expression>(text, read_a)(std::vector{0.1, 0.2, 0.0}) == Approx(0.584).epsilon(1e-15));
 }
 
+TEST_CASE("once there are constants, a text in the place of a number is what it comes to", "[unit]") {
+  const Reading reading =
+      read(R"({"a": "2*H", "n": "N", "l": [1, "H/2"], "m": ["N*N", 3], "o": "pi", "e": "H*x"})", [](Input& in) {
+        in.use_constants({{"H", 0.25}, {"N", 4}});
+        CHECK(in.number("a", {}) == 0.5);
+        CHECK(in.integer("n", {}) == 4);
+        CHECK(in.numbers("l", 2, {}) == std::vector{1, 0.125});
+        CHECK(in.integers("m", 2, {}) == std::vector<std::int64_t>{16, 3});
+        CHECK(in.optional_number("o", {}) == Approx(3.14159265358979));
+        in.raw("e", {{"type", "string"}}, Json());
+      });
+  CHECK(reading.problems.empty());
+  CHECK(reading.echo.dump() == R"({"a":0.5,"n":4,"l":[1,0.125],"m":[16,3],"o":3.141592653589793,"e":"H*x"})");
+}
+
+TEST_CASE("a text in the place of a number is told from one that comes to a wrong number", "[error]") {
+  const auto messages = [](const std::string& text) {
+    const Reading reading = read(text, [](Input& in) {
+      in.use_constants({{"H", 0.25}});
+      in.number("a", {.unit = "m", .above = 0});
+      in.integer("n", {.fallback = 1});
+    });
+    std::string all;
+    for (const Problem& problem : reading.problems)
+      all += problem.what + "; " + problem.expected + "; " + problem.closest;
+    return all;
+  };
+  CHECK(messages(R"({"a": "2*h"})") == "not an expression: unknown name \"h\" at character 3; "
+                                       "a number > 0 or an expression [m]; H");
+  CHECK(messages(R"({"a": "-H"})") == "out of range; a number > 0 [m]; ");
+  CHECK(messages(R"({"a": "1/0"})") == "out of range; a number > 0 [m]; ");
+  CHECK(messages(R"({"a": 1, "n": "2*H"})") == "not a whole number; a whole number; ");
+}
+
 TEST_CASE("named numbers are read by name", "[unit]") {
   using Value = std::map<std::string, double>;
   CHECK(value_of<Value>(R"({"c": {"H": 1, "b": 2}})", [](Input& in) { return in.named_numbers("c", ""); }) ==
