@@ -103,8 +103,9 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property
   SceneRun block(
       with(scene, {R"(/solver={"scheme": "block", "tolerance": )" + (viscosity > 1e4 ? "1e-9}"s : "1e-11}"s)}));
   SceneRun umfpack(with(scene, {R"(/solver={"scheme": "umfpack"})"}));
-  block.step(3);
-  umfpack.step(3);
+  constexpr int steps = Dim == 2 ? 3 : 2;
+  block.step(steps);
+  umfpack.step(steps);
   CHECK(distance<Dim>(block, umfpack) < 1e-7);
   CHECK(block.world().template resource<SolveReport>().residual <= tolerance);
   CHECK(block.world().template resource<SolveReport>().iterations > 0);
@@ -256,6 +257,7 @@ TEST_CASE("pressures are factorized in single precision until spray needs double
   CHECK(run.world().resource<SolveReport>().iterations <= 8);  // 5 were measured, with spray 5
 }
 
+#ifndef __SANITIZE_ADDRESS__  // three quarters of a minute there
 TEST_CASE("few particles with many nodes in space are solved without UMFPACK, which has no memory for them",
           "[property]") {
   Json scene = scene_of_file("dam_break_3d.json");
@@ -268,6 +270,7 @@ TEST_CASE("few particles with many nodes in space are solved without UMFPACK, wh
   CHECK(report.residual > 1e-12);  // GMRES stops at 1e-8, UMFPACK leaves less
   CHECK(report.residual <= 1e-8);
 }
+#endif
 
 TEST_CASE("sparse Cholesky solves what dense Cholesky solves, again with another pattern", "[property]") {
   SparseCholesky cholesky;
