@@ -64,13 +64,21 @@ KeyShape list_shape(std::string_view key, const Phrase& words, Json element, std
   return shape;
 }
 
-std::optional<Json> json_of(const std::optional<double>& value) {
-  return value ? std::optional(json_number(*value)) : std::nullopt;
+Json as_json(double value) { return json_number(value); }
+template <class T>
+Json as_json(const T& value) {
+  return value;
+}
+template <class T>
+Json as_json(const std::vector<T>& values) {
+  Json list = Json::array();
+  for (const T& value : values) list.push_back(as_json(value));
+  return list;
 }
 
 template <class T>
 std::optional<Json> json_of(const std::optional<T>& value) {
-  return value ? std::optional(Json(*value)) : std::nullopt;
+  return value ? std::optional(as_json(*value)) : std::nullopt;
 }
 
 std::optional<Expression> parsed(InputPlace& place, const std::string& at, const Json& value,
@@ -112,15 +120,14 @@ std::optional<double> evaluated(InputPlace& place, const std::string& at, const 
   return {};
 }
 
-std::optional<double> check_number(InputPlace& place, const std::string& at, const Json& value, const Number& rule) {
+std::optional<double> checked(InputPlace& place, const std::string& at, const Json& value, const Number& rule) {
   const auto number = evaluated(place, at, value, rule, phrase(rule).one);
   if (!number || fits(rule, *number)) return number;
   place.note(at, "out of range", phrase(rule).one, value);
   return {};
 }
 
-std::optional<std::int64_t> check_integer(InputPlace& place, const std::string& at, const Json& value,
-                                          const Integer& rule) {
+std::optional<std::int64_t> checked(InputPlace& place, const std::string& at, const Json& value, const Integer& rule) {
   const auto number = evaluated(place, at, value, {}, phrase(rule).one);
   if (!number) return {};
   const bool representable = *number >= -0x1p63 && *number < 0x1p63;
@@ -136,26 +143,16 @@ std::optional<std::int64_t> check_integer(InputPlace& place, const std::string& 
   return {};
 }
 
-Json expression_schema(const Number& rule) {
-  Json schema = schema_of(rule);
-  schema["type"] = Json::array({"number", "string"});
+Json or_text(Json schema) {
+  schema["type"] = Json::array({schema["type"], "string"});
   return schema;
 }
+
+Json expression_schema(const Number& rule) { return or_text(schema_of(rule)); }
 
 template <class Rule>
 Json number_schema(const InputPlace& place, const Rule& rule) {
-  Json schema = schema_of(rule);
-  if (place.record->of_numbers) schema["type"] = Json::array({schema["type"], "string"});
-  return schema;
-}
-
-Json json_of_value(double value) { return json_number(value); }
-Json json_of_value(std::int64_t value) { return value; }
-template <class T>
-Json json_of_value(const std::vector<T>& values) {
-  Json list = Json::array();
-  for (const T& value : values) list.push_back(json_of_value(value));
-  return list;
+  return place.record->of_numbers ? or_text(schema_of(rule)) : schema_of(rule);
 }
 
 /// Echoes what expressions came to; numbers stay as they were written.
@@ -166,8 +163,25 @@ std::optional<Value> echo_evaluated(InputPlace& place, std::string_view key, std
   const bool is_text = written->is_array() ? std::any_of(written->begin(), written->end(),
                                                          [](const Json& element) { return element.is_string(); })
                                            : written->is_string();
-  if (is_text) place.echo[std::string(key)] = json_of_value(*value);
+  if (is_text) place.echo[std::string(key)] = as_json(*value);
   return value;
+}
+
+/// A number, or a whole one, under a key.
+template <class Rule>
+auto read_number(InputPlace& place, std::string_view key, const Rule& rule) {
+  const auto check = [&](const std::string& at, const Json& value) { return checked(place, at, value, rule); };
+  KeyShape shape = key_shape(key, phrase(rule).one, number_schema(place, rule), rule.doc, json_of(rule.fallback));
+  return echo_evaluated(place, key, read_key(place, std::move(shape), rule.fallback, check)).value_or(harmless(rule));
+}
+
+/// A list of them.
+template <class Rule>
+auto read_numbers(InputPlace& place, std::string_view key, std::size_t size, const Rule& rule) {
+  const auto check = [&](const std::string& at, const Json& value) { return checked(place, at, value, rule); };
+  KeyShape shape = list_shape(key, phrase(rule), number_schema(place, rule), size, rule.doc, json_of(rule.fallback));
+  return echo_evaluated(place, key, read_elements(place, std::move(shape), size, rule.fallback, check))
+      .value_or(std::vector(size, harmless(rule)));
 }
 
 std::optional<Expression> constant(const std::optional<double>& value) {
@@ -180,26 +194,16 @@ void Input::use_constants(const std::map<std::string, double>& constants) {
   place_->record->of_numbers = ExpressionScope{{}, constants};
 }
 
-double Input::number(std::string_view key, const Number& rule) {
-  const auto check = [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); };
-  KeyShape shape = key_shape(key, phrase(rule).one, number_schema(*place_, rule), rule.doc, json_of(rule.fallback));
-  return echo_evaluated(*place_, key, read_key(*place_, std::move(shape), rule.fallback, check))
-      .value_or(harmless(rule));
-}
+double Input::number(std::string_view key, const Number& rule) { return read_number(*place_, key, rule); }
 
 std::optional<double> Input::optional_number(std::string_view key, const Number& rule) {
-  const auto check = [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); };
+  const auto check = [&](const std::string& at, const Json& value) { return checked(*place_, at, value, rule); };
   KeyShape shape = key_shape(key, phrase(rule).one, number_schema(*place_, rule), rule.doc, {});
   shape.presence = KeyShape::Presence::optional;
   return echo_evaluated(*place_, key, read_key(*place_, std::move(shape), std::optional<double>(), check));
 }
 
-std::int64_t Input::integer(std::string_view key, const Integer& rule) {
-  const auto check = [&](const std::string& at, const Json& value) { return check_integer(*place_, at, value, rule); };
-  KeyShape shape = key_shape(key, phrase(rule).one, number_schema(*place_, rule), rule.doc, json_of(rule.fallback));
-  return echo_evaluated(*place_, key, read_key(*place_, std::move(shape), rule.fallback, check))
-      .value_or(harmless(rule));
-}
+std::int64_t Input::integer(std::string_view key, const Integer& rule) { return read_number(*place_, key, rule); }
 
 namespace {
 
@@ -264,17 +268,11 @@ std::string Input::known_name(std::string_view key, std::span<const std::string>
 }
 
 std::vector<double> Input::numbers(std::string_view key, std::size_t size, const Number& rule) {
-  const auto check = [&](const std::string& at, const Json& value) { return check_number(*place_, at, value, rule); };
-  KeyShape shape = list_shape(key, phrase(rule), number_schema(*place_, rule), size, rule.doc, json_of(rule.fallback));
-  return echo_evaluated(*place_, key, read_elements(*place_, std::move(shape), size, rule.fallback, check))
-      .value_or(std::vector<double>(size, harmless(rule)));
+  return read_numbers(*place_, key, size, rule);
 }
 
 std::vector<std::int64_t> Input::integers(std::string_view key, std::size_t size, const Integer& rule) {
-  const auto check = [&](const std::string& at, const Json& value) { return check_integer(*place_, at, value, rule); };
-  KeyShape shape = list_shape(key, phrase(rule), number_schema(*place_, rule), size, rule.doc, json_of(rule.fallback));
-  return echo_evaluated(*place_, key, read_elements(*place_, std::move(shape), size, rule.fallback, check))
-      .value_or(std::vector<std::int64_t>(size, harmless(rule)));
+  return read_numbers(*place_, key, size, rule);
 }
 
 Expression Input::expression(std::string_view key, const ExpressionScope& scope, const Number& rule) {
@@ -323,7 +321,7 @@ std::map<std::string, double> Input::named_numbers(std::string_view key, std::st
     Named named;
     constexpr double harmless_value = 1;  // the name is known, so that the expressions with it are not at fault
     for (const auto& [name, number] : value.items())
-      named[name] = check_number(*place_, at + "/" + pointer_token(name), number, {}).value_or(harmless_value);
+      named[name] = checked(*place_, at + "/" + pointer_token(name), number, Number{}).value_or(harmless_value);
     return named;
   };
   const Json schema{{"type", "object"}, {"additionalProperties", {{"type", "number"}}}};

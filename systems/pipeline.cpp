@@ -107,9 +107,11 @@ void append(std::vector<std::string>& systems, const std::vector<std::string>& m
 /// Not with newmark, whose configuration lags behind by more than what this mends.
 bool carries_gradient_along(const Needs& needs) { return needs.corrected_inertia && !needs.newmark; }
 
+bool needs_liquid_share(const Needs& needs) { return needs.corrected_inertia || needs.transfer.reads_liquid_share; }
+
 std::vector<std::string> p2g_systems(const Needs& needs) {
   std::vector<std::string> systems{"p2g_mass"};
-  if (needs.corrected_inertia || needs.transfer.reads_liquid_share) systems.emplace_back("find_liquid");
+  if (needs_liquid_share(needs)) systems.emplace_back("find_liquid");
   if (carries_gradient_along(needs)) systems.emplace_back("carry_gradient_to_middle");
   append(systems, needs.transfer.p2g_velocity);
   if (needs.newmark) append(systems, needs.transfer.p2g_acceleration);
@@ -147,7 +149,7 @@ std::vector<Slot> step_slots(const Needs& needs) {
 /// A backward Euler step on a configuration beside x^0 that leaves the particles where they are.
 std::vector<std::string> standing_step(const Needs& needs, const std::string& configure) {
   std::vector<std::string> systems{configure, "bin", "number_nodes", "p2g_mass"};
-  if (needs.corrected_inertia || needs.transfer.reads_liquid_share) systems.emplace_back("find_liquid");
+  if (needs_liquid_share(needs)) systems.emplace_back("find_liquid");
   append(systems, needs.transfer.p2g_velocity);
   append(systems, {"activate", "find_neighbours", "hold_velocity_at_walls", "predict_backward_euler"});
   for (const auto& part : {force_systems(needs), assemble_systems(needs), solve_systems(needs)}) append(systems, part);

@@ -1,5 +1,7 @@
 #include "systems/setup/memory.hpp"
 
+#include "systems/setup/time_plan.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,8 +23,7 @@ double longest_step(const Scene& scene) {
   if (scene.time.step) return *scene.time.step;
   double squared = 0;
   for (const Expression& force : scene.body_force) squared += force.is_constant() ? std::pow(force({}), 2) : 0;
-  const double from_rest = std::sqrt(scene.time.cfl * scene.grid.spacing / std::sqrt(squared));
-  return std::min({from_rest, scene.time.max_step.value_or(from_rest), scene.output.every});
+  return step_of_cfl(scene, 0, std::sqrt(squared));
 }
 
 /// Whether friction couples the velocities of a step so much that the block solver factorizes them (E60).

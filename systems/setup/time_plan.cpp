@@ -48,6 +48,11 @@ double crossing_time(double v, double b, double distance) {
 
 }  // namespace
 
+double step_of_cfl(const Scene& scene, double largest_speed, double largest_force) {
+  const double dt = crossing_time(largest_speed, largest_force, scene.time.cfl * scene.grid.spacing);
+  return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every});
+}
+
 TimePlan make_time_plan(const Scene& scene) {
   TimePlan plan{.end = scene.time.end,
                 .step = scene.time.step,
@@ -59,8 +64,7 @@ TimePlan make_time_plan(const Scene& scene) {
   plan.choose_step = [scene](World& world) {
     const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);
     const double b = scene.dimension == 2 ? largest_force<2>(scene, world) : largest_force<3>(scene, world);
-    const double dt = crossing_time(v, b, scene.time.cfl * scene.grid.spacing);
-    return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every});
+    return step_of_cfl(scene, v, b);
   };
   return plan;
 }

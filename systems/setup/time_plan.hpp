@@ -8,7 +8,9 @@
 namespace minamo {
 
 /// (E34)  With `cfl`, the step in which the fastest particle, pushed by the body force, crosses `cfl` cells:
-/// (max |v_p| + |b| dt) dt = cfl h, at most `max_step` and the time between two frames.
+/// (max |v_p| + |b| dt) dt = cfl h, at most `max_step` and the time between two frames. [s]
+double step_of_cfl(const Scene& scene, double largest_speed, double largest_force);
+
 TimePlan make_time_plan(const Scene& scene);
 
 }  // namespace minamo

@@ -52,7 +52,18 @@ struct Quadratic {
   }
 };
 
-void make_all_liquid(World& world, std::size_t cells) { world.resource<LiquidShare>().of_cell.assign(cells, 1); }
+/// v_I^{n+1} as a function of place.
+template <int Dim, class Field>
+void set_new_velocity(World& world, const Field& field) {
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  const auto v_i = world.column<node::NewVelocity<Dim>>();
+  for (std::size_t i = 0; i < v_i.size(); ++i) v_i[i] = field(node_position<Dim>(grid, i));
+}
+
+template <int Dim>
+void make_all_liquid(World& world) {
+  world.resource<LiquidShare>().of_cell.assign(world.resource<OccupiedCells<Dim>>().cells.size(), 1);
+}
 
 template <int Dim>
 Vec<Dim> particle_momentum(World& world) {
@@ -162,16 +173,15 @@ TEMPLATE_TEST_CASE_SIG("TPIC of second order gives a quadratic velocity to the p
   World world;
   fill<Dim>(world, particles, 21);
   Random random(22);
-  const Quadratic<Dim> quadratic(random);
-  const Grid<Dim> grid = small_grid<Dim>();
-  const auto v_new = world.column<node::NewVelocity<Dim>>();
-  for (std::size_t i = 0; i < v_new.size(); ++i) v_new[i] = quadratic(node_position<Dim>(grid, i));
-  make_all_liquid(world, world.resource<OccupiedCells<Dim>>().cells.size());
+  set_new_velocity<Dim>(world, Quadratic<Dim>(random));
+  make_all_liquid<Dim>(world);
   G2PVelocityTpic2<Dim> g2p;
   g2p.share = 1;
   run(world, g2p);
   run<P2GVelocityTpic2<Dim>>(world);
+  const Grid<Dim> grid = small_grid<Dim>();
   const auto m_i = world.column<node::Mass>();
+  const auto v_new = world.column<node::NewVelocity<Dim>>();
   const auto v_i = world.column<node::Velocity<Dim>>();
   double worst = 0;
   int seen = 0;
@@ -196,7 +206,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC of second order without second derivatives is TPIC"
   fill<Dim>(world, particles, 23);
   Random random(24);
   for (Vec<Dim>& v : world.column<node::NewVelocity<Dim>>()) v = random.vector<Dim>(-1, 1);
-  make_all_liquid(world, world.resource<OccupiedCells<Dim>>().cells.size());
+  make_all_liquid<Dim>(world);
   G2PVelocityTpic2<Dim> g2p;
   g2p.share = 0;
   run(world, g2p);
@@ -230,9 +240,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC G2P reproduces value and gradient of an affine velo
   fill<Dim>(world, particles, 10);
   Random random(11);
   const Affine<Dim> affine(random);
-  const Grid<Dim> grid = small_grid<Dim>();
-  const auto v_i = world.column<node::NewVelocity<Dim>>();
-  for (std::size_t i = 0; i < v_i.size(); ++i) v_i[i] = affine(node_position<Dim>(grid, i));
+  set_new_velocity<Dim>(world, affine);
   run<G2PVelocityTpic<Dim>>(world);
   const auto y_p = world.column<particle::Configuration<Dim>>();
   const auto v_p = world.column<particle::Velocity<Dim>>();
