@@ -1,6 +1,7 @@
 #include "systems/setup/memory.hpp"
 
 #include "systems/setup/time_plan.hpp"
+#include "systems/solve/velocity_block.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,19 +27,20 @@ double longest_step(const Scene& scene) {
   return step_of_cfl(scene, 0, std::sqrt(squared));
 }
 
-/// Whether friction couples the velocities of a step so much that the block solver factorizes them (E60).
+/// Whether friction couples the velocities of a step so much that the block solver may factorize them (E60).
 bool is_stiff(const Scene& scene) {
   const double h = scene.grid.spacing;
   return scene.viscosity * longest_step(scene) > 0.1 * scene.density * h * h;
 }
 
 /// The block solver's: whole factors, of the velocities in stiff liquids, of the pressure where few particles have many
-/// nodes, have more in a node the more nodes there are.
+/// nodes, have more in a node the more nodes there are. In space those of the velocities end at a number of nodes.
 double block_bytes_per_node(const Scene& scene, double nodes) {
   if (scene.dimension == 2) return 8e3 + (is_stiff(scene) ? 900 * std::log2(nodes) : 0);
-  const double of_velocity = is_stiff(scene) ? 6e3 : 0;
-  const double of_pressure = fewest_per_cell(scene) == 1 ? 1.3e3 : 0;
-  return 45e3 + (of_velocity + of_pressure) * std::cbrt(nodes);
+  const double factorized = std::min(nodes, most_factorized_in_space / 3.0);
+  const double of_velocity = is_stiff(scene) ? 6e3 * std::cbrt(factorized) * factorized / nodes : 0;
+  const double of_pressure = fewest_per_cell(scene) == 1 ? 1.3e3 * std::cbrt(nodes) : 0;
+  return 45e3 + of_velocity + of_pressure;
 }
 
 /// Matrices, and what the solver makes of them; a node of UMFPACK's factors has more the more nodes there are.

@@ -58,12 +58,12 @@ template <int Dim>
 Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double target, Gmres::Start start, Values& u,
                         Values& p) {
   auto& schur = s.schur;
-  const auto apply = [&](const Values& x, Values& out) {
+  const auto apply = [&](const Values& x, Values& out, double allowed) {
     if (s.velocity_block.is_mobility()) {
       schur.apply_with_mobility(x, out);
     } else {
       schur.push(x, s.of_velocity);
-      s.velocity_block.solve(s.of_velocity);
+      s.velocity_block.solve(s.of_velocity, allowed);
       schur.spread(s.of_velocity, x, out);
     }
     for_each_row(out.size(), [&](std::size_t r) { out[r] *= s.compact.scale()[r]; });
@@ -75,7 +75,7 @@ Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double t
   const auto report = s.gmres.solve(apply, precondition, g, target, most_iterations(s.preconditioner), start, p);
   schur.push(p, u);
   add_scaled(1, f, u);
-  s.velocity_block.solve(u);
+  s.velocity_block.solve(u, 0);
   return report;
 }
 
@@ -83,7 +83,7 @@ Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double t
 template <int Dim>
 void reduce(Impl<Dim>& s, const Values& f, const Values& u, const Values& p, Values& g) {
   s.of_velocity = f;
-  s.velocity_block.solve(s.of_velocity);
+  s.velocity_block.solve(s.of_velocity, 0);
   add_scaled(1, u, s.of_velocity);
   s.schur.spread(s.of_velocity, p, g);
   for_each_row(g.size(), [&](std::size_t r) { g[r] = s.compact.scale()[r] * (s.mass[r] - g[r]); });
@@ -127,15 +127,20 @@ Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
     s.velocity_block.find_rest(s.more_displacement, s.f);
     reduce<Dim>(s, s.f, s.displacement, s.pressure, s.g);
     const double left = std::sqrt(dot(s.g, s.g));
+    const double left_of_motion = motion_by<Dim>(s, s.f);
+    if (s.velocity_block.is_iteration() && left <= target && left_of_motion <= tolerance * tolerance * all_motion) {
+      report.residual = left;
+      break;
+    }
     const auto more = eliminate<Dim>(s, s.f, s.g, std::max(target, left_by_block * left), Gmres::Start::zero,
                                      s.more_displacement, s.more_pressure);
     add_scaled(1, s.more_displacement, s.displacement);
     add_scaled(1, s.more_pressure, s.pressure);
     report.iterations += more.iterations;
     report.residual = more.residual;
-    const double rest = left_by_block * left_by_block * motion_by<Dim>(s, s.f);
+    const double rest = left_by_block * left_by_block * left_of_motion;
     const bool is_balanced = left_by_block * left <= target && rest <= tolerance * tolerance * all_motion;
-    if (more.converged && is_balanced) break;
+    if (more.converged && is_balanced && !s.velocity_block.is_iteration()) break;
     report.converged = more.converged && pass < most_passes;
   }
   if (norm > 0) report.residual /= norm;

@@ -39,7 +39,8 @@ class Gmres {
 
   /// Improves x until |b - A x| <= target.
   /// \param start         whether x holds something near, or is set to zero
-  /// \param apply         apply(x, out) sets out = A x
+  /// \param apply         apply(x, out, allowed) sets out = A x; errors up to `allowed` in |out| do no harm, which grow
+  ///   as the residual falls (A. Bouras, V. Fraysse, SIAM J. Matrix Anal. Appl. 26 (2005) 660)
   /// \param precondition  precondition(x, out) sets out to about A^-1 x
   template <class Apply, class Precondition>
   Report solve(const Apply& apply, const Precondition& precondition, const Values& b, double target,
@@ -51,7 +52,7 @@ class Gmres {
       if (start == Start::zero && report.iterations == 0) {
         basis_[0] = b;
       } else {
-        apply(x, product_);
+        apply(x, product_, share_of_errors * target);
         for_each_row(b.size(), [&](std::size_t i) { basis_[0][i] = b[i] - product_[i]; });
       }
       report.residual = std::sqrt(dot(basis_[0], basis_[0]));
@@ -64,6 +65,7 @@ class Gmres {
 
  private:
   static constexpr std::size_t restart = 50;
+  static constexpr double share_of_errors = 0.05;  ///< of the target
 
   void resize(std::size_t rows) {
     if (product_.size() == rows) return;
@@ -92,7 +94,7 @@ class Gmres {
       Values& direction = grown(direction_, k);
       precondition(basis_[k], direction);
       Values& next = grown(basis_, k + 1);
-      apply(direction, next);
+      apply(direction, next, share_of_errors * target / report.residual);
       auto& column = hessenberg_[k];
       for (std::size_t j = 0; j <= k; ++j) {
         column[j] = dot(next, basis_[j]);

@@ -3,6 +3,7 @@
 #include "engine/step_control.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace minamo {
 
@@ -12,6 +13,23 @@ namespace {
 /// what they cost is to be less than a pass over what the diagonal has left.
 constexpr std::array friction_of_stiff = {1e-3, 1e-2, 1e-1, 0.5};
 constexpr std::size_t few = 10;  ///< one of so many
+
+/// Stiff unknowns from which on iterations can pay.
+constexpr std::size_t least_iterated = 3000;
+
+/// Friction up to which iterations are fewer than factors are worth, at so many stiff unknowns. In space factors fill
+/// in: their work grows with the square of the unknowns, and they outgrow memory.
+template <int Dim>
+double most_friction_of_iteration(std::size_t stiff) {
+  if (Dim == 2) return 5;
+  return stiff > most_factorized_in_space ? std::numeric_limits<double>::infinity() : static_cast<double>(stiff) / 200;
+}
+
+/// What a pass with iterations leaves, as a part of what it began with; each of its calls may leave a hundredth of
+/// that.
+constexpr double error_of_iteration = 1e-5;
+constexpr double least_rest = 0.01 * error_of_iteration;
+constexpr std::int64_t most_iterations = 2000;
 
 }  // namespace
 
@@ -79,8 +97,18 @@ void VelocityBlock<Dim>::factorize() {
   if (!factors_.factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
+/// Whether iterations cost less than factors: where most unknowns are stiff, but half of them not too much.
 template <int Dim>
-void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchur<Dim>& schur) {
+bool VelocityBlock<Dim>::prefers_iteration() const {
+  const std::size_t size = friction_.size();
+  if (few * stiff_.size() <= size || stiff_.size() < least_iterated) return false;
+  const double most = most_friction_of_iteration<Dim>(stiff_.size());
+  const auto mild = std::count_if(friction_.begin(), friction_.end(), [most](double f) { return f <= most; });
+  return 2 * static_cast<std::size_t>(mild) >= size;
+}
+
+template <int Dim>
+void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchur<Dim>& schur, StiffSolver solver) {
   terms_ = t;
   schur_ = &schur;
   find_friction();
@@ -88,11 +116,54 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
     collect_stiff(least);
     if (few * stiff_.size() <= friction_.size()) break;
   }
-  if (!stiff_.empty()) factorize();
+  is_iteration_ = solver == StiffSolver::iteration || (solver == StiffSolver::cheapest && prefers_iteration());
+  if (is_iteration_) {
+    error_ = error_of_iteration;
+  } else if (!stiff_.empty()) {
+    factorize();
+  }
+}
+
+/// out = K u
+template <int Dim>
+void VelocityBlock<Dim>::times_viscosity(const Values& u, Values& out) const {
+  using Entries = Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
+  using Vector = Eigen::Map<const Eigen::Matrix<double, Dim, 1>>;
+  const auto& blocks = schur_->blocks();
+  for_each_row(
+      blocks.rows(),
+      [&](std::size_t r) {
+        const double* of_row = terms_.viscosity[r].data();
+        Vec<Dim> sum = Vec<Dim>::Zero();
+        blocks.for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
+          sum += Entries(of_row + Dim * Dim * k).lazyProduct(Vector(u.data() + Dim * r_j));
+        });
+        Eigen::Map<Eigen::Matrix<double, Dim, 1>>(out.data() + Dim * r) = sum;
+      },
+      256);
 }
 
 template <int Dim>
-void VelocityBlock<Dim>::solve(Values& v) {
+void VelocityBlock<Dim>::solve_iteratively(Values& v, double target) {
+  const Values& mobility = schur_->mobility();
+  const auto apply = [&](const Values& u, Values& out) {
+    times_viscosity(u, out);
+    for_each_row(out.size(), [&](std::size_t i) {
+      const double inertia = terms_.c_a * terms_.m_i[terms_.node[i / Dim]];
+      out[i] = mobility[i] == 0 ? 0 : inertia * u[i] + terms_.c_v * out[i];
+    });
+  };
+  const double size = std::sqrt(reduce_rows(
+      v.size(), 0.0, [&](std::size_t i) { return mobility[i] * v[i] * v[i]; }, std::plus<>()));
+  rest_.resize(v.size());
+  for_each_row(v.size(), [&](std::size_t i) { rest_[i] = mobility[i] == 0 ? 0 : v[i]; });
+  const auto report = iteration_.solve(apply, mobility, std::max(target, least_rest * size), most_iterations, rest_, v);
+  if (!report.converged) throw StepRejected("solve: the velocities of a stiff liquid do not converge");
+}
+
+template <int Dim>
+void VelocityBlock<Dim>::solve(Values& v, double target) {
+  if (is_iteration_) return solve_iteratively(v, target);
   if (stiff_.empty()) {
     for_each_row(v.size(), [&](std::size_t i) { v[i] *= schur_->mobility()[i]; });
     return;
@@ -108,28 +179,20 @@ void VelocityBlock<Dim>::solve(Values& v) {
 
 template <int Dim>
 void VelocityBlock<Dim>::find_rest(const Values& u, Values& out) const {
-  using Entries = Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
-  using Vector = Eigen::Map<const Eigen::Matrix<double, Dim, 1>>;
+  if (is_iteration_) {
+    out = rest_;
+    return;
+  }
   constexpr std::size_t own = stencil_size<Dim> / 2;
-  const auto& blocks = schur_->blocks();
   const auto is_exact = [&](std::size_t i) {
     return schur_->mobility()[i] == 0 || (!stiff_.empty() && place_[i] >= 0);
   };
-  for_each_row(
-      blocks.rows(),
-      [&](std::size_t r) {
-        const double* of_row = terms_.viscosity[r].data();
-        Vec<Dim> sum = Vec<Dim>::Zero();
-        blocks.for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
-          sum += Entries(of_row + Dim * Dim * k).lazyProduct(Vector(u.data() + Dim * r_j));
-        });
-        for (std::size_t d = 0; d < Dim; ++d) {
-          const double diagonal = of_row[Dim * (Dim * own + d) + d];
-          const double rest = diagonal * u[Dim * r + d] - sum[static_cast<Eigen::Index>(d)];
-          out[Dim * r + d] = is_exact(Dim * r + d) ? 0 : terms_.c_v * rest;
-        }
-      },
-      256);
+  times_viscosity(u, out);
+  for_each_row(out.size(), [&](std::size_t i) {
+    const std::size_t d = i % Dim;
+    const double diagonal = terms_.viscosity[i / Dim][Dim * (Dim * own + d) + d];
+    out[i] = is_exact(i) ? 0 : terms_.c_v * (diagonal * u[i] - out[i]);
+  });
 }
 
 template class VelocityBlock<2>;

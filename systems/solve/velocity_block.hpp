@@ -6,32 +6,51 @@
 ///
 /// (E60)  A^ = [d_n, 0; A_sn, A_ss], with a sparse Cholesky factorization of A_ss. A^ - A has rows n only, which add up
 /// to a small part of the diagonal.
+///
+/// Where the factors would cost more, for moderate friction or many unknowns in space, conjugate gradients solve with A
+/// itself, as exactly as each call asks for.
 
 #include "systems/solve/cholesky.hpp"
+#include "systems/solve/conjugate_gradients.hpp"
 #include "systems/solve/pressure_schur.hpp"
 
 namespace minamo {
+
+/// Stiff unknowns in space beyond which factors, of 2 GB there, are not tried.
+inline constexpr std::size_t most_factorized_in_space = 40000;
+
+enum class StiffSolver { cheapest, factors, iteration };
 
 template <int Dim>
 class VelocityBlock {
  public:
   /// \param schur  assembled from the same terms; its blocks and mobility are kept by reference
   /// \throws StepRejected if the factorization fails, std::bad_alloc if it does not fit into memory.
-  void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur);
+  void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur,
+               StiffSolver solver = StiffSolver::cheapest);
   /// How much of a vector about is left of v - A solve(v); 0 if solve() is the inverse.
   double error() const { return error_; }
   /// Whether solve() multiplies by the mobility of the Schur complement.
   bool is_mobility() const { return stiff_.empty(); }
+  /// Whether solve() iterates: what it leaves is then not bounded by error(), but found.
+  bool is_iteration() const { return is_iteration_; }
   /// v = A^^-1 v; zero towards walls.
-  void solve(Values& v);
-  /// What solve() has left of a right-hand side, out = (A^ - A) u; zero towards walls.
+  /// \param target  for what an iteration leaves, in the norm that weighs squares with the mobility; it goes on until
+  ///   either that is reached or a hundredth of error()
+  /// \throws StepRejected if an iteration does not converge.
+  void solve(Values& v, double target);
+  /// What the last solve() has left of its right-hand side, (A^ - A) u; zero towards walls.
+  /// \param u  its solution
   void find_rest(const Values& u, Values& out) const;
 
  private:
   void find_friction();
   void collect_stiff(double least);
+  bool prefers_iteration() const;
   void factorize();
   void add_row(std::size_t i);
+  void solve_iteratively(Values& v, double target);
+  void times_viscosity(const Values& u, Values& out) const;
 
   /// An entry of A_sn.
   struct Coupling {
@@ -48,7 +67,10 @@ class VelocityBlock {
   std::vector<Coupling> couplings_;
   SparseCholesky factors_;
   Values of_stiff_;
+  ConjugateGradients iteration_;
+  Values rest_;  ///< of the last iteration
   double error_ = 0;
+  bool is_iteration_ = false;
 };
 
 }  // namespace minamo

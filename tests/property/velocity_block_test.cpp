@@ -8,6 +8,7 @@
 #include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
+#include "engine/step_control.hpp"
 #include "systems/solve/velocity_block.hpp"
 
 using namespace minamo;
@@ -75,6 +76,17 @@ Values times_dense(const Eigen::MatrixXd& matrix, const Values& v) {
   return out;
 }
 
+/// Right-hand sides of displacements between -1/2 and 1/2, about.
+Values random_momentum(const Values& mobility) {
+  kernels::Random random(3);
+  Values v(mobility.size());
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double number = random(-0.5, 0.5);
+    v[i] = mobility[i] == 0 ? 0 : number / mobility[i];
+  }
+  return v;
+}
+
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is known and small", "[property]",
@@ -96,19 +108,14 @@ TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is know
   PressureSchur<Dim> schur;
   schur.assemble(terms, world.template resource<Grid<Dim>>());
   VelocityBlock<Dim> block;
-  block.prepare(terms, schur);
+  block.prepare(terms, schur, StiffSolver::factors);
   CHECK(block.is_mobility() == is_mobility);
   CHECK((block.error() == 0) == is_exact);
   CHECK(block.error() <= 0.5);
 
-  kernels::Random random(3);
-  Values v(Dim * schur.rows());
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const double number = random(-0.5, 0.5);
-    v[i] = schur.mobility()[i] == 0 ? 0 : number / schur.mobility()[i];  // displacements about as large as the numbers
-  }
+  const Values v = random_momentum(schur.mobility());
   Values x = v;
-  block.solve(x);
+  block.solve(x, 0);
   Values rest(v.size());
   block.find_rest(x, rest);
   const Values product = times_dense<Dim>(dense::as_assembled(world).matrix, x);
@@ -122,4 +129,39 @@ TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is know
   }
   CHECK(worst < 1e-12 * largest);  // sums of 50 and 80 terms, and a factorization
   CHECK(left <= block.error() * largest);
+}
+
+TEMPLATE_TEST_CASE_SIG("many stiff velocities are solved by iterations, as exactly as is asked", "[property]",
+                       ((int Dim), Dim), 2, 3) {
+  SceneRun run(lump_and_wet_wall<Dim>(1e3));
+  World& world = run.world();
+  run.step();
+  const auto terms = terms_of_step<Dim>(world);
+  PressureSchur<Dim> schur;
+  schur.assemble(terms, world.template resource<Grid<Dim>>());
+  VelocityBlock<Dim> block;
+  block.prepare(terms, schur, StiffSolver::iteration);
+  REQUIRE(block.is_iteration());
+  CHECK_FALSE(block.is_mobility());
+
+  const Values v = random_momentum(schur.mobility());
+  const auto size = [&](const Values& f) {
+    double sum = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) sum += schur.mobility()[i] * f[i] * f[i];
+    return std::sqrt(sum);
+  };
+  const double asked = GENERATE(1e-2, 1e-5, 0.0);
+  CAPTURE(asked);
+  Values x = v;
+  block.solve(x, asked * size(v));
+  Values rest(v.size());
+  block.find_rest(x, rest);
+  CHECK(size(rest) <= std::max(asked, 1e-7) * size(v));
+  CHECK(size(rest) > 1e-3 * asked * size(v));  // no more work than that
+  Values error = times_dense<Dim>(dense::as_assembled(world).matrix, x);
+  for (std::size_t i = 0; i < v.size(); ++i) error[i] += rest[i] - v[i];
+  CHECK(size(error) < 1e-12 * size(v));
+
+  Values broken(v.size(), std::nan(""));
+  CHECK_THROWS_AS(block.solve(broken, 0), StepRejected);
 }
