@@ -52,52 +52,46 @@ void EnvelopeLu<Scalar>::start(const std::vector<std::uint32_t>& first) {
 }
 
 template <class Scalar>
-auto EnvelopeLu<Scalar>::columns(const Tile& tile) -> Columns {
-  Columns out;
-  for (std::size_t j = 0; j < width; ++j) out[j] = tile.col(static_cast<Eigen::Index>(j)).array();
-  return out;
+inline auto EnvelopeLu<Scalar>::column(const Tile& tile, std::size_t j) -> Lanes {
+  return Eigen::Map<const Lanes>(tile.data() + width * j);
 }
 
+/// c += a b
 template <class Scalar>
-inline auto EnvelopeLu<Scalar>::product(const Columns& a, const Scalar* x) -> Lanes {
-  return pairwise_sum<width>(0, [&](std::size_t k) { return a[k] * x[k]; });
-}
-
-/// c -= a b
-template <class Scalar>
-inline void EnvelopeLu<Scalar>::subtract_product(const Tile& a, const Tile& b, Columns& c) {
-  const Columns of_a = columns(a);
-  for (std::size_t j = 0; j < width; ++j) c[j] -= product(of_a, b.data() + width * j);
+inline void EnvelopeLu<Scalar>::add_product(const Tile& a, const Tile& b, Columns& c) {
+  for (std::size_t k = 0; k < width; ++k) {
+    const Lanes of_a = column(a, k);
+    for (std::size_t j = 0; j < width; ++j) c[j] += of_a * b.data()[width * j + k];
+  }
 }
 
 template <class Scalar>
 inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Lanes& x) -> Lanes {
-  return product(columns(a), x.data());
+  return pairwise_sum<width>(0, [&](std::size_t k) -> Lanes { return column(a, k) * x[static_cast<Eigen::Index>(k)]; });
 }
 
 template <class Scalar>
-inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Columns& b) -> Tile {
+inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Tile& b) -> Tile {
+  Columns sum;
+  sum.fill(Lanes::Zero());
+  add_product(a, b, sum);
   Tile out;
-  for (std::size_t j = 0; j < width; ++j) out.col(static_cast<Eigen::Index>(j)) = product(a, b[j]).matrix();
-  return out;
-}
-
-template <class Scalar>
-inline auto EnvelopeLu<Scalar>::product(const Columns& a, const Tile& b) -> Tile {
-  Tile out;
-  for (std::size_t j = 0; j < width; ++j) {
-    out.col(static_cast<Eigen::Index>(j)) = product(a, b.data() + width * j).matrix();
-  }
+  for (std::size_t j = 0; j < width; ++j) out.col(static_cast<Eigen::Index>(j)) = sum[j].matrix();
   return out;
 }
 
 /// from - sum_k lower_k upper_k
 template <class Scalar>
-inline auto EnvelopeLu<Scalar>::eliminated(const Tile& from, const Tile* lower, const Tile* upper,
-                                           std::size_t count) const -> Columns {
-  Columns sum = columns(from);
-  for (std::size_t k = 0; k < count; ++k) subtract_product(lower[k], upper[k], sum);
-  return sum;
+inline auto EnvelopeLu<Scalar>::eliminated(const Tile& from, const Tile* lower, const Tile* upper, std::size_t count)
+    -> Tile {
+  Columns sum;
+  sum.fill(Lanes::Zero());
+  for (std::size_t k = 0; k < count; ++k) add_product(lower[k], upper[k], sum);
+  Tile out;
+  for (std::size_t j = 0; j < width; ++j) {
+    out.col(static_cast<Eigen::Index>(j)) = (column(from, j) - sum[j]).matrix();
+  }
+  return out;
 }
 
 template <class Scalar>
@@ -151,8 +145,7 @@ bool EnvelopeLu<Scalar>::factorize(double least) {
       const auto i = static_cast<Eigen::Index>(k);
       least_pivot[k] = static_cast<Scalar>(least) * std::abs(diagonal(i, i));
     }
-    const Columns rest = eliminated(diagonal, row_j, column_j, j - first_[j]);
-    for (std::size_t c = 0; c < width; ++c) diagonal.col(static_cast<Eigen::Index>(c)) = rest[c].matrix();
+    diagonal = eliminated(diagonal, row_j, column_j, j - first_[j]);
     if (!invert_diagonal(j, least_pivot)) return false;
   }
   return true;

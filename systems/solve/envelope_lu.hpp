@@ -36,13 +36,11 @@ class EnvelopeLu {
   using Tile = Eigen::Matrix<Scalar, width, width>;
   using Lanes = Eigen::Array<Scalar, width, 1>;
   using Columns = std::array<Lanes, width>;
-  static Columns columns(const Tile& tile);
-  static Lanes product(const Columns& a, const Scalar* x);
-  static void subtract_product(const Tile& a, const Tile& b, Columns& c);
-  static Tile product(const Tile& a, const Columns& b);
-  static Tile product(const Columns& a, const Tile& b);
+  static Lanes column(const Tile& tile, std::size_t j);
+  static void add_product(const Tile& a, const Tile& b, Columns& c);
+  static Tile product(const Tile& a, const Tile& b);
   static Lanes product(const Tile& a, const Lanes& x);
-  Columns eliminated(const Tile& from, const Tile* lower, const Tile* upper, std::size_t count) const;
+  static Tile eliminated(const Tile& from, const Tile* lower, const Tile* upper, std::size_t count);
   bool invert_diagonal(std::size_t j, const std::array<Scalar, width>& least);
 
   std::size_t rows_ = 0;

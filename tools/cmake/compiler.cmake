@@ -22,6 +22,11 @@ endif()
 # Nobody reads errno after sqrt; without it the call becomes one instruction.
 set(minamo_private_options -fno-math-errno)
 
+# Sources whose roundings nobody sees, since an iteration corrects them, and whose speed is that of fused
+# multiply-add: a factorization of 52 000 rows takes 48 ms with it and 72 ms without.
+set(minamo_contracted_sources systems/solve/envelope_lu.cpp)
+set_source_files_properties(${minamo_contracted_sources} PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)
+
 function(minamo_compile_options target)
   target_compile_options(${target} PUBLIC ${minamo_public_options})
   target_compile_options(${target} PRIVATE ${minamo_private_options})
