@@ -91,13 +91,13 @@ struct Pressure : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.pressure", "p_I", "Pa", Lifetime::state};
 };
 
-/// Velocity v*_I that XPIC hands back to the particles beside the change of the step. [m/s]
+/// Velocity v*_I that FMPM hands to the particles, and XPIC beside the change of the step. [m/s]
 template <int Dim>
 struct FilteredVelocity : Column<Nodes, Vec<Dim>> {
   static constexpr ComponentInfo info{"node.filtered_velocity", "v*_I", "m/s", Lifetime::scratch};
 };
 
-/// What XPIC's filter has not yet passed. [m/s]
+/// What the filter of XPIC and FMPM has not yet passed. [m/s]
 template <int Dim>
 struct Residue : Column<Nodes, Vec<Dim>> {
   static constexpr ComponentInfo info{"node.residue", "r_I", "m/s", Lifetime::scratch};

@@ -29,7 +29,7 @@ struct FlipBlend {
   static constexpr ComponentInfo info{"flip_blend", "alpha", "1", Lifetime::constant};
 };
 
-/// Order m of XPIC. [1]
+/// Order of XPIC(m) and FMPM(k). [1]
 struct XpicOrder {
   int m = 2;
   static constexpr ComponentInfo info{"xpic.order", "m", "1", Lifetime::constant};

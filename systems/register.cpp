@@ -30,6 +30,7 @@
 #include "systems/transfer/advect.hpp"
 #include "systems/transfer/apic.hpp"
 #include "systems/transfer/carry_gradient.hpp"
+#include "systems/transfer/fmpm.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/pic_flip.hpp"
 #include "systems/transfer/scheme.hpp"
@@ -112,6 +113,8 @@ void register_systems(SystemRegistry& registry) {
   registry.add<G2PAccelerationApic>("g2p_acceleration_apic");
   registry.add<FilterVelocityXpic>("filter_velocity_xpic");
   registry.add<G2PVelocityXpic>("g2p_velocity_xpic");
+  registry.add<FilterVelocityFmpm>("filter_velocity_fmpm");
+  registry.add<G2PVelocityFmpm>("g2p_velocity_fmpm");
   registry.add<G2PAccelerationPic>("g2p_acceleration_pic");
   registry.add<G2PAccelerationTpic>("g2p_acceleration_tpic");
   registry.add<G2PForceGradient>("g2p_force_gradient");

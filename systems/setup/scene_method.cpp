@@ -27,7 +27,7 @@ void read_transfer(Input& input, const SystemRegistry& registry, Scene& scene) {
         scene.flip_blend = in.number(
             "blend",
             {.doc = "share of FLIP, the rest is PIC", .fallback = scene.flip_blend, .at_least = 0, .at_most = 1});
-      } else if (scheme.name == "xpic") {
+      } else if (scheme.name == "xpic" || scheme.name == "fmpm") {
         scene.xpic_order = static_cast<int>(
             in.integer("order", {.doc = "order m; 1 is PIC", .fallback = 2, .at_least = 1, .at_most = 20}));
       }

@@ -107,6 +107,7 @@ TEST_CASE("a step allocates nothing after the first ones", "[property]") {
       {R"(/transfer={"scheme":"apic"})", R"(/integrator={"scheme":"newmark"})"},
       {R"(/transfer={"scheme":"tpic2"})"},
       {R"(/transfer={"scheme":"xpic"})"},
+      {R"(/transfer={"scheme":"fmpm"})"},
       {R"(/stabilization={"scheme":"oss"})"},
       {R"(/stabilization={"scheme":"vms"})"},
       {R"(/solver={"scheme":"umfpack"})"},

@@ -119,7 +119,7 @@ TEST_CASE("a study whose variants cannot all run is refused, and no problem is t
                                                                                   "  closest   \"scene.json\"\n"},
       {R"({"scene": "scene.json", "vary": {"cells": [8, 16], "/transfer/scheme": ["pic", "apci"]}, "error": "velocity"})",
        "scene.json: variant cells8_apci: /transfer/scheme: unknown name\n"
-       "  expected  one of [\"apic\", \"flip\", \"pic\", \"tpic\", \"tpic2\", \"xpic\"]\n"
+       "  expected  one of [\"apic\", \"flip\", \"fmpm\", \"pic\", \"tpic\", \"tpic2\", \"xpic\"]\n"
        "  got       \"apci\" (string)\n"
        "  closest   \"apic\"\n"},
       {R"({"scene": "scene.json", "vary": {"/particles/3/per_cell": [2, 3]}, "error": "velocity"})",

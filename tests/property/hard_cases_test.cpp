@@ -35,7 +35,7 @@ bool carries_gradient(const std::string& transfer) {
 /// Every transfer scheme, integrator and volume correction; the inertia that cannot gain energy, where there is a
 /// choice.
 Json any_method_and_volume(Json scene) {
-  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm");
   const std::string integrator = GENERATE("newmark", "midpoint");
   const std::string volume = GENERATE("none", "delta", "projection");
   scene = with_method(scene, transfer, integrator);
@@ -96,7 +96,7 @@ TEST_CASE("nothing that is thrown into walls and corners is lost or gains energy
   CAPTURE(shape, velocity, wall);
   Json scene = room(2, water(shape, velocity, per_cell), 1.0 / 256);
   scene["walls"] = wall;
-  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm");
   const std::string volume = GENERATE("none", "delta", "projection");
   CAPTURE(transfer, volume);
   scene = with_method(scene, transfer, "midpoint");
@@ -122,7 +122,7 @@ TEST_CASE("nothing is lost in space, nor gains energy", "[property]") {
       {R"({"box": {"low": [0.3, 0.3, 0.3], "high": [0.33, 0.33, 0.33]}})", "[-16, -16, -16]", 1},
       {R"({"box": {"low": [0, 0, 0], "high": [0.25, 0.25, 0.5]}})", "[0, 0, 0]", 2},
   }));
-  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm");
   CAPTURE(shape, velocity, transfer);
   Json scene = with_method(room(3, water(shape, velocity, per_cell), 1.0 / 256), transfer, "midpoint");
   if (carries_gradient(transfer)) scene["transfer"]["inertia"] = "lumped";

@@ -4,6 +4,7 @@
 #include "components/measure.hpp"
 #include "systems/measure/conservation.hpp"
 #include "systems/transfer/apic.hpp"
+#include "systems/transfer/fmpm.hpp"
 #include "systems/transfer/pic_flip.hpp"
 #include "systems/transfer/tpic.hpp"
 #include "systems/transfer/xpic.hpp"
@@ -128,6 +129,53 @@ TEMPLATE_TEST_CASE_SIG("XPIC of order 1 is PIC", "[property]", ((int Dim), Dim),
   double worst = 0;
   for (std::size_t p = 0; p < xpic.size(); ++p) worst = std::max(worst, (xpic[p] - v_p[p]).norm());
   CHECK(worst < 1e-13);  // v^n is added and taken away again
+}
+
+TEMPLATE_TEST_CASE_SIG("FMPM of order 1 is PIC, and of high order gives back a velocity that particles gave",
+                       "[property]", ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, 300, 15);
+  Random random(16);
+  const auto v_p = world.column<particle::Velocity<Dim>>();
+  const auto worst_difference = [&](const std::vector<Vec<Dim>>& other) {
+    double worst = 0;
+    for (std::size_t p = 0; p < other.size(); ++p) worst = std::max(worst, (other[p] - v_p[p]).norm());
+    return worst;
+  };
+  const auto fmpm = [&](int order) {
+    world.resource<XpicOrder>().m = order;
+    run<FilterVelocityFmpm<Dim>>(world);
+    run<G2PVelocityFmpm<Dim>>(world);
+    return std::vector<Vec<Dim>>(v_p.begin(), v_p.end());
+  };
+  set_new_velocity<Dim>(world, 17);
+  const auto first = fmpm(1);
+  run<G2PVelocityPic<Dim>>(world);
+  CHECK(worst_difference(first) == 0);
+
+  // What the grid can hold, put onto it by P2G, which smooths it: the series undoes that.
+  const std::vector<Vec<Dim>> held = first;
+  std::copy(held.begin(), held.end(), v_p.begin());
+  run<P2GVelocityPic<Dim>>(world);
+  const auto v_i = world.column<node::Velocity<Dim>>();
+  std::copy(v_i.begin(), v_i.end(), world.column<node::NewVelocity<Dim>>().begin());
+  double before = 1e300;
+  for (const int order : {1, 2, 4, 16}) {
+    CAPTURE(order);
+    fmpm(order);
+    const double after = worst_difference(held);
+    CHECK(after < before);
+    before = after;
+  }
+}
+
+TEST_CASE("FMPM damps less with rising order", "[property]") {
+  const double pic = energy_kept(R"({"scheme": "pic"})");
+  const double second = energy_kept(R"({"scheme": "fmpm", "order": 2})");
+  const double fifth = energy_kept(R"({"scheme": "fmpm", "order": 5})");
+  CHECK(pic < second);
+  CHECK(second < fifth);
+  CHECK(fifth < 1);
 }
 
 TEST_CASE("XPIC damps less with rising order, and more than FLIP", "[property]") {

@@ -82,7 +82,7 @@ TEST_CASE("a mirrored scene gives the mirrored result", "[verification]") {
 }
 
 TEST_CASE("a flow does not know the uniform velocity on top of it", "[verification]") {
-  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm");
   const std::string integrator = GENERATE("newmark", "midpoint");
   CAPTURE(transfer, integrator);
   // Four cells per step, two per half step: particles meet the grid in the same places. All numbers are dyadic.
@@ -102,7 +102,7 @@ TEST_CASE("a flow does not know the uniform velocity on top of it", "[verificati
 }
 
 TEST_CASE("a flow does not know where the ends of a periodic axis are", "[verification]") {
-  const auto method = [transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic"),
+  const auto method = [transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm"),
                        integrator = GENERATE("newmark", "midpoint")](const Json& scene) {
     return with_method(scene, transfer, integrator);
   };

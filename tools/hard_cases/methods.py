@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from itertools import product
 from typing import Any, NamedTuple
 
-SCHEMES = ("pic", "flip", "tpic", "tpic2", "apic", "xpic")
+SCHEMES = ("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm")
 INTEGRATORS = ("newmark", "midpoint")
 VOLUMES = ("none", "delta", "projection")
 

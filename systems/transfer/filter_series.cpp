@@ -1,0 +1,48 @@
+#include "systems/transfer/filter_series.hpp"
+
+#include "engine/parallel.hpp"
+#include "systems/grid/walls.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+/// S^+ S q: to the particles and back.
+template <int Dim>
+void there_and_back(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> q_i, std::span<Vec<Dim>> out) {
+  scatter_mean<Dim>(
+      source, out, [&](std::size_t p, const Support<Dim>& support, const Weights<Dim>& weights, auto& sum) {
+        Vec<Dim> mq = Vec<Dim>::Zero();
+        for_each_support<Dim>(
+            [&](std::size_t k, const Index<Dim>& offset) { mq += weights(offset) * q_i[support.node[k]]; });
+        mq *= source.m_p[p];
+        for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { sum[k] += weights(offset) * mq; });
+      });
+}
+
+}  // namespace
+
+template <int Dim>
+void filter_series(const ScatterSource<Dim>& source, std::span<const std::uint8_t> fixed, int order,
+                   std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
+                   std::span<Vec<Dim>> filtered) {
+  std::copy(v.begin(), v.end(), residue.begin());
+  std::copy(v.begin(), v.end(), filtered.begin());
+  for (int k = 1; k < order; ++k) {
+    there_and_back<Dim>(source, residue, smoothed);
+    for_each_row(v.size(), [&](std::size_t i) {
+      residue[i] -= smoothed[i];
+      hold<Dim>(fixed[i], residue[i]);
+      filtered[i] += residue[i];
+    });
+  }
+}
+
+template void filter_series<2>(const ScatterSource<2>&, std::span<const std::uint8_t>, int, std::span<const Vec<2>>,
+                               std::span<Vec<2>>, std::span<Vec<2>>, std::span<Vec<2>>);
+template void filter_series<3>(const ScatterSource<3>&, std::span<const std::uint8_t>, int, std::span<const Vec<3>>,
+                               std::span<Vec<3>>, std::span<Vec<3>>, std::span<Vec<3>>);
+
+}  // namespace minamo

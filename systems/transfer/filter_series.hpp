@@ -1,0 +1,19 @@
+#pragma once
+/// \file
+/// The series that XPIC(m) and FMPM(k) filter a nodal velocity with: k terms of that of the inverse of the full mass
+/// matrix times the lumped one.
+
+#include "systems/transfer/scatter.hpp"
+
+namespace minamo {
+
+/// Sets `filtered` to sum_{k<order} (1 - S^+ S)^k v, S grid to particles, S^+ the mass-weighted mean of (E4).
+/// C. C. Hammerquist, J. A. Nairn, CMAME 318 (2017) 724, doi:10.1016/j.cma.2017.01.035.
+/// \param residue   work space: what the filter has not yet passed
+/// \param smoothed  work space: the residue after a trip to the particles and back
+template <int Dim>
+void filter_series(const ScatterSource<Dim>& source, std::span<const std::uint8_t> fixed, int order,
+                   std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
+                   std::span<Vec<Dim>> filtered);
+
+}  // namespace minamo

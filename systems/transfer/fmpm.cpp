@@ -1,0 +1,33 @@
+#include "systems/transfer/fmpm.hpp"
+
+#include "systems/transfer/filter_series.hpp"
+#include "systems/transfer/gather.hpp"
+
+namespace minamo {
+
+template <int Dim>
+void FilterVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                         Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                         Read<XpicOrder> order, Read<node::Mass> m_i, Read<node::Fixed> fixed,
+                                         Read<node::NewVelocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
+                                         Write<node::Smoothed<Dim>> smoothed,
+                                         Write<node::FilteredVelocity<Dim>> v_filtered) const {
+  filter_series<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, fixed.span(), order->m, v_i.span(),
+                     residue.span(), smoothed.span(), v_filtered.span());
+}
+
+template <int Dim>
+void G2PVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                      Read<particle::Configuration<Dim>> y_p,
+                                      Read<node::FilteredVelocity<Dim>> v_filtered,
+                                      Write<particle::Velocity<Dim>> v_p) const {
+  const auto at_node = [&](std::size_t i) { return v_filtered[i]; };
+  gather<Dim>(*grid, *cells, y_p.span(), at_node, [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
+}
+
+template struct FilterVelocityFmpm<2>;
+template struct FilterVelocityFmpm<3>;
+template struct G2PVelocityFmpm<2>;
+template struct G2PVelocityFmpm<3>;
+
+}  // namespace minamo
