@@ -113,20 +113,17 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property
 
 TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK where iterations solve for stiff velocities",
                        "[property]", ((int Dim), Dim), 2, 3) {
-  // Friction of one to seven times the inertia; more than 3000 velocities.
-  const double viscosity = Dim == 2 ? 10 : GENERATE(100.0, 300.0);
-  const std::string volume = GENERATE("none", "projection");
-  CAPTURE(viscosity, volume);
-  if (Dim == 3 && (volume == "none") == (viscosity == 100)) return;  // a step costs seconds
+  // Friction of once and seven times the inertia; more than 3000 velocities.
+  constexpr double viscosity = Dim == 2 ? 10 : 300;
+  constexpr int steps = Dim == 2 ? 2 : 1;  // UMFPACK takes seconds in space
   Json scene = lump_and_drop<Dim>(viscosity);
   scene["grid"]["cells"] = Dim == 2 ? Json({100, 80}) : Json({25, 20, 10});
   scene["particles"].erase(1);
   scene["time"]["step"] = Dim == 2 ? 2e-3 : 5e-3;
-  scene["volume"]["scheme"] = volume;
   SceneRun block(with(scene, {R"(/solver={"scheme": "block", "tolerance": 1e-10})"}));
   SceneRun umfpack(with(scene, {R"(/solver={"scheme": "umfpack"})"}));
-  block.step(2);
-  umfpack.step(2);
+  block.step(steps);
+  umfpack.step(steps);
   REQUIRE(Dim * block.world().template column<matrix::Node>().size() > 3000);
   CHECK(distance<Dim>(block, umfpack) < 1e-7);
   const auto& report = block.world().template resource<SolveReport>();
