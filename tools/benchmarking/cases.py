@@ -64,7 +64,7 @@ def thread_cases() -> list[Case]:
 
 def solver_cases() -> list[Case]:
     made = []
-    for cells, per_cell, steps in ((40, 2, 250), (80, 4, 150), (160, 4, 50), (320, 4, 20)):
+    for cells, per_cell, steps in ((8, 2, 400), (40, 2, 250), (80, 4, 150), (160, 4, 50), (320, 4, 20)):
         scene = dam_break(cells, per_cell, 0.08 / cells) | NO_FRAMES
         runs = [Run(f"{cells} x {cells}, {per_cell} x {per_cell}, {solver}", "dam_break",
                     scene | {"/solver": {"scheme": solver}}, steps=steps) for solver in ("block", "umfpack")]
