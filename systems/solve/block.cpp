@@ -92,9 +92,7 @@ void reduce(Impl<Dim>& s, const Values& f, const Values& u, const Values& p, Val
 /// The square of the motion that a momentum is worth, f A^-1 f with the mobility for A^-1.
 template <int Dim>
 double motion_by(const Impl<Dim>& s, const Values& f) {
-  const Values& mobility = s.schur.mobility();
-  return reduce_rows(
-      f.size(), 0.0, [&](std::size_t i) { return mobility[i] * f[i] * f[i]; }, std::plus<>());
+  return weighted_square(s.schur.mobility(), f);
 }
 
 /// u A u. Walls hold what has no mobility.

@@ -26,13 +26,9 @@ class ConjugateGradients {
     direction_.resize(n);
     product_.resize(n);
     x.assign(n, 0.0);
-    const auto square = [&] {
-      return reduce_rows(
-          n, 0.0, [&](std::size_t i) { return per_diagonal[i] * r[i] * r[i]; }, std::plus<>());
-    };
     for_each_row(n, [&](std::size_t i) { direction_[i] = per_diagonal[i] * r[i]; });
     Report report;
-    for (double left = square();; ++report.iterations) {
+    for (double left = weighted_square(per_diagonal, r);; ++report.iterations) {
       report.residual = std::sqrt(left);
       report.converged = report.residual <= target;
       if (report.converged || report.iterations == most_iterations || !std::isfinite(left)) return report;
@@ -40,7 +36,7 @@ class ConjugateGradients {
       const double step = left / dot(direction_, product_);
       add_scaled(step, direction_, x);
       add_scaled(-step, product_, r);
-      const double before = std::exchange(left, square());
+      const double before = std::exchange(left, weighted_square(per_diagonal, r));
       for_each_row(n, [&](std::size_t i) { direction_[i] = per_diagonal[i] * r[i] + left / before * direction_[i]; });
     }
   }

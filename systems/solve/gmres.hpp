@@ -22,6 +22,12 @@ inline double dot(const Values& x, const Values& y) {
       x.size(), 0.0, [&](std::size_t i) { return x[i] * y[i]; }, std::plus<>());
 }
 
+/// sum_i weight_i x_i^2
+inline double weighted_square(const Values& weight, const Values& x) {
+  return reduce_rows(
+      x.size(), 0.0, [&](std::size_t i) { return weight[i] * x[i] * x[i]; }, std::plus<>());
+}
+
 inline void add_scaled(double scale, const Values& x, Values& y) {
   for_each_row(x.size(), [&](std::size_t i) { y[i] += scale * x[i]; });
 }

@@ -153,11 +153,10 @@ void VelocityBlock<Dim>::solve_iteratively(Values& v, double target) {
       out[i] = mobility[i] == 0 ? 0 : inertia * u[i] + terms_.c_v * out[i];
     });
   };
-  const double size = std::sqrt(reduce_rows(
-      v.size(), 0.0, [&](std::size_t i) { return mobility[i] * v[i] * v[i]; }, std::plus<>()));
+  const double least = least_rest * std::sqrt(weighted_square(mobility, v));
   rest_.resize(v.size());
   for_each_row(v.size(), [&](std::size_t i) { rest_[i] = mobility[i] == 0 ? 0 : v[i]; });
-  const auto report = iteration_.solve(apply, mobility, std::max(target, least_rest * size), most_iterations, rest_, v);
+  const auto report = iteration_.solve(apply, mobility, std::max(target, least), most_iterations, rest_, v);
   if (!report.converged) throw StepRejected("solve: the velocities of a stiff liquid do not converge");
 }
 
