@@ -142,6 +142,8 @@ if __name__ == "__main__":
         main()
     except SuiteFailed as problem:
         sys.exit(f"tools/stability: {problem}\n{RESULTS.relative_to(ROOT)} is as it was.")
+    except OSError as problem:  # no program, no room
+        sys.exit(f"tools/stability: {problem.filename}: {problem.strerror}\n{RESULTS.relative_to(ROOT)} is as it was.")
     except KeyboardInterrupt:
         print(f"interrupted; {RESULTS.relative_to(ROOT)} is as it was", file=sys.stderr)
         sys.exit(130)
