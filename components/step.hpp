@@ -30,9 +30,9 @@ struct FlipBlend {
 };
 
 /// Order of XPIC(m) and FMPM(k). [1]
-struct XpicOrder {
+struct FilterOrder {
   int m = 2;
-  static constexpr ComponentInfo info{"xpic.order", "m", "1", Lifetime::constant};
+  static constexpr ComponentInfo info{"filter.order", "m", "1", Lifetime::constant};
 };
 
 /// Share of the volume excess that is corrected in a step. [1]

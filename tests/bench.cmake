@@ -36,7 +36,8 @@ if(NOT status EQUAL 2)
 endif()
 require_in("${message}" "unknown name \"solvrs\"; nearest: solvers")
 
-execute_process(COMMAND ${PYTHON} -B ${SOURCE}/tools/benchmarking --build /nowhere --quick size_40 RESULT_VARIABLE status ERROR_VARIABLE message)
+execute_process(COMMAND ${bench} --build /nowhere --quick size_40
+  RESULT_VARIABLE status ERROR_VARIABLE message)
 if(NOT status EQUAL 1)
   message(FATAL_ERROR "no program: status ${status}")
 endif()

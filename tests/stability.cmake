@@ -33,7 +33,8 @@ if(NOT status EQUAL 2)
 endif()
 require_in("${message}" "unknown name \"drop_cfl_2\"; nearest: drops_cfl_2")
 
-execute_process(COMMAND ${stability} --program /nowhere/minamo lone_particle RESULT_VARIABLE status ERROR_VARIABLE message)
+execute_process(COMMAND ${stability} --program /nowhere/minamo lone_particle
+  RESULT_VARIABLE status ERROR_VARIABLE message)
 if(NOT status EQUAL 1)
   message(FATAL_ERROR "no program: status ${status}")
 endif()

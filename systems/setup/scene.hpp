@@ -98,7 +98,7 @@ struct Scene {
   std::string transfer;
   TransferScheme transfer_scheme;  ///< of that name
   double flip_blend = 0.99;
-  int xpic_order = 2;
+  int filter_order = 2;
   bool corrected_inertia = false;
   std::string integrator;
   double newmark_beta = 0.25;

@@ -28,8 +28,8 @@ void read_transfer(Input& input, const SystemRegistry& registry, Scene& scene) {
             "blend",
             {.doc = "share of FLIP, the rest is PIC", .fallback = scene.flip_blend, .at_least = 0, .at_most = 1});
       } else if (scheme.name == "xpic" || scheme.name == "fmpm") {
-        scene.xpic_order = static_cast<int>(
-            in.integer("order", {.doc = "order m; 1 is PIC", .fallback = 2, .at_least = 1, .at_most = 20}));
+        scene.filter_order = static_cast<int>(
+            in.integer("order", {.doc = "order; 1 is PIC", .fallback = 2, .at_least = 1, .at_most = 20}));
       }
     });
   }

@@ -199,7 +199,7 @@ void seed_world(const Scene& scene, const std::string& file, World& world) {
   auto& largest = world.resource<LargestMove>();
   largest.cells = std::max(largest.cells, 2 * scene.time.cfl);
   world.resource<SolverTolerance>() = {scene.solver_tolerance};
-  world.resource<XpicOrder>() = {scene.xpic_order};
+  world.resource<FilterOrder>() = {scene.filter_order};
   world.resource<FlipBlend>() = {scene.flip_blend};
   world.resource<Walls<Dim>>() = make_walls<Dim>(scene.walls);
   std::vector<Problem> problems;

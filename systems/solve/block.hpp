@@ -40,7 +40,8 @@ void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const
 template <int Dim>
 struct SolveBlock {
   static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, inviscid";
-  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size.
+  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size, or if iterations for the
+  ///   velocities of a stiff liquid do not converge, which shorter steps help.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                   Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
@@ -53,7 +54,8 @@ struct SolveBlock {
 template <int Dim>
 struct SolveBlockViscous {
   static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, viscous";
-  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size.
+  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size, or if iterations for the
+  ///   velocities of a stiff liquid do not converge, which shorter steps help.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
                   Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,

@@ -5,6 +5,10 @@
 
 #include "systems/solve/gmres.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
 namespace minamo {
 
 /// Work space, kept so that a solve does not allocate.

@@ -52,7 +52,7 @@ void EnvelopeLu<Scalar>::start(const std::vector<std::uint32_t>& first) {
 }
 
 template <class Scalar>
-inline auto EnvelopeLu<Scalar>::column(const Tile& tile, std::size_t j) -> Lanes {
+inline auto EnvelopeLu<Scalar>::column_of(const Tile& tile, std::size_t j) -> Lanes {
   return Eigen::Map<const Lanes>(tile.data() + width * j);
 }
 
@@ -60,14 +60,15 @@ inline auto EnvelopeLu<Scalar>::column(const Tile& tile, std::size_t j) -> Lanes
 template <class Scalar>
 inline void EnvelopeLu<Scalar>::add_product(const Tile& a, const Tile& b, Columns& c) {
   for (std::size_t k = 0; k < width; ++k) {
-    const Lanes of_a = column(a, k);
+    const Lanes of_a = column_of(a, k);
     for (std::size_t j = 0; j < width; ++j) c[j] += of_a * b.data()[width * j + k];
   }
 }
 
 template <class Scalar>
 inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Lanes& x) -> Lanes {
-  return pairwise_sum<width>(0, [&](std::size_t k) -> Lanes { return column(a, k) * x[static_cast<Eigen::Index>(k)]; });
+  return pairwise_sum<width>(0,
+                             [&](std::size_t k) -> Lanes { return column_of(a, k) * x[static_cast<Eigen::Index>(k)]; });
 }
 
 template <class Scalar>
@@ -89,7 +90,7 @@ inline auto EnvelopeLu<Scalar>::eliminated(const Tile& from, const Tile* lower, 
   for (std::size_t k = 0; k < count; ++k) add_product(lower[k], upper[k], sum);
   Tile out;
   for (std::size_t j = 0; j < width; ++j) {
-    out.col(static_cast<Eigen::Index>(j)) = (column(from, j) - sum[j]).matrix();
+    out.col(static_cast<Eigen::Index>(j)) = (column_of(from, j) - sum[j]).matrix();
   }
   return out;
 }

@@ -36,7 +36,7 @@ class EnvelopeLu {
   using Tile = Eigen::Matrix<Scalar, width, width>;
   using Lanes = Eigen::Array<Scalar, width, 1>;
   using Columns = std::array<Lanes, width>;
-  static Lanes column(const Tile& tile, std::size_t j);
+  static Lanes column_of(const Tile& tile, std::size_t j);
   static void add_product(const Tile& a, const Tile& b, Columns& c);
   static Tile product(const Tile& a, const Tile& b);
   static Lanes product(const Tile& a, const Lanes& x);

@@ -71,7 +71,7 @@ class Gmres {
 
  private:
   static constexpr std::size_t restart = 50;
-  static constexpr double share_of_errors = 0.05;  ///< of the target
+  static constexpr double share_of_errors = 0.5;  ///< of the target
 
   void resize(std::size_t rows) {
     if (product_.size() == rows) return;

@@ -97,7 +97,7 @@ void VelocityBlock<Dim>::factorize() {
   if (!factors_.factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
-/// Whether iterations cost less than factors: where most unknowns are stiff, but half of them not too much.
+/// Whether iterations cost less than factors: where more than a few unknowns are stiff, but half of all not too much.
 template <int Dim>
 bool VelocityBlock<Dim>::prefers_iteration() const {
   const std::size_t size = friction_.size();

@@ -28,7 +28,8 @@ class VelocityBlock {
   /// \throws StepRejected if the factorization fails, std::bad_alloc if it does not fit into memory.
   void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur,
                StiffSolver solver = StiffSolver::cheapest);
-  /// How much of a vector about is left of v - A solve(v); 0 if solve() is the inverse.
+  /// How much of a vector about is left of v - A solve(v), 0 if solve() is the inverse; of iterations what a pass with
+  /// many calls is to leave.
   double error() const { return error_; }
   /// Whether solve() multiplies by the mobility of the Schur complement.
   bool is_mobility() const { return stiff_.empty(); }

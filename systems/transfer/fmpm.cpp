@@ -8,7 +8,7 @@ namespace minamo {
 template <int Dim>
 void FilterVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                                          Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
-                                         Read<XpicOrder> order, Read<node::Mass> m_i, Read<node::Fixed> fixed,
+                                         Read<FilterOrder> order, Read<node::Mass> m_i, Read<node::Fixed> fixed,
                                          Read<node::NewVelocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
                                          Write<node::Smoothed<Dim>> smoothed,
                                          Write<node::FilteredVelocity<Dim>> v_filtered) const {

@@ -116,7 +116,7 @@ TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velo
 TEMPLATE_TEST_CASE_SIG("XPIC of order 1 is PIC", "[property]", ((int Dim), Dim), 2, 3) {
   World world;
   fill<Dim>(world, 300, 15);
-  world.resource<XpicOrder>().m = 1;
+  world.resource<FilterOrder>().m = 1;
   Random random(16);
   for (Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) v = random.vector<Dim>(-1, 1);
   run<P2GVelocityPic<Dim>>(world);
@@ -143,7 +143,7 @@ TEMPLATE_TEST_CASE_SIG("FMPM of order 1 is PIC, and of high order gives back a v
     return worst;
   };
   const auto fmpm = [&](int order) {
-    world.resource<XpicOrder>().m = order;
+    world.resource<FilterOrder>().m = order;
     run<FilterVelocityFmpm<Dim>>(world);
     run<G2PVelocityFmpm<Dim>>(world);
     return std::vector<Vec<Dim>>(v_p.begin(), v_p.end());

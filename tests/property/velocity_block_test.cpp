@@ -165,3 +165,21 @@ TEMPLATE_TEST_CASE_SIG("many stiff velocities are solved by iterations, as exact
   Values broken(v.size(), std::nan(""));
   CHECK_THROWS_AS(block.solve(broken, 0), StepRejected);
 }
+
+TEST_CASE("iterations are preferred where many velocities are stiff, but not too much", "[property]") {
+  // Friction of once and twenty times the inertia on 6000 unknowns, and of once on 200.
+  const auto [cells, viscosity, is_iteration] =
+      GENERATE(table<int, double, bool>({{100, 8, true}, {100, 160, false}, {16, 300, false}}));
+  CAPTURE(cells, viscosity);
+  SceneRun run(with(lump_and_wet_wall<2>(viscosity),
+                    {"/grid/cells=[" + std::to_string(cells) + ", " + std::to_string(cells) + "]",
+                     R"(/solver={"scheme": "block"})"}));
+  run.step();
+  const auto terms = terms_of_step<2>(run.world());
+  PressureSchur<2> schur;
+  schur.assemble(terms, run.world().resource<Grid<2>>());
+  VelocityBlock<2> block;
+  block.prepare(terms, schur);
+  CHECK_FALSE(block.is_mobility());
+  CHECK(block.is_iteration() == is_iteration);
+}

@@ -1,4 +1,5 @@
-# How our own code is compiled. Nothing here changes what a floating-point expression means (no -ffast-math).
+# How our own code is compiled. Nothing here changes what a floating-point expression means (no
+# -ffast-math), but for the contracted sources below.
 
 find_program(minamo_ccache ccache)
 mark_as_advanced(minamo_ccache)

@@ -142,7 +142,7 @@ if __name__ == "__main__":
         main()
     except SuiteFailed as problem:
         sys.exit(f"tools/stability: {problem}\n{RESULTS.relative_to(ROOT)} is as it was.")
-    except OSError as problem:  # no program, no room
+    except (FileNotFoundError, PermissionError) as problem:  # no program
         sys.exit(f"tools/stability: {problem.filename}: {problem.strerror}\n{RESULTS.relative_to(ROOT)} is as it was.")
     except KeyboardInterrupt:
         print(f"interrupted; {RESULTS.relative_to(ROOT)} is as it was", file=sys.stderr)
