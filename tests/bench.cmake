@@ -3,12 +3,7 @@
 
 set(bench ${PYTHON} -B ${SOURCE}/tools/benchmarking --build ${BUILD})
 
-function(require_in text part)
-  string(FIND "${text}" "${part}" place)
-  if(place EQUAL -1)
-    message(FATAL_ERROR "no \"${part}\" in\n${text}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/support/require.cmake)
 
 execute_process(COMMAND ${bench} --quick dam_break_40_8ms threads_250_steps solvers_40 size_40 size_80 assembly
   OUTPUT_VARIABLE page COMMAND_ERROR_IS_FATAL ANY)
@@ -36,10 +31,4 @@ if(NOT status EQUAL 2)
 endif()
 require_in("${message}" "unknown name \"solvrs\"; nearest: solvers")
 
-execute_process(COMMAND ${bench} --build /nowhere --quick size_40
-  RESULT_VARIABLE status ERROR_VARIABLE message)
-if(NOT status EQUAL 1)
-  message(FATAL_ERROR "no program: status ${status}")
-endif()
-require_in("${message}" "/nowhere/minamo: No such file or directory\n")
-require_in("${message}" " is as it was.")
+require_no_program(${bench} --build /nowhere --quick size_40)

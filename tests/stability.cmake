@@ -3,12 +3,7 @@
 
 set(stability ${PYTHON} -B ${SOURCE}/tools/hard_cases)
 
-function(require_in text part)
-  string(FIND "${text}" "${part}" place)
-  if(place EQUAL -1)
-    message(FATAL_ERROR "no \"${part}\" in\n${text}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/support/require.cmake)
 
 # All names of all sections are made for this, so every scene is at least built.
 execute_process(COMMAND ${stability} --list OUTPUT_VARIABLE names COMMAND_ERROR_IS_FATAL ANY)
@@ -33,10 +28,4 @@ if(NOT status EQUAL 2)
 endif()
 require_in("${message}" "unknown name \"drop_cfl_2\"; nearest: drops_cfl_2")
 
-execute_process(COMMAND ${stability} --program /nowhere/minamo lone_particle
-  RESULT_VARIABLE status ERROR_VARIABLE message)
-if(NOT status EQUAL 1)
-  message(FATAL_ERROR "no program: status ${status}")
-endif()
-require_in("${message}" "/nowhere/minamo: No such file or directory\n")
-require_in("${message}" " is as it was.")
+require_no_program(${stability} --program /nowhere/minamo lone_particle)

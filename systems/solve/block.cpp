@@ -125,14 +125,15 @@ Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
       eliminate<Dim>(s, s.momentum, s.g, std::max(target, left_by_block * norm), start, s.displacement, s.pressure);
   s.more_displacement = s.displacement;
   const double all_motion = left_by_block > 0 ? motion_by<Dim>(s, s.momentum) + motion_of<Dim>(s, s.displacement) : 0;
+  const double motion_target = tolerance * tolerance * all_motion;
   double left_before = std::numeric_limits<double>::infinity();
   for (int pass = 0; left_by_block > 0 && report.converged; ++pass) {
     s.velocity_block.find_rest(s.more_displacement, s.f);
     reduce<Dim>(s, s.f, s.displacement, s.pressure, s.g);
     const double left = std::sqrt(dot(s.g, s.g));
     const double left_of_motion = motion_by<Dim>(s, s.f);
-    const bool moves = left_of_motion <= tolerance * tolerance * all_motion;
-    if (s.velocity_block.is_iteration() && moves && (left <= target || left > 0.5 * left_before)) {
+    const bool is_as_small_as_it_gets = left <= target || left > 0.5 * left_before;
+    if (s.velocity_block.is_iteration() && left_of_motion <= motion_target && is_as_small_as_it_gets) {
       s.displacement = s.of_velocity;  // whose balance that is
       report.residual = left;
       break;
@@ -145,7 +146,7 @@ Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
     report.iterations += more.iterations;
     report.residual = more.residual;
     const double rest = left_by_block * left_by_block * left_of_motion;
-    const bool is_balanced = left_by_block * left <= target && rest <= tolerance * tolerance * all_motion;
+    const bool is_balanced = left_by_block * left <= target && rest <= motion_target;
     if (more.converged && is_balanced && !s.velocity_block.is_iteration()) break;
     report.converged = more.converged && pass < most_passes;
   }

@@ -76,6 +76,18 @@ Values times_dense(const Eigen::MatrixXd& matrix, const Values& v) {
   return out;
 }
 
+/// The velocity block of the last step of a run, and what it refers to.
+template <int Dim>
+struct BlockOfStep {
+  BlockOfStep(World& world, StiffSolver solver) {
+    const auto terms = terms_of_step<Dim>(world);
+    schur.assemble(terms, world.resource<Grid<Dim>>());
+    block.prepare(terms, schur, solver);
+  }
+  PressureSchur<Dim> schur;
+  VelocityBlock<Dim> block;
+};
+
 /// Right-hand sides of displacements between -1/2 and 1/2, about.
 Values random_momentum(const Values& mobility) {
   kernels::Random random(3);
@@ -104,11 +116,8 @@ TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is know
   run.start();
   press_onto_wall<Dim>(world, cells);
   run.step();
-  const auto terms = terms_of_step<Dim>(world);
-  PressureSchur<Dim> schur;
-  schur.assemble(terms, world.template resource<Grid<Dim>>());
-  VelocityBlock<Dim> block;
-  block.prepare(terms, schur, StiffSolver::factors);
+  BlockOfStep<Dim> of_step(world, StiffSolver::factors);
+  auto& [schur, block] = of_step;
   CHECK(block.is_mobility() == is_mobility);
   CHECK((block.error() == 0) == is_exact);
   CHECK(block.error() <= 0.5);
@@ -136,20 +145,14 @@ TEMPLATE_TEST_CASE_SIG("many stiff velocities are solved by iterations, as exact
   SceneRun run(lump_and_wet_wall<Dim>(1e3));
   World& world = run.world();
   run.step();
-  const auto terms = terms_of_step<Dim>(world);
-  PressureSchur<Dim> schur;
-  schur.assemble(terms, world.template resource<Grid<Dim>>());
-  VelocityBlock<Dim> block;
-  block.prepare(terms, schur, StiffSolver::iteration);
+  BlockOfStep<Dim> of_step(world, StiffSolver::iteration);
+  auto& [schur, block] = of_step;
   REQUIRE(block.is_iteration());
   CHECK_FALSE(block.is_mobility());
 
   const Values v = random_momentum(schur.mobility());
-  const auto size = [&](const Values& f) {
-    double sum = 0;
-    for (std::size_t i = 0; i < f.size(); ++i) sum += schur.mobility()[i] * f[i] * f[i];
-    return std::sqrt(sum);
-  };
+  const Values& mobility = schur.mobility();
+  const auto size = [&mobility](const Values& f) { return std::sqrt(weighted_square(mobility, f)); };
   const double asked = GENERATE(1e-2, 1e-5, 0.0);
   CAPTURE(asked);
   Values x = v;
@@ -175,11 +178,7 @@ TEST_CASE("iterations are preferred where many velocities are stiff, but not too
                     {"/grid/cells=[" + std::to_string(cells) + ", " + std::to_string(cells) + "]",
                      R"(/solver={"scheme": "block"})"}));
   run.step();
-  const auto terms = terms_of_step<2>(run.world());
-  PressureSchur<2> schur;
-  schur.assemble(terms, run.world().resource<Grid<2>>());
-  VelocityBlock<2> block;
-  block.prepare(terms, schur);
-  CHECK_FALSE(block.is_mobility());
-  CHECK(block.is_iteration() == is_iteration);
+  const BlockOfStep<2> of_step(run.world(), StiffSolver::cheapest);
+  CHECK_FALSE(of_step.block.is_mobility());
+  CHECK(of_step.block.is_iteration() == is_iteration);
 }
