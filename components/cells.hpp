@@ -36,10 +36,12 @@ struct OccupiedCells {
 };
 
 /// sum over the particles of a cell of V_p xi^a eta^b (zeta^c), 0 <= a, b, c <= 4, at [a + 5 b + 25 c]; xi, eta, zeta
-/// in units of h from the cell's node. One entry per occupied cell. [m^3; m^2 in 2-D]
+/// in units of h from the cell's node. With mixed quadrature (E68) an integral takes the place of the sum, or of a part
+/// of it. One entry per occupied cell. [m^3; m^2 in 2-D]
 template <int Dim>
 struct Moments {
   std::vector<std::array<double, stencil_size<Dim>>> of_cell;
+  std::vector<std::uint8_t> is_full;  ///< 1 where they are those of a cell full of liquid, full_cell()
   static constexpr ComponentInfo info{"cells.moments", "M_c", "m^d", Lifetime::scratch};
 };
 

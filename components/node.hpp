@@ -37,6 +37,16 @@ struct Mass : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.mass", "m_I", "kg", Lifetime::scratch};
 };
 
+/// phi_I of (E67): the share of the node's volume that the particles fill. [1]
+struct Filling : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.filling", "phi_I", "1", Lifetime::scratch};
+};
+
+/// theta_I of (E67): 1 where the liquid fills all around the node, so that integrals need no particles. [1]
+struct Fullness : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.fullness", "theta_I", "1", Lifetime::scratch};
+};
+
 /// Velocity v_I^n at the start of the step. [m/s]
 template <int Dim>
 struct Velocity : Column<Nodes, Vec<Dim>> {

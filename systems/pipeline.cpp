@@ -12,6 +12,7 @@ struct Slot {
 /// What a scene needs, asked of the scene once.
 struct Needs {
   const TransferScheme& transfer;
+  std::string quadrature;
   std::string stabilization;
   std::string volume;
   std::string solver;
@@ -26,6 +27,7 @@ struct Needs {
 
   explicit Needs(const Scene& scene)
       : transfer(scene.transfer_scheme),
+        quadrature(scene.quadrature),
         stabilization(scene.stabilization),
         volume(scene.volume),
         solver(scene.solver),
@@ -48,7 +50,9 @@ std::vector<std::string> force_systems(const Needs& needs) {
 bool needs_viscosity_matrix(const Needs& needs) { return needs.viscous || needs.stabilization == "vms"; }
 
 std::vector<std::string> assemble_systems(const Needs& needs) {
-  std::vector<std::string> systems{"moments", "divergence_matrix"};
+  std::vector<std::string> systems{"moments"};
+  if (needs.quadrature == "mixed") systems = {"find_full_nodes", "moments_mixed"};
+  systems.emplace_back("divergence_matrix");
   if (needs_viscosity_matrix(needs)) systems.emplace_back("viscosity_matrix");
   if (needs.stabilization == "vms") {
     systems.emplace_back("add_vms_bulk_viscosity");

@@ -2,6 +2,7 @@
 
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/full_nodes.hpp"
 #include "systems/grid/liquid.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/grid/walls.hpp"
@@ -80,7 +81,9 @@ void register_systems(SystemRegistry& registry) {
   registry.add<P2GBodyForce>("p2g_body_force");
   registry.add<FreeFlight>("free_flight");
 
+  registry.add<FindFullNodes>("find_full_nodes");
   registry.add<GatherMoments>("moments");
+  registry.add<GatherMomentsMixed>("moments_mixed");
   registry.add<AssembleDivergence>("divergence_matrix");
   registry.add<AssembleLaplacian>("laplacian_matrix");
   registry.add<LaplacianFromViscosity>("laplacian_from_viscosity");

@@ -25,7 +25,26 @@ constexpr void set_product(const std::array<double, N>& x, const std::array<doub
   for (std::size_t k = 0; k < xy.size(); ++k) pairs[k][place] = xy[k];
 }
 
-constexpr AxisBasis make_basis(int first, const Weights& weight) {
+/// Integrals from low to high of w xi^k, k = 0 ... 4.
+constexpr std::array<double, product_powers> integrals(const std::array<double, weight_powers>& w, double low,
+                                                       double high) {
+  std::array<double, product_powers> sum{};
+  for (std::size_t k = 0; k < sum.size(); ++k) {
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      double at_high = 1;
+      double at_low = 1;
+      for (std::size_t n = 0; n <= k + i; ++n) {
+        at_high *= high;
+        at_low *= low;
+      }
+      sum[k] += w[i] * (at_high - at_low) / static_cast<double>(k + i + 1);
+    }
+  }
+  return sum;
+}
+
+/// The dual cell goes from `low` to `high`.
+constexpr AxisBasis make_basis(int first, double low, double high, const Weights& weight) {
   AxisBasis basis{};
   basis.first = first;
   basis.weight = weight;
@@ -34,6 +53,7 @@ constexpr AxisBasis make_basis(int first, const Weights& weight) {
     basis.of_weight[a] = product(weight[a], std::array{1.0});
     basis.of_slope[a] = product(basis.slope[a], std::array{1.0});
     basis.of_distance[a] = product(weight[a], std::array{static_cast<double>(first) + static_cast<double>(a), -1.0});
+    basis.integral[a] = integrals(weight[a], low, high);
   }
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t b = 0; b < 3; ++b) {
@@ -48,9 +68,9 @@ constexpr AxisBasis make_basis(int first, const Weights& weight) {
 
 }  // namespace
 
-constinit const AxisBasis low_wall_basis = make_basis(0, {{{1, -1, 0}, {0, 1, 0}, {0, 0, 0}}});
-constinit const AxisBasis high_wall_basis = make_basis(-2, {{{0, 0, 0}, {0, -1, 0}, {1, 1, 0}}});
+constinit const AxisBasis low_wall_basis = make_basis(0, 0, 0.5, {{{1, -1, 0}, {0, 1, 0}, {0, 0, 0}}});
+constinit const AxisBasis high_wall_basis = make_basis(-2, -0.5, 0, {{{0, 0, 0}, {0, -1, 0}, {1, 1, 0}}});
 constinit const AxisBasis inner_basis =
-    make_basis(-1, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
+    make_basis(-1, -0.5, 0.5, {{{1. / 8, -1. / 2, 1. / 2}, {3. / 4, 0, -1}, {1. / 8, 1. / 2, 1. / 2}}});
 
 }  // namespace minamo

@@ -39,6 +39,8 @@ struct AxisBasis {
   NodeProducts of_weight;
   NodeProducts of_slope;
   NodeProducts of_distance;
+  /// Integrals over the dual cell of w_a xi^k at [a][k], in units of h.
+  NodeProducts integral;
 
   double value(std::size_t a, double xi) const { return weight[a][0] + xi * (weight[a][1] + xi * weight[a][2]); }
   double derivative(std::size_t a, double xi) const { return slope[a][0] + xi * slope[a][1]; }

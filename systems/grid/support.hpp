@@ -29,10 +29,14 @@ inline void for_each_support(const Body& body) {
   }
 }
 
+/// The weights in a dual cell, one axis at a time.
+template <int Dim>
+using CellBasis = std::array<const AxisBasis*, static_cast<std::size_t>(Dim)>;
+
 /// Where the nodes of a dual cell are.
 template <int Dim>
 struct SupportBox {
-  std::array<const AxisBasis*, static_cast<std::size_t>(Dim)> basis;
+  CellBasis<Dim> basis;
   Index<Dim> first;    ///< lowest node; -1 at the low end of a periodic axis
   Vec<Dim> centre;     ///< the cell's own node [m]
   Vec<Dim> corner;     ///< the lowest node [m]

@@ -103,6 +103,7 @@ struct Scene {
   std::string integrator;
   double newmark_beta = 0.25;
   double newmark_gamma = 0.5;
+  std::string quadrature;
   std::string stabilization;
   std::string volume;
   double volume_rate = 0.1;

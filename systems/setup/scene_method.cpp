@@ -77,6 +77,10 @@ void read_method(Input& input, const SystemRegistry& registry, Scene& scene) {
   block("stabilization", "pressure stabilization", [](Input& in, Scene& s) {
     s.stabilization = in.choice("scheme", std::vector<std::string>{"oss", "pspg", "vms"}, "stabilization", "pspg");
   });
+  block("quadrature", "integrals of the balances", [](Input& in, Scene& s) {
+    s.quadrature = in.choice("scheme", std::vector<std::string>{"mixed", "particles"},
+                             "exact inside the liquid and by particles at its surface, or by particles alone", "mixed");
+  });
   block("volume", "volume correction", read_volume);
   block("solver", "linear solver", read_solver);
 }

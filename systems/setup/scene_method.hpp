@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Reading of what a scene says about the method: transfer, integrator, stabilization, volume, solver.
+/// Reading of what a scene says about the method: transfer, integrator, stabilization, quadrature, volume, solver.
 
 #include "systems/setup/scene.hpp"
 

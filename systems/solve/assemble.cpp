@@ -1,6 +1,6 @@
 #include "systems/solve/assemble.hpp"
 
-#include "systems/solve/cell_matrix.hpp"
+#include "systems/solve/slope_matrices.hpp"
 
 namespace minamo {
 
@@ -12,12 +12,12 @@ void AssembleDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCell
   clear_rows(rows);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
-    std::array<CellMatrix<Dim>, Dim> slopes;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      slopes[d] = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, -1, static_cast<int>(d)));
-    }
+    SlopeMatrices<Dim> matrices(support, *moments, c);
+    std::array<const CellMatrix<Dim>*, Dim> slopes;
+    for (std::size_t d = 0; d < Dim; ++d) slopes[d] = &matrices.weight_slope(d);
+    const double scale = matrices.volume() * support.per_spacing;
     for_each_pair<Dim>(support, row.span(), Dim, rows, [&](std::size_t pair, std::size_t, double* entries) {
-      for (std::size_t d = 0; d < Dim; ++d) entries[d] += support.per_spacing * slopes[d][pair];
+      for (std::size_t d = 0; d < Dim; ++d) entries[d] += scale * (*slopes[d])[pair];
     });
   });
 }
@@ -30,12 +30,14 @@ void AssembleLaplacian<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells
   clear_rows(rows);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
+    SlopeMatrices<Dim> matrices(support, *moments, c);
     CellMatrix<Dim> sum{};
-    for (int d = 0; d < Dim; ++d) {
-      const auto matrix = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support, d, d));
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const CellMatrix<Dim>& matrix = matrices.slope_slope(d, d);
       for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += matrix[k];
     }
-    add_to_rows<Dim>(support, row.span(), sum, support.per_spacing * support.per_spacing, 1, 0, rows);
+    const double scale = matrices.volume() * support.per_spacing * support.per_spacing;
+    add_to_rows<Dim>(support, row.span(), sum, scale, 1, 0, rows);
   });
 }
 
@@ -55,27 +57,6 @@ void LaplacianFromViscosity<Dim>::operator()(Read<Fluid> fluid, Read<matrix::Vis
       256);
 }
 
-namespace {
-
-/// sum_p V_p of slope of I in direction i times slope of J in direction j, for i <= j.
-template <int Dim>
-struct SlopeProducts {
-  std::array<std::array<CellMatrix<Dim>, Dim>, Dim> of;
-
-  SlopeProducts(const Support<Dim>& support, const std::array<double, stencil_size<Dim>>& moments) {
-    for (std::size_t i = 0; i < Dim; ++i) {
-      for (std::size_t j = i; j < Dim; ++j) {
-        of[i][j] = integrate<Dim>(moments, slope_factors<Dim>(support, static_cast<int>(i), static_cast<int>(j)));
-      }
-    }
-  }
-  double operator()(std::size_t i, std::size_t j, std::size_t pair, std::size_t back) const {
-    return i <= j ? of[i][j][pair] : of[j][i][back];
-  }
-};
-
-}  // namespace
-
 template <int Dim>
 void AssembleViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                                         Read<Moments<Dim>> moments, Read<Fluid> fluid, Read<node::Row> row,
@@ -84,15 +65,22 @@ void AssembleViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells
   clear_rows(rows);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
-    const double scale = fluid->viscosity * support.per_spacing * support.per_spacing;
-    const SlopeProducts<Dim> products(support, moments->of_cell[c]);
+    SlopeMatrices<Dim> matrices(support, *moments, c);
+    std::array<std::array<const CellMatrix<Dim>*, Dim>, Dim> slopes{};
+    for (std::size_t i = 0; i < Dim; ++i) {
+      for (std::size_t j = i; j < Dim; ++j) slopes[i][j] = &matrices.slope_slope(i, j);
+    }
+    const double scale = matrices.volume() * fluid->viscosity * support.per_spacing * support.per_spacing;
     for_each_pair<Dim>(support, row.span(), Dim * Dim, rows, [&](std::size_t pair, std::size_t back, double* entries) {
+      const auto products = [&](std::size_t i, std::size_t j) {
+        return i <= j ? (*slopes[i][j])[pair] : (*slopes[j][i])[back];
+      };
       double laplacian = 0;
-      for (std::size_t d = 0; d < Dim; ++d) laplacian += products(d, d, pair, back);
+      for (std::size_t d = 0; d < Dim; ++d) laplacian += products(d, d);
       for (std::size_t i = 0; i < Dim; ++i) {
         for (std::size_t j = 0; j < Dim; ++j) {
           const double own = i == j ? laplacian : 0;
-          entries[Dim * i + j] += scale * (products(j, i, pair, back) + own);
+          entries[Dim * i + j] += scale * (products(j, i) + own);
         }
       }
     });

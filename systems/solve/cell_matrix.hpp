@@ -8,11 +8,11 @@ namespace minamo {
 
 /// The pair factors with a slope of I in direction i and a slope of J in direction j; -1: no slope.
 template <int Dim>
-PairFactors<Dim> slope_factors(const Support<Dim>& support, int slope_of_i, int slope_of_j) {
+PairFactors<Dim> slope_factors(const CellBasis<Dim>& cell, int slope_of_i, int slope_of_j) {
   PairFactors<Dim> factors;
   for (int d = 0; d < Dim; ++d) {
     const auto axis = static_cast<std::size_t>(d);
-    const AxisBasis& basis = *support.basis[axis];
+    const AxisBasis& basis = *cell[axis];
     const auto& without_j = d == slope_of_i ? basis.slope_weight : basis.weight_weight;
     const auto& with_j = d == slope_of_i ? basis.slope_slope : basis.weight_slope;
     factors[axis] = d == slope_of_j ? &with_j : &without_j;

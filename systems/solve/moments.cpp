@@ -1,5 +1,8 @@
 #include "systems/solve/moments.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace minamo {
 
 namespace {
@@ -11,13 +14,13 @@ std::array<double, product_powers> powers(double xi) {
 }
 
 /// out[N g + q][r] = sum_k factor(q, k) in[g][k rest + r]: contracts the slowest direction of every group.
-template <std::size_t Rest, std::size_t N, class Factor>
+template <std::size_t Rest, std::size_t N, std::size_t In = product_powers, class Factor>
 void contract(std::size_t groups, const Factor& factor, const double* in, double* out) {
-  for (std::size_t g = 0; g < groups; ++g, in += product_powers * Rest) {
+  for (std::size_t g = 0; g < groups; ++g, in += In * Rest) {
     for (std::size_t q = 0; q < N; ++q, out += Rest) {
       for (std::size_t r = 0; r < Rest; ++r) {
         double sum = 0;
-        for (std::size_t k = 0; k < product_powers; ++k) sum += factor(q, k) * in[k * Rest + r];
+        for (std::size_t k = 0; k < In; ++k) sum += factor(q, k) * in[k * Rest + r];
         out[r] = sum;
       }
     }
@@ -55,39 +58,106 @@ void contract_plane(const AxisBasis::PairProducts& factor_x, const AxisBasis::Pa
 
 }  // namespace
 
+namespace {
+
+/// Adds V xi^a eta^b zeta^c.
+template <int Dim>
+[[gnu::always_inline]] inline void add_point(const Vec<Dim>& xi, double volume, CellMoments<Dim>& sum) {
+  const auto x = powers(xi[0]);
+  const auto y = powers(xi[1]);
+  std::array<double, 25> xy;
+  for (std::size_t b = 0; b < 5; ++b) {
+    for (std::size_t a = 0; a < 5; ++a) xy[5 * b + a] = volume * y[b] * x[a];
+  }
+  if constexpr (Dim == 3) {
+    const auto z = powers(xi[2]);
+    for (std::size_t c = 0; c < 5; ++c) {
+      for (std::size_t ab = 0; ab < 25; ++ab) sum[25 * c + ab] += z[c] * xy[ab];
+    }
+  } else {
+    for (std::size_t ab = 0; ab < 25; ++ab) sum[ab] += xy[ab];
+  }
+}
+
+/// The part of (E68) that the particles of a cell bring.
+template <int Dim>
+CellMoments<Dim> sum_beside(const Support<Dim>& support, const std::array<double, support_size<Dim>>& theta,
+                            const typename OccupiedCells<Dim>::Cell& cell, double per_density,
+                            std::span<const Vec<Dim>> y_p, std::span<const double> m_p) {
+  CellMoments<Dim> sum{};
+  for (std::size_t p = cell.begin; p < cell.end; ++p) {
+    const Weights<Dim> weights(support, y_p[p]);
+    double share = 1;
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { share -= theta[k] * weights(offset); });
+    add_point<Dim>((y_p[p] - support.centre) * support.per_spacing, share * m_p[p] * per_density, sum);
+  }
+  return sum;
+}
+
+}  // namespace
+
 template <int Dim>
 void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
                                     Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
                                     Write<Moments<Dim>> moments) const {
   moments->of_cell.resize(cells->cells.size());
+  moments->is_full.assign(cells->cells.size(), 0);
   const double per_density = 1 / fluid->density;
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Vec<Dim> centre = grid->position(cell.node);
-    std::array<double, stencil_size<Dim>> sum{};
+    CellMoments<Dim> sum{};
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Vec<Dim> xi = (y_p[p] - centre) / grid->spacing;
-      const double volume = m_p[p] * per_density;
-      const auto x = powers(xi[0]);
-      const auto y = powers(xi[1]);
-      std::array<double, 25> xy;
-      for (std::size_t b = 0; b < 5; ++b) {
-        for (std::size_t a = 0; a < 5; ++a) xy[5 * b + a] = volume * y[b] * x[a];
-      }
-      if constexpr (Dim == 3) {
-        const auto z = powers(xi[2]);
-        for (std::size_t c3 = 0; c3 < 5; ++c3) {
-          for (std::size_t ab = 0; ab < 25; ++ab) sum[25 * c3 + ab] += z[c3] * xy[ab];
-        }
-      } else {
-        for (std::size_t ab = 0; ab < 25; ++ab) sum[ab] += xy[ab];
-      }
+      add_point<Dim>((y_p[p] - centre) / grid->spacing, m_p[p] * per_density, sum);
     }
     moments->of_cell[c] = sum;
   });
 }
 
 template <int Dim>
-CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors) {
+void GatherMomentsMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
+                                         Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                         Read<node::Fullness> theta_i, Write<Moments<Dim>> moments) const {
+  moments->of_cell.resize(cells->cells.size());
+  moments->is_full.resize(cells->cells.size());
+  const double cell_volume = std::pow(grid->spacing, Dim);
+  for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+    const Support<Dim> support(*grid, cell);
+    std::array<double, support_size<Dim>> theta;
+    for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = theta_i[support.node[k]];
+    const auto [least, most] = std::minmax_element(theta.begin(), theta.end());
+    moments->is_full[c] = *least == 1;
+    CellMoments<Dim> sum{};
+    if (*least < 1) sum = sum_beside<Dim>(support, theta, cell, 1 / fluid->density, y_p.span(), m_p.span());
+    if (*most > 0) {
+      const CellMoments<Dim> inside = integrate_theta<Dim>(support.basis, theta);
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += cell_volume * inside[k];
+    }
+    moments->of_cell[c] = sum;
+  });
+}
+
+template <int Dim>
+CellMoments<Dim> integrate_theta(const CellBasis<Dim>& basis, const std::array<double, support_size<Dim>>& theta) {
+  const auto factor_of = [&](std::size_t d) {
+    return [&f = basis[d]->integral](std::size_t q, std::size_t k) { return f[k][q]; };
+  };
+  CellMoments<Dim> done;
+  if constexpr (Dim == 2) {
+    std::array<double, 5 * 3> y_done;
+    contract<3, 5, 3>(1, factor_of(1), theta.data(), y_done.data());
+    contract<1, 5, 3>(5, factor_of(0), y_done.data(), done.data());
+  } else {
+    std::array<double, 5 * 9> z_done;
+    std::array<double, 25 * 3> y_done;
+    contract<9, 5, 3>(1, factor_of(2), theta.data(), z_done.data());
+    contract<3, 5, 3>(5, factor_of(1), z_done.data(), y_done.data());
+    contract<1, 5, 3>(25, factor_of(0), y_done.data(), done.data());
+  }
+  return done;
+}
+
+template <int Dim>
+CellMatrix<Dim> integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors) {
   CellMatrix<Dim> done;
   if constexpr (Dim == 2) {
     contract_plane(*factors[0], *factors[1], moments.data(), done.data());
@@ -104,7 +174,7 @@ CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, 
 }
 
 template <int Dim>
-CellVector<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const NodeFactors<Dim>& factors) {
+CellVector<Dim> integrate(const CellMoments<Dim>& moments, const NodeFactors<Dim>& factors) {
   const auto factor_of = [&](std::size_t d) {
     return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[q][k]; };
   };
@@ -146,10 +216,14 @@ const PairPlaces<Dim>& pair_places() {
 
 template struct GatherMoments<2>;
 template struct GatherMoments<3>;
-template CellMatrix<2> integrate<2>(const std::array<double, 25>&, const PairFactors<2>&);
-template CellMatrix<3> integrate<3>(const std::array<double, 125>&, const PairFactors<3>&);
-template CellVector<2> integrate<2>(const std::array<double, 25>&, const NodeFactors<2>&);
-template CellVector<3> integrate<3>(const std::array<double, 125>&, const NodeFactors<3>&);
+template struct GatherMomentsMixed<2>;
+template struct GatherMomentsMixed<3>;
+template CellMoments<2> integrate_theta<2>(const CellBasis<2>&, const std::array<double, 9>&);
+template CellMoments<3> integrate_theta<3>(const CellBasis<3>&, const std::array<double, 27>&);
+template CellMatrix<2> integrate<2>(const CellMoments<2>&, const PairFactors<2>&);
+template CellMatrix<3> integrate<3>(const CellMoments<3>&, const PairFactors<3>&);
+template CellVector<2> integrate<2>(const CellMoments<2>&, const NodeFactors<2>&);
+template CellVector<3> integrate<3>(const CellMoments<3>&, const NodeFactors<3>&);
 template const PairPlaces<2>& pair_places<2>();
 template const PairPlaces<3>& pair_places<3>();
 

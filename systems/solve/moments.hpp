@@ -8,18 +8,39 @@
 
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
+#include "components/node.hpp"
 #include "components/particle.hpp"
 #include "engine/system.hpp"
 #include "systems/grid/support.hpp"
 
 namespace minamo {
 
-/// (E19)  M_abc = sum_p V_p xi^a eta^b zeta^c over the particles of a cell.
+/// (E19)  M_abc = sum_p V_p xi^a eta^b zeta^c over the particles of a cell: they are the points of the quadrature.
 template <int Dim>
 struct GatherMoments {
   static constexpr std::string_view doc = "(E19) moments of dual cells";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
                   Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p, Write<Moments<Dim>> moments) const;
+};
+
+/// Of one cell, at [a + 5 b + 25 c].
+template <int Dim>
+using CellMoments = std::array<double, stencil_size<Dim>>;
+
+/// (E68)  The integral over a dual cell of theta xi^a eta^b zeta^c, theta = sum_J theta_J S_J, in units of h.
+template <int Dim>
+CellMoments<Dim> integrate_theta(const CellBasis<Dim>& basis, const std::array<double, support_size<Dim>>& theta);
+
+/// (E68)  M_abc = sum_p V_p (1 - theta(y_p)) xi^a eta^b zeta^c + the integral over the cell of theta xi^a eta^b zeta^c,
+/// theta = sum_J theta_J S_J of (E67): particles are the points of the quadrature where there is a surface, and nothing
+/// depends on where they are inside the liquid. Mixed integration is known from L. Beuth, Z. Wieckowski, P. A. Vermeer,
+/// IJNAMG 35 (2011) 1451, doi:10.1002/nag.965, cell by cell; the smooth passage from one to the other is ours.
+template <int Dim>
+struct GatherMomentsMixed {
+  static constexpr std::string_view doc = "(E68) moments of dual cells, mixed quadrature";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
+                  Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p, Read<node::Fullness> theta_i,
+                  Write<Moments<Dim>> moments) const;
 };
 
 /// sum_p V_p f_I g_J for the node pairs of a cell at PairPlaces::in_cell, f and g products of weights and slopes.
@@ -32,7 +53,7 @@ using PairFactors = std::array<const AxisBasis::PairProducts*, static_cast<std::
 
 /// (E20)  The cell matrix of a product of pair factors, in units of h.
 template <int Dim>
-CellMatrix<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const PairFactors<Dim>& factors);
+CellMatrix<Dim> integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors);
 
 /// sum_p V_p f_I for the nodes of a cell, in the order of its support.
 template <int Dim>
@@ -44,7 +65,7 @@ using NodeFactors = std::array<const AxisBasis::NodeProducts*, static_cast<std::
 
 /// (E20)  The same for single nodes, in units of h.
 template <int Dim>
-CellVector<Dim> integrate(const std::array<double, stencil_size<Dim>>& moments, const NodeFactors<Dim>& factors);
+CellVector<Dim> integrate(const CellMoments<Dim>& moments, const NodeFactors<Dim>& factors);
 
 /// Where the pair of nodes I, J of a support stands in a CellMatrix, and where J stands in the stencil of I.
 template <int Dim>

@@ -51,36 +51,65 @@ struct Sums {
 };
 
 template <int Dim>
-Sums<Dim> sum_over_particles(scene_run::SceneRun& run, double time) {
+Sums<Dim> no_sums(const Grid<Dim>& grid) {
+  const auto n = static_cast<Eigen::Index>(grid.node_count());
+  return {Eigen::VectorXd::Zero(n), std::vector<Vec<Dim>>(grid.node_count(), Vec<Dim>::Zero()),
+          Eigen::MatrixXd::Zero(n, Dim * n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(Dim * n, Dim * n)};
+}
+
+/// What a point of the quadrature with volume V adds to the matrices.
+template <int Dim>
+void add_point(double V, const kernels::PlainWeights<Dim>& w, double viscosity, Sums<Dim>& s) {
+  const auto n = static_cast<Eigen::Index>(w.value.size());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double S_i = w.value[static_cast<std::size_t>(i)];
+    const Vec<Dim> G_i = w.gradient[static_cast<std::size_t>(i)];
+    if (S_i == 0 && G_i.norm() == 0) continue;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Vec<Dim> G_j = w.gradient[static_cast<std::size_t>(j)];
+      s.divergence.template block<1, Dim>(i, Dim * j) += V * S_i * G_j.transpose();
+      s.laplacian(i, j) += V * G_i.dot(G_j);
+      s.friction.template block<Dim, Dim>(Dim * i, Dim * j) +=
+          viscosity * V * (G_i.dot(G_j) * Mat<Dim>::Identity() + G_j * G_i.transpose());
+    }
+  }
+}
+
+/// sum_J theta_J S_J of (E67) at a point; none where the particles are the quadrature.
+template <int Dim>
+double theta_at(scene_run::SceneRun& run, const kernels::PlainWeights<Dim>& w) {
+  if (run.scene().quadrature == "particles") return 0;
+  const auto theta = kernels::on_grid<Dim, node::Fullness>(run.world());
+  double sum = 0;
+  for (std::size_t i = 0; i < theta.size(); ++i) sum += theta[i] * w.value[i];
+  return sum;
+}
+
+template <int Dim>
+Sums<Dim> sum_over_points(scene_run::SceneRun& run, double time) {
   World& world = run.world();
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
-  const auto n = static_cast<Eigen::Index>(grid.node_count());
-  Sums<Dim> s{Eigen::VectorXd::Zero(n), std::vector<Vec<Dim>>(grid.node_count(), Vec<Dim>::Zero()),
-              Eigen::MatrixXd::Zero(n, Dim * n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(Dim * n, Dim * n)};
+  const double viscosity = run.scene().viscosity;
+  Sums<Dim> s = no_sums<Dim>(grid);
   const auto y_p = world.column<particle::Configuration<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     const kernels::PlainWeights<Dim> w(grid, y_p[p]);
-    const double V = m_p[p] / run.scene().density;
     std::array<double, 4> xyzt{0, 0, 0, time};
     for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = y_p[p][d];
     Vec<Dim> b;
     for (int d = 0; d < Dim; ++d) b[d] = run.scene().body_force[static_cast<std::size_t>(d)](xyzt);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double S_i = w.value[static_cast<std::size_t>(i)];
-      const Vec<Dim> G_i = w.gradient[static_cast<std::size_t>(i)];
-      if (S_i == 0 && G_i.norm() == 0) continue;
-      s.mass[i] += m_p[p] * S_i;
-      s.force[static_cast<std::size_t>(i)] += m_p[p] * S_i * b;
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const Vec<Dim> G_j = w.gradient[static_cast<std::size_t>(j)];
-        s.divergence.template block<1, Dim>(i, Dim * j) += V * S_i * G_j.transpose();
-        s.laplacian(i, j) += V * G_i.dot(G_j);
-        s.friction.template block<Dim, Dim>(Dim * i, Dim * j) +=
-            run.scene().viscosity * V * (G_i.dot(G_j) * Mat<Dim>::Identity() + G_j * G_i.transpose());
-      }
+    for (std::size_t i = 0; i < w.value.size(); ++i) {
+      s.mass[static_cast<Eigen::Index>(i)] += m_p[p] * w.value[i];
+      s.force[i] += m_p[p] * w.value[i] * b;
     }
+    add_point<Dim>((1 - theta_at<Dim>(run, w)) * m_p[p] / run.scene().density, w, viscosity, s);
   }
+  kernels::for_each_gauss_point<Dim>(grid, [&](double V, const Vec<Dim>& x) {
+    const kernels::PlainWeights<Dim> w(grid, x);
+    const double theta = theta_at<Dim>(run, w);
+    if (theta != 0) add_point<Dim>(theta * V, w, viscosity, s);
+  });
   return s;
 }
 
@@ -135,7 +164,7 @@ template <int Dim>
 Equations assemble(scene_run::SceneRun& run) {
   World& world = run.world();
   const Kinematics<Dim> kin(run);
-  const Sums<Dim> s = sum_over_particles<Dim>(run, kin.time);
+  const Sums<Dim> s = sum_over_points<Dim>(run, kin.time);
   const auto row = kernels::on_grid<Dim, node::Row>(world, -1);
   const auto fixed = kernels::on_grid<Dim, node::Fixed>(world);
   const double dt = world.resource<Clock>().step;

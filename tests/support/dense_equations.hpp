@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The equations of a step once more: (F12), (F13) of the formulation as plain loops over particles and all pairs of
-/// nodes into a dense matrix. Taken from the world after a step: y_p, m_p, v_I^n, a_I^n and who is active; nothing
-/// else.
+/// The equations of a step once more: (F12), (F13) of the formulation as plain loops over particles (with mixed
+/// quadrature over Gauss points, too) and all pairs of nodes into a dense matrix. Taken from the world after a step:
+/// y_p, m_p, v_I^n, a_I^n, theta_I and who is active; nothing else.
 
 #include "support/scene_run.hpp"
 

@@ -13,6 +13,7 @@ inline Json paper(Json scene) {
   scene["transfer"] = {{"scheme", "tpic"}, {"inertia", "lumped"}};
   scene["integrator"] = {{"scheme", "newmark"}};
   scene["stabilization"] = {{"scheme", "pspg"}};
+  scene["quadrature"] = {{"scheme", "particles"}};
   scene["volume"] = {{"scheme", "none"}};
   scene["solver"] = {{"scheme", "umfpack"}};
   return scene;

@@ -9,6 +9,7 @@ from typing import Any
 DEFAULTS = {
     "/transfer": {"scheme": "tpic"},
     "/integrator": {"scheme": "midpoint"},
+    "/quadrature": {"scheme": "mixed"},
     "/volume": {"scheme": "projection"},
     "/solver": {"scheme": "block"},
 }

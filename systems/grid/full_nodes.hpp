@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// Where the liquid fills the space around a node, so that integrals need no particles.
+
+#include "components/cells.hpp"
+#include "components/fluid.hpp"
+#include "components/grid.hpp"
+#include "components/node.hpp"
+#include "engine/system.hpp"
+
+namespace minamo {
+
+/// (E67)  phi_I = m_I/(rho V_I), V_I (E39), 0 if no particle is in the dual cell of I;
+/// theta_I = min(1, max(0, (f_I - 0.9)/0.07)), f_I the least phi_J of the nodes of the dual cell of I.
+template <int Dim>
+struct FindFullNodes {
+  static constexpr std::string_view doc = "(E67) nodes that the liquid fills";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid, Read<node::Mass> m_i,
+                  Write<node::Filling> phi_i, Write<node::Fullness> theta_i) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,171 @@
+#include "support/dense_equations.hpp"
+#include "support/kernels.hpp"
+#include "support/scenes.hpp"
+
+#include "systems/grid/activate.hpp"
+#include "systems/grid/full_nodes.hpp"
+#include "systems/solve/assemble.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace minamo;
+using namespace minamo::kernels;
+using namespace minamo::scene_run;
+
+namespace {
+
+constexpr double density = 1000;
+
+/// A lattice of 4 particles per cell and direction, each moved by up to `shift` of its distance to the next, below
+/// x = `surface` cells: cells at walls and away from them, full ones, ones at the surface, empty ones.
+template <int Dim>
+void fill_lattice(World& world, double shift, double surface, std::uint64_t seed) {
+  const Grid<Dim> grid = small_grid<Dim>();
+  set_grid<Dim>(world, grid);
+  world.resource<Fluid>() = {density, 0};
+  constexpr int per_cell = 4;
+  const double apart = grid.spacing / per_cell;
+  Random random(seed);
+  std::vector<Vec<Dim>> places;
+  Index<Dim> count;
+  for (int d = 0; d < Dim; ++d) count[static_cast<std::size_t>(d)] = per_cell * grid.cells[static_cast<std::size_t>(d)];
+  count[0] = static_cast<int>(per_cell * surface);
+  const auto add_row = [&](auto&& self, Index<Dim> at, std::size_t d) -> void {
+    for (at[d] = 0; at[d] < count[d]; ++at[d]) {
+      if (d > 0) {
+        self(self, at, d - 1);
+        continue;
+      }
+      Vec<Dim> x = grid.low;
+      for (int e = 0; e < Dim; ++e) x[e] += apart * (at[static_cast<std::size_t>(e)] + 0.5 + shift * random(-0.5, 0.5));
+      places.push_back(x);
+    }
+  };
+  add_row(add_row, Index<Dim>{}, Dim - 1);
+  world.resize<Particles>(places.size());
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto m_p = world.column<particle::Mass>();
+  const auto id = world.column<particle::Id>();
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    y_p[p] = places[p];
+    m_p[p] = density * std::pow(apart, Dim);
+    id[p] = static_cast<std::int64_t>(p);
+  }
+  sort<Dim>(world);
+  run<P2GMass<Dim>>(world);
+  run<FindFullNodes<Dim>>(world);
+}
+
+/// A tank with jittered particles that fill it up to 4.75 of 7 cells: walls, full cells, a surface.
+template <int Dim>
+Json tank() {
+  Json scene = Json::parse(R"({"fluid": {"density": 1000, "viscosity": 2},
+    "transfer": {"scheme": "tpic", "inertia": "lumped"}, "solver": {"scheme": "umfpack"},
+    "time": {"end": 1, "step": 1e-3}})");
+  const std::vector<double> low(Dim, 0);
+  const std::vector<double> high = Dim == 2 ? std::vector{0.7, 0.5} : std::vector{0.7, 0.5, 0.4};
+  const std::vector<int> cells = Dim == 2 ? std::vector{7, 5} : std::vector{7, 5, 4};
+  scene["dimension"] = Dim;
+  scene["grid"] = {{"low", low}, {"high", high}, {"cells", cells}};
+  scene["body_force"] = Dim == 2 ? Json{-9.81, 0} : Json{-9.81, 0, 0};
+  scene["particles"] = {{{"shape", {{"where", "x < 0.475"}}}, {"per_cell", 4}, {"arrangement", "jittered"}}};
+  return scene;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("theta of a node is that of the least filled node around it", "[property]", ((int Dim), Dim), 2,
+                       3) {
+  World world;
+  fill_lattice<Dim>(world, 0.2, 4.75, 31);
+  const Grid<Dim> grid = small_grid<Dim>();
+  const auto theta = on_grid<Dim, node::Fullness>(world);
+  const auto m_i = on_grid<Dim, node::Mass>(world);
+  std::size_t full = 0;
+  std::size_t partly = 0;
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    const Index<Dim> own = grid.index(i);
+    double least = 1;
+    for_each_support<Dim>([&](std::size_t, const Index<Dim>& offset) {
+      Index<Dim> at;
+      double volume = 1;
+      for (std::size_t d = 0; d < at.size(); ++d) {
+        at[d] = std::clamp(own[d], 1, grid.cells[d] - 1) + offset[d] - 1;
+        const int from_wall = std::min(at[d], grid.cells[d] - at[d]);
+        volume *= grid.spacing * (from_wall == 0 ? 13. / 24 : from_wall == 1 ? 23. / 24 : 1);
+      }
+      least = std::min(least, m_i[grid.row(at)] / (density * volume));
+    });
+    CAPTURE(i, least);
+    CHECK(theta[i] == Approx(std::clamp((least - 0.9) / 0.07, 0., 1.)).margin(1e-9));
+    full += theta[i] == 1;
+    partly += theta[i] > 0 && theta[i] < 1;
+    // The surface lies 4.75 cells from the wall; node 5 is not full.
+    if (own[0] >= 4) CHECK(theta[i] == 0);
+  }
+  CHECK(full > 0);
+  CHECK(partly > 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("mixed quadrature is the integral of theta and the sum of 1 - theta over particles",
+                       "[property]", ((int Dim), Dim), 2, 3) {
+  const std::string integrator = GENERATE("midpoint", "newmark");
+  SceneRun run(with(tank<Dim>(), {R"(/integrator={"scheme": ")" + integrator + "\"}"}));
+  run.step();
+  const auto theta = run.world().template column<node::Fullness>();
+  CHECK(std::count(theta.begin(), theta.end(), 0) > 0);
+  CHECK(std::count(theta.begin(), theta.end(), 1) > 0);
+  CHECK(std::count_if(theta.begin(), theta.end(), [](double t) { return t > 0 && t < 1; }) > 0);
+  const auto got = dense::as_assembled(run.world());
+  const auto expected = dense::assemble<Dim>(run);
+  REQUIRE(got.matrix.rows() == expected.matrix.rows());
+  // Moments of degree 4, whose terms cancel: some hundred roundings, as for sums over particles alone.
+  const auto differs = [](const auto& a, const auto& b) { return (a - b).norm() / b.norm(); };
+  CHECK(differs(got.matrix, expected.matrix) < 1e-12);
+  CHECK(differs(got.right_hand_side, expected.right_hand_side) < 1e-12);
+}
+
+TEMPLATE_TEST_CASE_SIG("inside the liquid matrices do not depend on where the particles are", "[property]",
+                       ((int Dim), Dim), 2, 3) {
+  const auto rows_of = [](std::uint64_t seed) {
+    World world;
+    fill_lattice<Dim>(world, 0.3, 7, seed);
+    run<Activate<Dim>>(world);
+    run<GatherMomentsMixed<Dim>>(world);
+    run<AssembleLaplacian<Dim>>(world);
+    const auto L = world.column<matrix::Laplacian<Dim>>();
+    return std::vector(L.begin(), L.end());
+  };
+  // The box is full: every cell is.
+  CHECK(rows_of(33) == rows_of(34));
+}
+
+TEMPLATE_TEST_CASE_SIG("where nothing is full, mixed quadrature is that of the particles", "[property]",
+                       ((int Dim), Dim), 2, 3) {
+  World world;
+  fill<Dim>(world, 300, 35);
+  world.resource<Fluid>() = {1e9, 0};  // the particles have hardly any volume
+  run<FindFullNodes<Dim>>(world);
+  run<GatherMomentsMixed<Dim>>(world);
+  const auto mixed = world.resource<Moments<Dim>>();
+  run<GatherMoments<Dim>>(world);
+  const auto& sums = world.resource<Moments<Dim>>();
+  double worst = 0;
+  for (std::size_t c = 0; c < sums.of_cell.size(); ++c) {
+    for (std::size_t k = 0; k < sums.of_cell[c].size(); ++k) {
+      worst = std::max(worst, std::abs(mixed.of_cell[c][k] - sums.of_cell[c][k]) / sums.of_cell[c][0]);
+    }
+  }
+  CHECK(worst < 1e-14);
+  CHECK(std::count(mixed.is_full.begin(), mixed.is_full.end(), 1) == 0);
+}
+
+TEST_CASE("the integral ends where dual cells hold no particle", "[property]") {
+  // One particle in the middle of every cell lies in the corner of a dual cell: those at the low walls have none.
+  SceneRun run(with(tank<2>(), {R"(/particles=[{"shape": {"where": "1"}, "per_cell": 1}])"}));
+  run.step();
+  const auto theta = run.world().column<node::Fullness>();
+  CHECK(std::count(theta.begin(), theta.end(), 1) > 0);
+  CHECK((dense::as_assembled(run.world()).matrix - dense::assemble<2>(run).matrix).norm() <
+        1e-12 * dense::assemble<2>(run).matrix.norm());
+}
