@@ -13,11 +13,11 @@ void AssembleDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCell
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
     SlopeMatrices<Dim> matrices(support, *moments, c);
-    std::array<const CellMatrix<Dim>*, Dim> slopes;
-    for (std::size_t d = 0; d < Dim; ++d) slopes[d] = &matrices.weight_slope(d);
+    std::array<const double*, Dim> slopes;
+    for (std::size_t d = 0; d < Dim; ++d) slopes[d] = matrices.weight_slope(d).data();
     const double scale = matrices.volume() * support.per_spacing;
     for_each_pair<Dim>(support, row.span(), Dim, rows, [&](std::size_t pair, std::size_t, double* entries) {
-      for (std::size_t d = 0; d < Dim; ++d) entries[d] += scale * (*slopes[d])[pair];
+      for (std::size_t d = 0; d < Dim; ++d) entries[d] += scale * slopes[d][pair];
     });
   });
 }
@@ -66,14 +66,14 @@ void AssembleViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
     SlopeMatrices<Dim> matrices(support, *moments, c);
-    std::array<std::array<const CellMatrix<Dim>*, Dim>, Dim> slopes{};
+    std::array<std::array<const double*, Dim>, Dim> slopes{};
     for (std::size_t i = 0; i < Dim; ++i) {
-      for (std::size_t j = i; j < Dim; ++j) slopes[i][j] = &matrices.slope_slope(i, j);
+      for (std::size_t j = i; j < Dim; ++j) slopes[i][j] = matrices.slope_slope(i, j).data();
     }
     const double scale = matrices.volume() * fluid->viscosity * support.per_spacing * support.per_spacing;
     for_each_pair<Dim>(support, row.span(), Dim * Dim, rows, [&](std::size_t pair, std::size_t back, double* entries) {
       const auto products = [&](std::size_t i, std::size_t j) {
-        return i <= j ? (*slopes[i][j])[pair] : (*slopes[j][i])[back];
+        return i <= j ? slopes[i][j][pair] : slopes[j][i][back];
       };
       double laplacian = 0;
       for (std::size_t d = 0; d < Dim; ++d) laplacian += products(d, d);

@@ -157,8 +157,7 @@ CellMoments<Dim> integrate_theta(const CellBasis<Dim>& basis, const std::array<d
 }
 
 template <int Dim>
-CellMatrix<Dim> integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors) {
-  CellMatrix<Dim> done;
+void integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors, CellMatrix<Dim>& done) {
   if constexpr (Dim == 2) {
     contract_plane(*factors[0], *factors[1], moments.data(), done.data());
   } else {
@@ -170,7 +169,6 @@ CellMatrix<Dim> integrate(const CellMoments<Dim>& moments, const PairFactors<Dim
       contract_plane(*factors[0], *factors[1], z_done.data() + plane * z, done.data() + 9 * padded_pairs * z);
     }
   }
-  return done;
 }
 
 template <int Dim>
@@ -220,8 +218,8 @@ template struct GatherMomentsMixed<2>;
 template struct GatherMomentsMixed<3>;
 template CellMoments<2> integrate_theta<2>(const CellBasis<2>&, const std::array<double, 9>&);
 template CellMoments<3> integrate_theta<3>(const CellBasis<3>&, const std::array<double, 27>&);
-template CellMatrix<2> integrate<2>(const CellMoments<2>&, const PairFactors<2>&);
-template CellMatrix<3> integrate<3>(const CellMoments<3>&, const PairFactors<3>&);
+template void integrate<2>(const CellMoments<2>&, const PairFactors<2>&, CellMatrix<2>&);
+template void integrate<3>(const CellMoments<3>&, const PairFactors<3>&, CellMatrix<3>&);
 template CellVector<2> integrate<2>(const CellMoments<2>&, const NodeFactors<2>&);
 template CellVector<3> integrate<3>(const CellMoments<3>&, const NodeFactors<3>&);
 template const PairPlaces<2>& pair_places<2>();

@@ -53,7 +53,13 @@ using PairFactors = std::array<const AxisBasis::PairProducts*, static_cast<std::
 
 /// (E20)  The cell matrix of a product of pair factors, in units of h.
 template <int Dim>
-CellMatrix<Dim> integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors);
+void integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors, CellMatrix<Dim>& done);
+template <int Dim>
+CellMatrix<Dim> integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors) {
+  CellMatrix<Dim> done;
+  integrate<Dim>(moments, factors, done);
+  return done;
+}
 
 /// sum_p V_p f_I for the nodes of a cell, in the order of its support.
 template <int Dim>

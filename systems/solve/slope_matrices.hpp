@@ -28,7 +28,8 @@ class SlopeMatrices {
 
   const CellMatrix<Dim>& at(std::size_t kind, int i, int j) {
     if (full_ != nullptr) return (*full_)[kind];
-    return made_[kind] = integrate<Dim>(*moments_, slope_factors<Dim>(*basis_, i, j));
+    integrate<Dim>(*moments_, slope_factors<Dim>(*basis_, i, j), made_[kind]);
+    return made_[kind];
   }
 
   const CellBasis<Dim>* basis_;
