@@ -41,7 +41,7 @@ struct OccupiedCells {
 template <int Dim>
 struct Moments {
   std::vector<std::array<double, stencil_size<Dim>>> of_cell;
-  std::vector<std::uint8_t> is_full;  ///< 1 where they are those of a cell full of liquid, full_cell()
+  std::vector<std::uint8_t> is_full;  ///< 1 where they are those of a cell full of liquid, (E68)
   static constexpr ComponentInfo info{"cells.moments", "M_c", "m^d", Lifetime::scratch};
 };
 
