@@ -134,8 +134,9 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK where iterat
 TEMPLATE_TEST_CASE_SIG("the block solver solves the discrete equations", "[property]", ((int Dim), Dim), 2, 3) {
   const double viscosity = GENERATE(0.0, 3.0, 1e2);
   CAPTURE(viscosity);
-  SceneRun run(with(lump_and_drop<Dim>(viscosity), {R"(/solver={"scheme": "block", "tolerance": 1e-11})",
-                                                    R"(/transfer={"scheme": "tpic", "inertia": "lumped"})"}));
+  SceneRun run(with(lump_and_drop<Dim>(viscosity),
+                    {R"(/solver={"scheme": "block", "tolerance": 1e-11})", R"(/quadrature={"scheme": "particles"})",
+                     R"(/transfer={"scheme": "tpic", "inertia": "lumped"})"}));
   run.step();
   const auto equations = dense::assemble<Dim>(run);
   const auto& values = run.world().template resource<matrix::Solution>().values;

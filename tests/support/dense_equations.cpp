@@ -60,14 +60,17 @@ Sums<Dim> no_sums(const Grid<Dim>& grid) {
 /// What a point of the quadrature with volume V adds to the matrices.
 template <int Dim>
 void add_point(double V, const kernels::PlainWeights<Dim>& w, double viscosity, Sums<Dim>& s) {
-  const auto n = static_cast<Eigen::Index>(w.value.size());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double S_i = w.value[static_cast<std::size_t>(i)];
-    const Vec<Dim> G_i = w.gradient[static_cast<std::size_t>(i)];
-    if (S_i == 0 && G_i.norm() == 0) continue;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const Vec<Dim> G_j = w.gradient[static_cast<std::size_t>(j)];
-      s.divergence.template block<1, Dim>(i, Dim * j) += V * S_i * G_j.transpose();
+  std::vector<std::size_t> reached;
+  for (std::size_t i = 0; i < w.value.size(); ++i) {
+    if (w.value[i] != 0 || w.gradient[i].norm() != 0) reached.push_back(i);
+  }
+  for (const std::size_t node_i : reached) {
+    for (const std::size_t node_j : reached) {
+      const auto i = static_cast<Eigen::Index>(node_i);
+      const auto j = static_cast<Eigen::Index>(node_j);
+      const Vec<Dim>& G_i = w.gradient[node_i];
+      const Vec<Dim>& G_j = w.gradient[node_j];
+      s.divergence.template block<1, Dim>(i, Dim * j) += V * w.value[node_i] * G_j.transpose();
       s.laplacian(i, j) += V * G_i.dot(G_j);
       s.friction.template block<Dim, Dim>(Dim * i, Dim * j) +=
           viscosity * V * (G_i.dot(G_j) * Mat<Dim>::Identity() + G_j * G_i.transpose());
@@ -75,11 +78,9 @@ void add_point(double V, const kernels::PlainWeights<Dim>& w, double viscosity, 
   }
 }
 
-/// sum_J theta_J S_J of (E67) at a point; none where the particles are the quadrature.
+/// sum_J theta_J S_J of (E67) at a point.
 template <int Dim>
-double theta_at(scene_run::SceneRun& run, const kernels::PlainWeights<Dim>& w) {
-  if (run.scene().quadrature == "particles") return 0;
-  const auto theta = kernels::on_grid<Dim, node::Fullness>(run.world());
+double theta_at(const std::vector<double>& theta, const kernels::PlainWeights<Dim>& w) {
   double sum = 0;
   for (std::size_t i = 0; i < theta.size(); ++i) sum += theta[i] * w.value[i];
   return sum;
@@ -90,6 +91,8 @@ Sums<Dim> sum_over_points(scene_run::SceneRun& run, double time) {
   World& world = run.world();
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   const double viscosity = run.scene().viscosity;
+  const bool mixed = run.scene().quadrature == "mixed";
+  const auto theta = mixed ? kernels::on_grid<Dim, node::Fullness>(world) : std::vector<double>{};
   Sums<Dim> s = no_sums<Dim>(grid);
   const auto y_p = world.column<particle::Configuration<Dim>>();
   const auto m_p = world.column<particle::Mass>();
@@ -103,12 +106,13 @@ Sums<Dim> sum_over_points(scene_run::SceneRun& run, double time) {
       s.mass[static_cast<Eigen::Index>(i)] += m_p[p] * w.value[i];
       s.force[i] += m_p[p] * w.value[i] * b;
     }
-    add_point<Dim>((1 - theta_at<Dim>(run, w)) * m_p[p] / run.scene().density, w, viscosity, s);
+    add_point<Dim>((1 - theta_at<Dim>(theta, w)) * m_p[p] / run.scene().density, w, viscosity, s);
   }
+  if (!mixed) return s;
   kernels::for_each_gauss_point<Dim>(grid, [&](double V, const Vec<Dim>& x) {
     const kernels::PlainWeights<Dim> w(grid, x);
-    const double theta = theta_at<Dim>(run, w);
-    if (theta != 0) add_point<Dim>(theta * V, w, viscosity, s);
+    const double share = theta_at<Dim>(theta, w);
+    if (share != 0) add_point<Dim>(share * V, w, viscosity, s);
   });
   return s;
 }
