@@ -41,6 +41,12 @@ struct VolumeRate {
   static constexpr ComponentInfo info{"volume.rate", "r", "1", Lifetime::constant};
 };
 
+/// Kinetic energy of the particles at the start of the step. [J]
+struct EnergyBefore {
+  double kinetic = 0;
+  static constexpr ComponentInfo info{"step.energy_before", "K^n", "J", Lifetime::scratch};
+};
+
 /// Right-hand side and solution of (E37), kept so that a step does not allocate.
 struct VolumeEquations {
   std::vector<double> right_hand_side;

@@ -19,6 +19,7 @@ struct Needs {
   bool newmark;
   bool corrected_inertia;
   bool viscous;
+  bool body_force;
   bool uniform_force;
   bool ode;
   bool exact_velocity;
@@ -34,6 +35,7 @@ struct Needs {
         newmark(scene.integrator == "newmark"),
         corrected_inertia(scene.corrected_inertia),
         viscous(scene.viscosity > 0),
+        body_force(has_body_force(scene)),
         uniform_force(has_uniform_force(scene)),
         ode(!scene.ode.empty()),
         exact_velocity(!scene.exact.velocity.empty()),
@@ -90,9 +92,15 @@ std::vector<std::string> measure_systems(const Needs& needs, const std::string& 
   return systems;
 }
 
+/// Without a body force nothing is lifted.
+bool limits_shift(const Needs& needs) { return needs.volume == "projection" && needs.body_force; }
+
 std::vector<std::string> volume_systems(const Needs& needs) {
   if (needs.volume == "projection") {
-    return {"gather_node_volume", "find_volume_excess", "solve_volume_" + needs.solver, "shift_particles"};
+    std::vector<std::string> systems{"gather_node_volume", "find_volume_excess", "solve_volume_" + needs.solver};
+    if (limits_shift(needs)) systems.emplace_back("limit_shift");
+    systems.emplace_back("shift_particles");
+    return systems;
   }
   if (needs.volume == "delta") return {"gather_node_volume", "shift_by_delta"};
   return {};
@@ -132,7 +140,8 @@ std::vector<std::string> g2p_systems(const Needs& needs) {
 
 std::vector<Slot> step_slots(const Needs& needs) {
   return {
-      {"configure", {needs.newmark ? "configure_at_start" : "configure_at_middle"}},
+      {"configure", with({needs.newmark ? "configure_at_start" : "configure_at_middle"}, limits_shift(needs),
+                         "keep_kinetic_energy")},
       {"bin", {"bin", "number_nodes"}},
       {"p2g", p2g_systems(needs)},
       {"walls",

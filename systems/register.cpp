@@ -39,6 +39,7 @@
 #include "systems/transfer/tpic2.hpp"
 #include "systems/transfer/xpic.hpp"
 #include "systems/volume/delta.hpp"
+#include "systems/volume/limit_shift.hpp"
 #include "systems/volume/projection.hpp"
 
 namespace minamo {
@@ -127,6 +128,8 @@ void register_systems(SystemRegistry& registry) {
   registry.add<FindVolumeExcess>("find_volume_excess");
   registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
   registry.add<SolveVolumeBlock>("solve_volume_block");
+  registry.add<KeepKineticEnergy>("keep_kinetic_energy");
+  registry.add<LimitShift>("limit_shift");
   registry.add<ShiftParticles>("shift_particles");
   registry.add<ShiftByDelta>("shift_by_delta");
 

@@ -93,8 +93,21 @@ std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid
   return positions;
 }
 
+template <int Dim>
+Vec<Dim> nearer_to_walls(const Grid<Dim>& grid, int per_cell, Vec<Dim> x) {
+  const double part = grid.spacing / per_cell;
+  for (int d = 0; d < Dim; ++d) {
+    if (grid.periodic[static_cast<std::size_t>(d)]) continue;
+    if (x[d] - grid.low[d] < part) x[d] -= part / 24;
+    if (grid.high[d] - x[d] < part) x[d] += part / 24;
+  }
+  return x;
+}
+
 template Index<2> cell_of<2>(const Grid<2>&, const Vec<2>&);
 template Index<3> cell_of<3>(const Grid<3>&, const Vec<3>&);
+template Vec<2> nearer_to_walls<2>(const Grid<2>&, int, Vec<2>);
+template Vec<3> nearer_to_walls<3>(const Grid<3>&, int, Vec<3>);
 template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&, const Instant&);
 template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&, const Instant&);
 

@@ -18,4 +18,8 @@ Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x);
 template <int Dim>
 std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start = {});
 
+/// (E70)  x of a lattice of n per cell and direction; if it is of a row next to a wall, h/(24 n) nearer to the wall.
+template <int Dim>
+Vec<Dim> nearer_to_walls(const Grid<Dim>& grid, int per_cell, Vec<Dim> x);
+
 }  // namespace minamo

@@ -184,6 +184,11 @@ void describe_scene(Input& input, const SystemRegistry& registry) {
   for (const int dimension : {2, 3}) read_scene(input, registry, dimension);
 }
 
+bool has_body_force(const Scene& scene) {
+  return std::any_of(scene.body_force.begin(), scene.body_force.end(),
+                     [](const Expression& b) { return !b.is_constant() || b({}) != 0; });
+}
+
 bool has_uniform_force(const Scene& scene) {
   return std::none_of(scene.body_force.begin(), scene.body_force.end(),
                       [](const Expression& b) { return b.uses("x") || b.uses("y") || b.uses("z"); });

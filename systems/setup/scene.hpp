@@ -123,6 +123,9 @@ Scene read_scene(Input& input, const SystemRegistry& registry);
 /// Reads in description mode, in two and in three dimensions, so that schema and key table hold for both.
 void describe_scene(Input& input, const SystemRegistry& registry);
 
+/// Whether there is a body force at all.
+bool has_body_force(const Scene& scene);
+
 /// Whether the body force is the same everywhere in space.
 bool has_uniform_force(const Scene& scene);
 

@@ -95,19 +95,21 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, const std::string&
   Seeds<Dim> seeds;
   std::unordered_map<std::size_t, double> filled;
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
-    const auto positions = lattice<Dim>(scene.particles[r], grid, start_of(scene));
+    const ParticleScene& region = scene.particles[r];
+    const bool moves = scene.quadrature == "mixed" && !region.jitter;
+    const auto positions = lattice<Dim>(region, grid, start_of(scene));
     const std::string pointer = fmt::format("/particles/{}", r);
     if (positions.empty()) {
       problems.push_back({file, pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
-                          fmt::format("none at {} per cell and direction", scene.particles[r].per_cell), ""});
+                          fmt::format("none at {} per cell and direction", region.per_cell), ""});
     }
-    const double share = std::pow(scene.particles[r].per_cell, -Dim);
+    const double share = std::pow(region.per_cell, -Dim);
     const Vec<Dim>* overlap = nullptr;
     for (const Vec<Dim>& x : positions) {
       double& cell = filled[grid.row(cell_of<Dim>(grid, x))];
       cell += share;
       if (cell > 1 + 1e-9 && !overlap) overlap = &x;
-      seeds.position.push_back(x);
+      seeds.position.push_back(moves ? nearer_to_walls<Dim>(grid, region.per_cell, x) : x);
       seeds.region.push_back(r);
     }
     if (overlap) {

@@ -1,0 +1,51 @@
+#include "systems/volume/limit_shift.hpp"
+
+#include "engine/parallel.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+template <class Value>
+double sum_rows(std::size_t rows, const Value& value) {
+  return reduce_rows(rows, 0.0, value, [](double a, double b) { return a + b; });
+}
+
+template <int Dim>
+double kinetic_energy(std::span<const double> m_p, std::span<const Vec<Dim>> v_p) {
+  return sum_rows(m_p.size(), [&](std::size_t p) { return 0.5 * m_p[p] * v_p[p].squaredNorm(); });
+}
+
+}  // namespace
+
+template <int Dim>
+void KeepKineticEnergy<Dim>::operator()(Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                                        Write<EnergyBefore> before) const {
+  before->kinetic = kinetic_energy<Dim>(m_p.span(), v_p.span());
+}
+
+template <int Dim>
+void LimitShift<Dim>::operator()(Read<Fluid> fluid, Read<EnergyBefore> before, Read<particle::Mass> m_p,
+                                 Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i,
+                                 Read<node::BodyForce<Dim>> b_i, Read<node::Displacement<Dim>> u_i,
+                                 Read<node::Site<Dim>> sites, Read<EndSites<Dim>> end_rows,
+                                 Read<end_node::Volume> end_v_i, Update<node::Shift<Dim>> d_i) const {
+  const double lifted = -sum_rows(d_i.size(), [&](std::size_t i) {
+    const auto end = d_i[i].isZero(0) ? std::nullopt : end_rows->find(sites[i]);
+    return end ? fluid->density * end_v_i[*end] * b_i[i].dot(d_i[i]) : 0.0;
+  });
+  if (lifted <= 0) return;
+  const double work = sum_rows(u_i.size(), [&](std::size_t i) { return m_i[i] * b_i[i].dot(u_i[i]); });
+  const double lost = work - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
+  const double share = std::clamp(lost / lifted, 0.0, 1.0);
+  for_each_row(d_i.size(), [&](std::size_t i) { d_i[i] *= share; });
+}
+
+template struct KeepKineticEnergy<2>;
+template struct KeepKineticEnergy<3>;
+template struct LimitShift<2>;
+template struct LimitShift<3>;
+
+}  // namespace minamo
