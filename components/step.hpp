@@ -37,7 +37,7 @@ struct FilterOrder {
 
 /// Share of the volume excess that is corrected in a step. [1]
 struct VolumeRate {
-  double rate = 0.1;
+  double rate = 0.15;
   static constexpr ComponentInfo info{"volume.rate", "r", "1", Lifetime::constant};
 };
 

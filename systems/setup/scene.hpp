@@ -106,7 +106,7 @@ struct Scene {
   std::string quadrature;
   std::string stabilization;
   std::string volume;
-  double volume_rate = 0.1;
+  double volume_rate = 0.15;
   std::string solver;
   double solver_tolerance = 1e-8;
   TimeScene time;

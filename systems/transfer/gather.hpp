@@ -68,17 +68,24 @@ void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<co
       grid, cells, y_p, [&](std::size_t i) -> const Vec<Dim>& { return q_i[i]; }, use);
 }
 
-/// The value as in (E17) and sum_I q_I (x) w_Ip, where w_Ip is what slope(support, weights) makes of the weights.
-template <int Dim, class Slope, class Use>
-void gather_value_and_slope(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-                            std::span<const Vec<Dim>> q_i, const Slope& slope, const Use& use) {
+/// body(p, support, the nodal field on it) for every particle.
+template <int Dim, class Body>
+void for_each_supported(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> q_i,
+                        const Body& body) {
   for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
     const Support<Dim> support(grid, cell);
     std::array<Vec<Dim>, support_size<Dim>> q;
     for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
-    for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      use(p, interpolate<Dim>(slope(support, Weights<Dim>(support, y_p[p]), y_p[p]), q));
-    }
+    for (std::size_t p = cell.begin; p < cell.end; ++p) body(p, support, q);
+  });
+}
+
+/// The value as in (E17) and sum_I q_I (x) w_Ip, where w_Ip is what slope(support, weights) makes of the weights.
+template <int Dim, class Slope, class Use>
+void gather_value_and_slope(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+                            std::span<const Vec<Dim>> q_i, const Slope& slope, const Use& use) {
+  for_each_supported<Dim>(grid, cells, q_i, [&](std::size_t p, const auto& support, const auto& q) {
+    use(p, interpolate<Dim>(slope(support, Weights<Dim>(support, y_p[p]), y_p[p]), q));
   });
 }
 
@@ -90,23 +97,34 @@ void gather_with_gradient(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
   gather_value_and_slope<Dim>(grid, cells, y_p, q_i, keep, use);
 }
 
+/// S_Ip D_p^-1 (x_I - y_p) in the place of the slopes.
+template <int Dim>
+Weights<Dim> affine_weights(const Support<Dim>& support, Weights<Dim> weights, const Vec<Dim>& y) {
+  for (std::size_t d = 0; d < Dim; ++d) {
+    // In the half cell at a wall w_a (x_a - y)/D is the slope itself, and does not divide by a vanishing D.
+    if (support.basis[d] != &inner_basis) continue;
+    const auto axis = static_cast<Eigen::Index>(d);
+    const double xi = (y[axis] - support.centre[axis]) * support.per_spacing;
+    for (std::size_t a = 0; a < 3; ++a) {
+      weights.slope[d][a] = 4 * support.per_spacing * weights.value[d][a] * (static_cast<double>(a) - 1 - xi);
+    }
+  }
+  return weights;
+}
+
 /// (E17), (E45)  with C_p = sum_I S_Ip q_I (x) D_p^-1 (x_I - y_p) in the place of the gradient.
 template <int Dim, class Use>
 void gather_with_affine(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
                         std::span<const Vec<Dim>> q_i, const Use& use) {
-  const auto affine = [](const Support<Dim>& support, Weights<Dim> weights, const Vec<Dim>& y) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      // In the half cell at a wall w_a (x_a - y)/D is the slope itself, and does not divide by a vanishing D.
-      if (support.basis[d] != &inner_basis) continue;
-      const auto axis = static_cast<Eigen::Index>(d);
-      const double xi = (y[axis] - support.centre[axis]) * support.per_spacing;
-      for (std::size_t a = 0; a < 3; ++a) {
-        weights.slope[d][a] = 4 * support.per_spacing * weights.value[d][a] * (static_cast<double>(a) - 1 - xi);
-      }
-    }
-    return weights;
-  };
-  gather_value_and_slope<Dim>(grid, cells, y_p, q_i, affine, use);
+  gather_value_and_slope<Dim>(grid, cells, y_p, q_i, affine_weights<Dim>, use);
+}
+
+/// (E71)  a gradient with the antisymmetric part of C_p, (E45), in the place of its own.
+template <int Dim>
+Mat<Dim> with_spin(const Support<Dim>& support, const Weights<Dim>& weights, const Vec<Dim>& y,
+                   const std::array<Vec<Dim>, support_size<Dim>>& q, const Mat<Dim>& gradient) {
+  const Mat<Dim> more = interpolate<Dim>(affine_weights<Dim>(support, weights, y), q).gradient - gradient;
+  return gradient + 0.5 * (more - more.transpose());
 }
 
 }  // namespace minamo

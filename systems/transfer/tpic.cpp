@@ -23,13 +23,22 @@ void P2GAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCel
 }
 
 template <int Dim>
+G2PVelocityTpic<Dim>::G2PVelocityTpic(Input& in)
+    : conserves_spin(in.choice("spin", std::vector<std::string>{"conserved", "gradient"},
+                               "rotation that particles carry: that of APIC, which keeps angular momentum (E71), or of "
+                               "the gradient (E18)",
+                               "conserved") == "conserved") {}
+
+template <int Dim>
 void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                                       Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
                                       Write<particle::Velocity<Dim>> v_p,
                                       Write<particle::VelocityGradient<Dim>> grad_v_p) const {
-  gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Sample<Dim>& v) {
+  for_each_supported<Dim>(*grid, *cells, v_i.span(), [&](std::size_t p, const auto& support, const auto& q) {
+    const Weights<Dim> weights(support, y_p[p]);
+    const Sample<Dim> v = interpolate<Dim>(weights, q);
     v_p[p] = v.value;
-    grad_v_p[p] = v.gradient;
+    grad_v_p[p] = conserves_spin ? with_spin<Dim>(support, weights, y_p[p], q, v.gradient) : v.gradient;
   });
 }
 

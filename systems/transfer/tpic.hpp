@@ -7,6 +7,7 @@
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
+#include "engine/input.hpp"
 #include "engine/system.hpp"
 
 namespace minamo {
@@ -31,10 +32,15 @@ struct P2GAccelerationTpic {
                   Write<node::Acceleration<Dim>> a_i) const;
 };
 
-/// (E17), (E18)  v_p = sum_I S_Ip v_I^{n+1}, grad v_p = sum_I v_I^{n+1} (x) grad S_Ip.
+/// (E17), (E18)  v_p = sum_I S_Ip v_I^{n+1}, grad v_p = sum_I v_I^{n+1} (x) grad S_Ip; (E71) its antisymmetric part
+/// that of APIC, so that particles take over the angular momentum of the grid.
 template <int Dim>
 struct G2PVelocityTpic {
-  static constexpr std::string_view doc = "(E17) (E18) v_p and its gradient, TPIC";
+  static constexpr std::string_view doc = "(E17) (E18) (E71) v_p and its gradient, TPIC";
+  bool conserves_spin = true;  ///< (E71)
+
+  G2PVelocityTpic() = default;
+  explicit G2PVelocityTpic(Input& in);
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
                   Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
                   Write<particle::VelocityGradient<Dim>> grad_v_p) const;

@@ -136,7 +136,7 @@ TEMPLATE_TEST_CASE_SIG("the block solver solves the discrete equations", "[prope
   CAPTURE(viscosity);
   SceneRun run(with(lump_and_drop<Dim>(viscosity),
                     {R"(/solver={"scheme": "block", "tolerance": 1e-11})", R"(/quadrature={"scheme": "particles"})",
-                     R"(/transfer={"scheme": "tpic", "inertia": "lumped"})"}));
+                     R"(/transfer={"scheme": "tpic", "inertia": "lumped", "spin": "gradient"})"}));
   run.step();
   const auto equations = dense::assemble<Dim>(run);
   const auto& values = run.world().template resource<matrix::Solution>().values;

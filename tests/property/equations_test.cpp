@@ -28,7 +28,7 @@ Json scattered() {
         {"shape": {"box": {"low": [-1, 2], "high": [0.75, 2.5]}}, "per_cell": 2,
          "arrangement": "jittered", "seed": 3, "velocity": ["sin(3*x)*y", "x*x - y"]},
         {"shape": {"box": {"low": [0.11, 3.11], "high": [0.125, 3.125]}}, "per_cell": 16, "velocity": [1, 2]}],
-      "transfer": {"scheme": "tpic", "inertia": "lumped"},
+      "transfer": {"scheme": "tpic", "inertia": "lumped", "spin": "gradient"},
       "stabilization": {"scheme": "pspg"}, "volume": {"scheme": "none"}, "solver": {"scheme": "umfpack"},
       "time": {"end": 1, "step": 0.01}})json");
   } else {
@@ -43,7 +43,7 @@ Json scattered() {
          "arrangement": "jittered", "seed": 3, "velocity": ["sin(3*x)*y", "x*x - y", "z*x"]},
         {"shape": {"box": {"low": [-0.5, 2.5, 0.75], "high": [-0.484, 2.516, 0.766]}}, "per_cell": 16,
          "velocity": [1, 2, 3]}],
-      "transfer": {"scheme": "tpic", "inertia": "lumped"},
+      "transfer": {"scheme": "tpic", "inertia": "lumped", "spin": "gradient"},
       "stabilization": {"scheme": "pspg"}, "volume": {"scheme": "none"}, "solver": {"scheme": "umfpack"},
       "time": {"end": 1, "step": 0.01}})json");
   }

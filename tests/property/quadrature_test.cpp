@@ -60,7 +60,7 @@ void fill_lattice(World& world, double shift, double surface, std::uint64_t seed
 template <int Dim>
 Json tank() {
   Json scene = Json::parse(R"({"fluid": {"density": 1000, "viscosity": 2},
-    "transfer": {"scheme": "tpic", "inertia": "lumped"}, "solver": {"scheme": "umfpack"},
+    "transfer": {"scheme": "tpic", "inertia": "lumped", "spin": "gradient"}, "solver": {"scheme": "umfpack"},
     "time": {"end": 1, "step": 1e-3}})");
   const std::vector<double> low(Dim, 0);
   const std::vector<double> high = Dim == 2 ? std::vector{0.7, 0.5} : std::vector{0.7, 0.5, 0.4};

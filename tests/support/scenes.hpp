@@ -10,7 +10,7 @@ namespace minamo::scene_run {
 
 /// A scene with the methods of the paper this project reproduces, spelled out: a test does not follow a new default.
 inline Json paper(Json scene) {
-  scene["transfer"] = {{"scheme", "tpic"}, {"inertia", "lumped"}};
+  scene["transfer"] = {{"scheme", "tpic"}, {"inertia", "lumped"}, {"spin", "gradient"}};
   scene["integrator"] = {{"scheme", "newmark"}};
   scene["stabilization"] = {{"scheme", "pspg"}};
   scene["quadrature"] = {{"scheme", "particles"}};
