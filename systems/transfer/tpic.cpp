@@ -36,9 +36,10 @@ void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
                                       Write<particle::VelocityGradient<Dim>> grad_v_p) const {
   for_each_supported<Dim>(*grid, *cells, v_i.span(), [&](std::size_t p, const auto& support, const auto& q) {
     const Weights<Dim> weights(support, y_p[p]);
-    const Sample<Dim> v = interpolate<Dim>(weights, q);
+    const Sample<Dim> v =
+        conserves_spin ? interpolate_with_spin<Dim>(support, weights, y_p[p], q) : interpolate<Dim>(weights, q);
     v_p[p] = v.value;
-    grad_v_p[p] = conserves_spin ? with_spin<Dim>(support, weights, y_p[p], q, v.gradient) : v.gradient;
+    grad_v_p[p] = v.gradient;
   });
 }
 

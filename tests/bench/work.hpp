@@ -54,13 +54,16 @@ Work p2g_velocity_tpic(const Rows& rows) {
           per_particle * rows.particles + Dim * rows.nodes};
 }
 
-/// (E17), (E18)  Reads y_p, v_I; writes v_p, grad v_p. Slopes: 9 d. Direction by direction, per row of three nodes
-/// value and slope along it 5 d each, value, and slopes in both directions of the plane 2 d each; in space per plane of
-/// nine 2 d for each of value and three slopes.
+/// (E17), (E18), (E71)  Reads y_p, v_I; writes v_p, grad v_p. Slopes: 9 d. Direction by direction, per row of three
+/// nodes value and slope along it 5 d each, value, and slopes in both directions of the plane 2 d each; in space per
+/// plane of nine 2 d for each of value and three slopes. Spin: affine slopes less slopes 13 d; per entry off the
+/// diagonal and row of three nodes 7, in space one more for the row's weight; per pair of entries 4.
 template <int Dim>
 Work g2p_velocity_tpic(const Rows& rows) {
   const double planes = Dim == 3 ? 3 : 1;
-  const double per_particle = weight_flops<Dim> + 9 * Dim + planes * (3 * 16 * Dim) + (Dim == 3 ? planes * 8 * Dim : 0);
+  const double per_particle = weight_flops<Dim> + 9 * Dim + planes * (3 * 16 * Dim) +
+                              (Dim == 3 ? planes * 8 * Dim : 0) + 13 * Dim +
+                              Dim * (Dim - 1) * (planes * 3 * (Dim == 3 ? 8 : 7) + 2);
   return {8 * ((2 * Dim + Dim * Dim) * rows.particles + Dim * rows.nodes), per_particle * rows.particles};
 }
 
