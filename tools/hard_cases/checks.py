@@ -133,7 +133,7 @@ MOMENTUM = Check("momentum", "changed the momentum", worst(momentum_change), 1e-
 # Rounding of 1e-16 of the box in some tens of steps.
 FLIGHT = Check("flight", "left the parabola", worst(flight_error), 1e-12, "of the box")
 CENTRE = Check("centre", "let the centre of mass leave the parabola", worst(centre_error), 1e-5, "of the box")
-# An impact squeezes before the correction, a tenth of the excess per step, can answer; the water that stays squeezed
+# An impact squeezes before the correction, 15 % of the excess per step, can answer; the water that stays squeezed
 # is what a volume correction promises to give back.
 VOLUME = Check("volume", "squeezed the water", worst(overlap_gain), 0.2, "of the volume")
 REST = Check("rest", "moved what rests", worst(motion), 0, "m/s")

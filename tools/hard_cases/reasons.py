@@ -30,8 +30,8 @@ REASONS = [
     Reason("*Momentum at light nodes.* A pressure also pushes nodes that are too light to be solved for, (E15), and that "
            "push is lost. In a drop it is less than 1e-5 of the momentum; of two lone particles that meet it is more.",
            lambda case, check, method: check.name in ("momentum", "centre")),
-    Reason("*Work of the volume correction.* It moves particles, also against gravity, and does not count what that costs. "
-           "A column four cells deep wanders around its level by a per cent and creeps for ever; without a trend.",
+    Reason("*Work of the volume correction.* It moves particles, also against gravity. A column four cells deep wanders "
+           "around its level by a per cent and creeps for ever; without a trend.",
            lambda case, check, method: case.name == "column_of_a_million_steps" and check.name in ("energy", "drift", "level")),
     Reason("*Waves and noise that last.* Between slip walls a wave in water lives for hours: the first standing wave of "
            "the tank, most of what TPIC still moves after a minute, loses 0.7 % of its energy in that time, and lifts the "
@@ -41,7 +41,7 @@ REASONS = [
            "and never damps it. An impact, or a long step after a short one, leaves an oscillation that grows where the "
            "steps are long or the volume is corrected. The midpoint rule, the default, carries none.",
            lambda case, check, method: method.integrator == "newmark" and check.name in GAINED),
-    Reason("*Steps too long for the correction.* The volume correction gives back a tenth of the excess per step. With "
+    Reason("*Steps too long for the correction.* The volume correction gives back 15 % of the excess per step. With "
            "steps in which the water crosses a cell or more, an impact squeezes faster than that.", squeezes),
     Reason("*Noise of FLIP and of pushed particles.* FLIP keeps velocities that the grid does not see, and the delta "
            "correction moves particles one by one; both come back as energy where cells hold few particles.",
