@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <functional>
 
 namespace minamo {
 
@@ -72,12 +73,16 @@ measure::Momentum<Dim> add(const measure::Momentum<Dim>& a, const measure::Momen
 }  // namespace
 
 template <int Dim>
+double kinetic_energy(std::span<const double> m_p, std::span<const Vec<Dim>> v_p) {
+  return reduce_rows(
+      m_p.size(), 0.0, [&](std::size_t p) { return 0.5 * m_p[p] * v_p[p].squaredNorm(); }, std::plus<>());
+}
+
+template <int Dim>
 void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p,
                                     Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                                     Write<measure::Energy> energy) const {
-  const auto sum = [](double x, double y) { return x + y; };
-  energy->kinetic = reduce_rows(
-      m_p.size(), 0.0, [&](std::size_t p) { return 0.5 * m_p[p] * v_p[p].squaredNorm(); }, sum);
+  energy->kinetic = kinetic_energy<Dim>(m_p.span(), v_p.span());
   energy->potential.reset();
   Vec<Dim> force;
   for (int d = 0; d < Dim; ++d) {
@@ -87,7 +92,7 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
     if (force[d] != 0 && grid->periodic[static_cast<std::size_t>(d)]) return;  // it never stops falling
   }
   energy->potential = reduce_rows(
-      m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force.dot(x_p[p] - grid->low); }, sum);
+      m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force.dot(x_p[p] - grid->low); }, std::plus<>());
 }
 
 template <int Dim>
@@ -124,6 +129,8 @@ void MeasureMaxSpeed<Dim>::operator()(Read<particle::Velocity<Dim>> v_p, Write<m
       [](double x, double y) { return std::max(x, y); }));
 }
 
+template double kinetic_energy<2>(std::span<const double>, std::span<const Vec<2>>);
+template double kinetic_energy<3>(std::span<const double>, std::span<const Vec<3>>);
 template struct MeasureEnergy<2>;
 template struct MeasureEnergy<3>;
 template struct MeasureMomentum<2>;

@@ -8,7 +8,13 @@
 #include "components/particle.hpp"
 #include "engine/system.hpp"
 
+#include <span>
+
 namespace minamo {
+
+/// K of (E28). [J]
+template <int Dim>
+double kinetic_energy(std::span<const double> m_p, std::span<const Vec<Dim>> v_p);
 
 /// (E28)  K = sum m_p |v_p|^2 / 2;  U = -sum m_p b . (x_p - low corner) for a constant b.
 template <int Dim>

@@ -58,8 +58,10 @@ void read_solver(Input& input, Scene& scene) {
 
 void read_volume(Input& input, Scene& scene) {
   const auto read_rate = [&](Input& in) {
-    scene.volume_rate = in.number(
-        "rate", {.doc = "share of the excess that is corrected in a step", .fallback = 0.15, .at_most = 1, .above = 0});
+    scene.volume_rate = in.number("rate", {.doc = "share of the excess that is corrected in a step",
+                                           .fallback = scene.volume_rate,
+                                           .at_most = 1,
+                                           .above = 0});
   };
   scene.volume = input.variant("scheme", "volume correction", "projection",
                                {{"delta", [](Input&) {}}, {"none", [](Input&) {}}, {"projection", read_rate}});

@@ -33,7 +33,7 @@ struct P2GAccelerationTpic {
 };
 
 /// (E17), (E18)  v_p = sum_I S_Ip v_I^{n+1}, grad v_p = sum_I v_I^{n+1} (x) grad S_Ip; (E71) its antisymmetric part
-/// that of APIC, so that particles take over the angular momentum of the grid.
+/// that of APIC, so that away from walls particles take over the angular momentum of the grid.
 template <int Dim>
 struct G2PVelocityTpic {
   static constexpr std::string_view doc = "(E17) (E18) (E71) v_p and its gradient, TPIC";

@@ -1,8 +1,10 @@
 #include "systems/volume/limit_shift.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/measure/conservation.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace minamo {
 
@@ -10,12 +12,7 @@ namespace {
 
 template <class Value>
 double sum_rows(std::size_t rows, const Value& value) {
-  return reduce_rows(rows, 0.0, value, [](double a, double b) { return a + b; });
-}
-
-template <int Dim>
-double kinetic_energy(std::span<const double> m_p, std::span<const Vec<Dim>> v_p) {
-  return sum_rows(m_p.size(), [&](std::size_t p) { return 0.5 * m_p[p] * v_p[p].squaredNorm(); });
+  return reduce_rows(rows, 0.0, value, std::plus<>());
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ TEST_CASE("a lattice brings to every node of a full box the mass of its volume",
   CHECK(worst < 1e-12);  // 1.9 % on walls with 2 per cell, were the lattice even
 }
 
-TEST_CASE("an uneven beginning is kept from a lattice that is jittered, and from quadrature by particles", "[unit]") {
+TEST_CASE("the row next to a wall starts nearer to it, but evenly for quadrature by particles", "[unit]") {
   Json scene = box(R"([{"shape": {"box": {"low": [0, 0], "high": [0.1, 0.1]}}, "per_cell": 1}])");
   CHECK((places(scene)[0] - Vec<2>(0.05 - 0.1 / 24, 0.05 - 0.1 / 24)).norm() < 1e-15);
   scene["quadrature"] = {{"scheme", "particles"}};
