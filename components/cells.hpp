@@ -45,9 +45,10 @@ struct Moments {
   static constexpr ComponentInfo info{"cells.moments", "M_c", "m^d", Lifetime::scratch};
 };
 
-/// w_c of (E61): 0 where the particles of a cell are spray, 1 where they are liquid. One entry per occupied cell. [1]
+/// Where particles are spray, liquid, and liquid away from its surface. One entry per occupied cell each. [1]
 struct LiquidShare {
-  std::vector<double> of_cell;
+  std::vector<double> of_cell;   ///< w_c of (E61): 0 in spray, 1 in liquid
+  std::vector<double> interior;  ///< b_c of (E61): 0 in spray and thin films, 1 in the bulk
   static constexpr ComponentInfo info{"cells.liquid", "w_c", "1", Lifetime::scratch};
 };
 

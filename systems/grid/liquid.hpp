@@ -16,7 +16,7 @@ double liquid_share(const Grid<Dim>& grid, const SupportBox<Dim>& around, double
 
 /// (E61)  w_c = min(1, max(0, 5 f_c - 1.5)), f_c = sum_J m_J / (rho sum_J V_J) over the nodes of a dual cell, V_J
 /// (E39). A cell full of particles that is alone has f_c = 0.1 to 0.24, one at a corner of a body 0.44, one in a film
-/// as thick as a cell 0.49 and more, one at a surface 0.66.
+/// as thick as a cell 0.49 and more, one at a surface 0.66. b_c = min(1, max(0, 2.5 f_c - 1.25)) begins where w_c ends.
 template <int Dim>
 struct FindLiquid {
   static constexpr std::string_view doc = "(E61) share of a cell that is liquid, not spray";

@@ -16,58 +16,34 @@ struct Sample {
   Mat<Dim> gradient;  ///< row i: gradient of component i
 };
 
-/// Slopes, or what stands in their place, per direction and node along it. [1/m]
-template <int Dim>
-using Slopes = decltype(Weights<Dim>::slope);
-
-/// Value of a nodal field at a particle, and as many gradients as there are kinds of slopes.
-template <int Dim, std::size_t Kinds>
-struct Samples {
-  Vec<Dim> value = Vec<Dim>::Zero();
-  std::array<Mat<Dim>, Kinds> gradient;
-};
-
 /// sum_I S_Ip q_I and sum_I q_I (x) slope_Ip, direction by direction: half the work of a sum over nodes. Inline, or a
 /// third of the time goes into passing numbers through memory.
-template <int Dim, std::size_t Kinds>
-[[gnu::always_inline]] inline Samples<Dim, Kinds> interpolate(const Weights<Dim>& weights,
-                                                              const std::array<const Slopes<Dim>*, Kinds>& slopes,
-                                                              const std::array<Vec<Dim>, support_size<Dim>>& q) {
-  const auto& w = weights.value;
-  Samples<Dim, Kinds> sample;
-  for (Mat<Dim>& gradient : sample.gradient) gradient.setZero();
+template <int Dim>
+[[gnu::always_inline]] inline Sample<Dim> interpolate(const Weights<Dim>& weights,
+                                                      const std::array<Vec<Dim>, support_size<Dim>>& q) {
+  const auto& [w, s] = weights;
+  Sample<Dim> sample{Vec<Dim>::Zero(), Mat<Dim>::Zero()};
   for (std::size_t c = 0; c < (Dim == 3 ? 3 : 1); ++c) {
     Vec<Dim> value = Vec<Dim>::Zero();
-    std::array<Vec<Dim>, Kinds> slope_x;
-    std::array<Vec<Dim>, Kinds> slope_y;
-    slope_x.fill(Vec<Dim>::Zero());
-    slope_y.fill(Vec<Dim>::Zero());
+    Vec<Dim> slope_x = Vec<Dim>::Zero();
+    Vec<Dim> slope_y = Vec<Dim>::Zero();
     for (std::size_t b = 0; b < 3; ++b) {
       const Vec<Dim>* row = q.data() + 9 * c + 3 * b;
       const Vec<Dim> of_row = w[0][0] * row[0] + w[0][1] * row[1] + w[0][2] * row[2];
       value += w[1][b] * of_row;
-      for (std::size_t k = 0; k < Kinds; ++k) {
-        const auto& s = *slopes[k];
-        slope_x[k] += w[1][b] * (s[0][0] * row[0] + s[0][1] * row[1] + s[0][2] * row[2]);
-        slope_y[k] += s[1][b] * of_row;
-      }
+      slope_x += w[1][b] * (s[0][0] * row[0] + s[0][1] * row[1] + s[0][2] * row[2]);
+      slope_y += s[1][b] * of_row;
     }
     double w_z = 1;
-    if constexpr (Dim == 3) w_z = w[2][c];
-    sample.value += w_z * value;
-    for (std::size_t k = 0; k < Kinds; ++k) {
-      if constexpr (Dim == 3) sample.gradient[k].col(2) += (*slopes[k])[2][c] * value;
-      sample.gradient[k].col(0) += w_z * slope_x[k];
-      sample.gradient[k].col(1) += w_z * slope_y[k];
+    if constexpr (Dim == 3) {
+      w_z = w[2][c];
+      sample.gradient.col(2) += s[2][c] * value;
     }
+    sample.value += w_z * value;
+    sample.gradient.col(0) += w_z * slope_x;
+    sample.gradient.col(1) += w_z * slope_y;
   }
   return sample;
-}
-
-template <int Dim>
-Sample<Dim> interpolate(const Weights<Dim>& weights, const std::array<Vec<Dim>, support_size<Dim>>& q) {
-  const auto sample = interpolate<Dim, 1>(weights, {&weights.slope}, q);
-  return {sample.value, sample.gradient[0]};
 }
 
 /// (E17)  q_p = sum_I S_Ip q_I; use(p, q_p) for every particle. The nodal field is a function of the node's row.
@@ -94,24 +70,24 @@ void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<co
       grid, cells, y_p, [&](std::size_t i) -> const Vec<Dim>& { return q_i[i]; }, use);
 }
 
-/// body(p, support, the nodal field on it) for every particle.
-template <int Dim, class Body>
-void for_each_supported(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> q_i,
-                        const Body& body) {
-  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(grid, cell);
-    std::array<Vec<Dim>, support_size<Dim>> q;
-    for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
-    for (std::size_t p = cell.begin; p < cell.end; ++p) body(p, support, q);
-  });
+/// The nodal field on a support.
+template <int Dim>
+std::array<Vec<Dim>, support_size<Dim>> on_support(const Support<Dim>& support, std::span<const Vec<Dim>> q_i) {
+  std::array<Vec<Dim>, support_size<Dim>> q;
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
+  return q;
 }
 
 /// The value as in (E17) and sum_I q_I (x) w_Ip, where w_Ip is what slope(support, weights) makes of the weights.
 template <int Dim, class Slope, class Use>
 void gather_value_and_slope(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
                             std::span<const Vec<Dim>> q_i, const Slope& slope, const Use& use) {
-  for_each_supported<Dim>(grid, cells, q_i, [&](std::size_t p, const auto& support, const auto& q) {
-    use(p, interpolate<Dim>(slope(support, Weights<Dim>(support, y_p[p]), y_p[p]), q));
+  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
+    const Support<Dim> support(grid, cell);
+    const auto q = on_support<Dim>(support, q_i);
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      use(p, interpolate<Dim>(slope(support, Weights<Dim>(support, y_p[p]), y_p[p]), q));
+    }
   });
 }
 
@@ -144,17 +120,6 @@ template <int Dim, class Use>
 void gather_with_affine(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
                         std::span<const Vec<Dim>> q_i, const Use& use) {
   gather_value_and_slope<Dim>(grid, cells, y_p, q_i, affine_weights<Dim>, use);
-}
-
-/// (E17), (E71)  the gradient with the antisymmetric part of C_p, (E45), in the place of its own.
-template <int Dim>
-[[gnu::always_inline]] inline Sample<Dim> interpolate_with_spin(const Support<Dim>& support,
-                                                                const Weights<Dim>& weights, const Vec<Dim>& y,
-                                                                const std::array<Vec<Dim>, support_size<Dim>>& q) {
-  const Weights<Dim> affine = affine_weights<Dim>(support, weights, y);
-  const auto sample = interpolate<Dim, 2>(weights, {&weights.slope, &affine.slope}, q);
-  const Mat<Dim> more = sample.gradient[1] - sample.gradient[0];
-  return {sample.value, sample.gradient[0] + 0.5 * (more - more.transpose())};
 }
 
 }  // namespace minamo

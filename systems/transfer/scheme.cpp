@@ -30,7 +30,7 @@ std::vector<TransferScheme> built_in_transfer_schemes() {
            .g2p_acceleration = {"g2p_acceleration_tpic"},
            .carries_gradient = true},
           {.name = "tpic2",
-           .doc = "TPIC with second derivatives; twice as accurate in smooth flow, keeps noise longer",
+           .doc = "TPIC with second derivatives where the grid resolves them; half the error in smooth flow",
            .p2g_velocity = {"p2g_velocity_tpic2"},
            .p2g_acceleration = {"p2g_acceleration_tpic"},
            .g2p_velocity = {"g2p_velocity_tpic2"},

@@ -2,6 +2,7 @@
 
 #include "systems/transfer/gather.hpp"
 #include "systems/transfer/scatter.hpp"
+#include "systems/transfer/spin.hpp"
 
 namespace minamo {
 
@@ -34,12 +35,24 @@ void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
                                       Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
                                       Write<particle::Velocity<Dim>> v_p,
                                       Write<particle::VelocityGradient<Dim>> grad_v_p) const {
-  for_each_supported<Dim>(*grid, *cells, v_i.span(), [&](std::size_t p, const auto& support, const auto& q) {
-    const Weights<Dim> weights(support, y_p[p]);
-    const Sample<Dim> v =
-        conserves_spin ? interpolate_with_spin<Dim>(support, weights, y_p[p], q) : interpolate<Dim>(weights, q);
-    v_p[p] = v.value;
-    grad_v_p[p] = v.gradient;
+  if (!conserves_spin) {
+    gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Sample<Dim>& v) {
+      v_p[p] = v.value;
+      grad_v_p[p] = v.gradient;
+    });
+    return;
+  }
+  for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
+    const Support<Dim> support(*grid, cell);
+    const auto q = on_support<Dim>(support, v_i.span());
+    const Bends<Dim> bends(support, q);
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      const Weights<Dim> weights(support, y_p[p]);
+      const Sample<Dim> v = interpolate<Dim>(weights, q);
+      const Mat<Dim> more = bends.at(weights) * third_moments<Dim>(support, y_p[p]).asDiagonal();
+      v_p[p] = v.value;
+      grad_v_p[p] = v.gradient + antisymmetric<Dim>(more);
+    }
   });
 }
 

@@ -2,12 +2,16 @@
 
 #include "systems/transfer/gather.hpp"
 #include "systems/transfer/scatter.hpp"
+#include "systems/transfer/spin.hpp"
 
 namespace minamo {
 
 namespace {
 
 using AxisValues = std::array<double, 3>;
+
+template <int Dim>
+using Curvature = typename particle::VelocityCurvature<Dim>::value_type;
 
 /// use(column, a, b) for the columns of a curvature.
 template <int Dim, class Use>
@@ -40,65 +44,56 @@ std::array<Way, Dim> ways_from(const Vec<Dim>& y, const Support<Dim>& support, c
   return ways;
 }
 
-/// Value, gradient and second derivatives of a nodal field at a particle.
+/// sum_I q_I times the product of one number per direction.
 template <int Dim>
-struct Curved {
-  Vec<Dim> value = Vec<Dim>::Zero();
-  Mat<Dim> gradient = Mat<Dim>::Zero();
-  typename particle::VelocityCurvature<Dim>::value_type curvature =
-      particle::VelocityCurvature<Dim>::value_type::Zero();
-};
-
-/// The second derivatives of the weights of an axis: constant within a dual cell.
-template <int Dim>
-std::array<AxisValues, Dim> second_derivatives(const Support<Dim>& support) {
-  std::array<AxisValues, Dim> second;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      second[d][k] = support.basis[d]->slope[k][1] * support.per_spacing * support.per_spacing;
-    }
-  }
-  return second;
-}
-
-/// Direction by direction, as interpolate().
-template <int Dim>
-Curved<Dim> interpolate_curved(const Weights<Dim>& weights, const std::array<AxisValues, Dim>& second,
-                               const std::array<Vec<Dim>, support_size<Dim>>& q) {
-  const auto& [w, s] = weights;
-  Curved<Dim> sum;
+[[gnu::always_inline]] inline Vec<Dim> contract(const std::array<const AxisValues*, Dim>& factor,
+                                                const std::array<Vec<Dim>, support_size<Dim>>& q) {
+  const AxisValues& x = *factor[0];
+  const AxisValues& y = *factor[1];
+  Vec<Dim> sum = Vec<Dim>::Zero();
   for (std::size_t c = 0; c < (Dim == 3 ? 3 : 1); ++c) {
-    const Vec<Dim> zero = Vec<Dim>::Zero();
-    Vec<Dim> value = zero, x = zero, y = zero, xx = zero, xy = zero, yy = zero;
+    Vec<Dim> plane = Vec<Dim>::Zero();
     for (std::size_t b = 0; b < 3; ++b) {
       const Vec<Dim>* row = q.data() + 9 * c + 3 * b;
-      const auto along_row = [row](const AxisValues& of) -> Vec<Dim> {
-        return of[0] * row[0] + of[1] * row[1] + of[2] * row[2];
-      };
-      const Vec<Dim> of_row = along_row(w[0]);
-      const Vec<Dim> slope = along_row(s[0]);
-      value += w[1][b] * of_row;
-      x += w[1][b] * slope;
-      y += s[1][b] * of_row;
-      xx += w[1][b] * along_row(second[0]);
-      xy += s[1][b] * slope;
-      yy += second[1][b] * of_row;
+      plane += y[b] * (x[0] * row[0] + x[1] * row[1] + x[2] * row[2]);
     }
-    if constexpr (Dim == 2) {
-      sum.value = value;
-      sum.gradient << x, y;
-      sum.curvature << xx, xy, yy;
+    if constexpr (Dim == 3) {
+      sum += (*factor[2])[c] * plane;
     } else {
-      Mat<3> gradient;
-      gradient << w[2][c] * x, w[2][c] * y, s[2][c] * value;
-      sum.value += w[2][c] * value;
-      sum.gradient += gradient;
-      Eigen::Matrix<double, 3, 6> curvature;
-      curvature << w[2][c] * xx, w[2][c] * xy, s[2][c] * x, w[2][c] * yy, s[2][c] * y, second[2][c] * value;
-      sum.curvature += curvature;
+      sum = plane;
     }
   }
   return sum;
+}
+
+/// All second derivatives of a nodal field at a particle, from those along the axes.
+template <int Dim>
+[[gnu::always_inline]] inline Curvature<Dim> curvature_of(const Mat<Dim>& along_axes, const Weights<Dim>& weights,
+                                                          const std::array<Vec<Dim>, support_size<Dim>>& q) {
+  Curvature<Dim> curvature;
+  for_each_pair<Dim>([&](std::size_t column, std::size_t a, std::size_t b) {
+    const auto into = static_cast<Eigen::Index>(column);
+    if (a == b) {
+      curvature.col(into) = along_axes.col(static_cast<Eigen::Index>(a));
+    } else {
+      std::array<const AxisValues*, Dim> factor;
+      for (std::size_t d = 0; d < Dim; ++d) factor[d] = d == a || d == b ? &weights.slope[d] : &weights.value[d];
+      curvature.col(into) = contract<Dim>(factor, q);
+    }
+  });
+  return curvature;
+}
+
+/// phi_p of (E65), how much of a velocity's curvature the grid resolves.
+template <int Dim>
+double resolved_share(const Mat<Dim>& gradient, const Curvature<Dim>& curvature, double h) {
+  double square = 0;
+  for_each_pair<Dim>([&](std::size_t column, std::size_t a, std::size_t b) {
+    square += (a == b ? 1 : 2) * curvature.col(static_cast<Eigen::Index>(column)).squaredNorm();
+  });
+  const double of_gradient = gradient.squaredNorm();
+  const double sum = of_gradient + h * h * square;
+  return sum > 0 ? of_gradient / sum : 0;
 }
 
 }  // namespace
@@ -129,7 +124,7 @@ void P2GVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<
 template <int Dim>
 G2PVelocityTpic2<Dim>::G2PVelocityTpic2(Input& in)
     : share(in.number("share", {.doc = "share of the second derivatives that is kept; 0 is TPIC",
-                                .fallback = 0.5,
+                                .fallback = 1,
                                 .at_least = 0,
                                 .at_most = 1})) {}
 
@@ -141,15 +136,18 @@ void G2PVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<
                                        Write<particle::VelocityCurvature<Dim>> h_p) const {
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
-    std::array<Vec<Dim>, support_size<Dim>> q;
-    for (std::size_t k = 0; k < q.size(); ++k) q[k] = v_i[support.node[k]];
-    const auto second = second_derivatives<Dim>(support);
-    const double kept = share * liquid->of_cell[c];
+    const auto q = on_support<Dim>(support, v_i.span());
+    const Bends<Dim> bends(support, q);
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const auto v = interpolate_curved<Dim>(Weights<Dim>(support, y_p[p]), second, q);
+      const Weights<Dim> weights(support, y_p[p]);
+      const Sample<Dim> v = interpolate<Dim>(weights, q);
+      const Mat<Dim> along_axes = bends.at(weights);
+      const auto curvature = curvature_of<Dim>(along_axes, weights, q);
+      const double kept = share * liquid->interior[c] * resolved_share<Dim>(v.gradient, curvature, grid->spacing);
+      const Vec<Dim> rest = (1 - kept) * third_moments<Dim>(support, y_p[p]);
       v_p[p] = v.value;
-      grad_v_p[p] = v.gradient;
-      h_p[p] = kept * v.curvature;
+      grad_v_p[p] = v.gradient + antisymmetric<Dim>(along_axes * rest.asDiagonal());
+      h_p[p] = kept * curvature;
     }
   });
 }

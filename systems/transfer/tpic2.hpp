@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// TPIC of second order (ours): particles carry the second derivatives of the velocity, too, the third term of a Taylor
-/// series around them. What TPIC damps is what that series leaves out.
+/// series around them. What TPIC damps is what that series leaves out. They are kept where the grid resolves them and
+/// the liquid is around: without that a dam break gains energy from noise that nothing damps.
 
 #include "components/cells.hpp"
 #include "components/grid.hpp"
@@ -23,12 +24,15 @@ struct P2GVelocityTpic2 {
                   Read<node::Mass> m_i, Write<node::Velocity<Dim>> v_i) const;
 };
 
-/// (E17), (E18), (E65)  H_ab = s w_c sum_I v_I^{n+1} d^2 S_Ip / dx_a dx_b, w_c of (E61). s = 0 is TPIC; with s = 1
-/// particles give back whatever quadratic field they took, and nothing damps.
+/// (E17), (E65)  H_ab = k_p d_ab v, d_ab v = sum_I v_I^{n+1} d^2 S_Ip / dx_a dx_b, k_p = s b_c phi_p, b_c of (E61),
+/// phi_p = |grad v|^2 / (|grad v|^2 + h^2 |d_ab v|^2), Frobenius norms. s = 0 is TPIC; k_p = 1 gives back whatever
+/// quadratic field was taken, and damps nothing.
+/// (E72)  grad v_p = grad v, (E18), with the spin of (1 - k_p) (C_p - grad v) added to its own: what H_p does not carry
+/// of the angular momentum that (E71) takes over.
 template <int Dim>
 struct G2PVelocityTpic2 {
-  static constexpr std::string_view doc = "(E17) (E18) (E65) v_p and two derivatives, TPIC of second order";
-  double share = 0.5;  ///< s [1]
+  static constexpr std::string_view doc = "(E17) (E65) (E72) v_p and two derivatives, TPIC of second order";
+  double share = 1;  ///< s [1]
 
   G2PVelocityTpic2() = default;
   explicit G2PVelocityTpic2(Input& in);

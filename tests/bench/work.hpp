@@ -56,15 +56,18 @@ Work p2g_velocity_tpic(const Rows& rows) {
 
 /// (E17), (E18), (E71)  Reads y_p, v_I; writes v_p, grad v_p. Slopes: 9 d. Direction by direction, per row of three
 /// nodes value and slope along it 5 d each, value, and slopes in both directions of the plane 2 d each; in space per
-/// plane of nine 2 d for each of value and three slopes. Spin: affine slopes less slopes 13 d; per entry off the
-/// diagonal and row of three nodes 7, in space one more for the row's weight; per pair of entries 4.
+/// plane of nine 2 d for each of value and three slopes. Spin: moments 5 d; per entry off the diagonal 1, and per row
+/// of three lines 5, in space 2 more for the row's weight; per pair of entries 4. Per cell, axis, line and component
+/// across it 4.
 template <int Dim>
 Work g2p_velocity_tpic(const Rows& rows) {
   const double planes = Dim == 3 ? 3 : 1;
-  const double per_particle = weight_flops<Dim> + 9 * Dim + planes * (3 * 16 * Dim) +
-                              (Dim == 3 ? planes * 8 * Dim : 0) + 13 * Dim +
-                              Dim * (Dim - 1) * (planes * 3 * (Dim == 3 ? 8 : 7) + 2);
-  return {8 * ((2 * Dim + Dim * Dim) * rows.particles + Dim * rows.nodes), per_particle * rows.particles};
+  const double across = Dim * (Dim - 1);  // axes times components
+  const double of_spin = 5 * Dim + across * (planes * (Dim == 3 ? 7 : 5) + 1 + 2);
+  const double per_particle =
+      weight_flops<Dim> + 9 * Dim + planes * (3 * 16 * Dim) + (Dim == 3 ? planes * 8 * Dim : 0) + of_spin;
+  return {8 * ((2 * Dim + Dim * Dim) * rows.particles + Dim * rows.nodes),
+          per_particle * rows.particles + 4 * 3 * planes * across * rows.cells};
 }
 
 /// (E19)  Reads y_p, m_p; writes M_c. Per particle xi: 2 d, V_p: 1, powers: 3 d, V eta^b: 5, times xi^a: 25, added up:
