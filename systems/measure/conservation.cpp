@@ -27,11 +27,12 @@ Rotation<Dim> cross(const Vec<Dim>& x, const Vec<Dim>& v) {
 /// sum_d D_dd e_d x dv/dx_d: what a velocity gradient adds to (x_I - x_p) x v on average over the support.
 template <int Dim>
 Rotation<Dim> affine_spin(const Vec<Dim>& spread, const Mat<Dim>& grad_v) {
-  Rotation<Dim> spin = Rotation<Dim>::Zero();
-  for (int d = 0; d < Dim; ++d) {
-    spin += cross<Dim>(spread[d] * Vec<Dim>::Unit(d), Vec<Dim>(grad_v.col(d)));
+  const auto about = [&](int a, int b) { return spread[a] * grad_v(b, a) - spread[b] * grad_v(a, b); };
+  if constexpr (Dim == 3) {
+    return {about(1, 2), about(2, 0), about(0, 1)};
+  } else {
+    return Rotation<2>(about(0, 1));
   }
-  return spin;
 }
 
 /// The diagonal of D_p: h^2/4, and h^2 s (1 - s) at a distance s h < h/2 from a wall. [m^2]
