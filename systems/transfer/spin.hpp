@@ -5,23 +5,17 @@
 ///
 /// (E71)  C_p - grad v_p = sum_d T_d/(2 D_d) d_d^2 v (x) e_d, D_d = h^2/4 the second and T_d = h^3 (xi_d/4 - xi_d^3)
 /// the third moment of the weights along an axis, h xi from the middle of the dual cell to the particle. Ours. In the
-/// half cells at walls weights are linear, and both are the same.
+/// half cells at walls weights are linear: no second derivative, and both are the same.
 
 #include "systems/grid/support.hpp"
 
 namespace minamo {
 
-/// T_d/(2 D_d) of (E71). [m]
+/// T_d/(2 D_d) of (E71), out of half cells at walls. [m]
 template <int Dim>
 [[gnu::always_inline]] inline Vec<Dim> third_moments(const Support<Dim>& support, const Vec<Dim>& y) {
-  Vec<Dim> moments = Vec<Dim>::Zero();
-  for (std::size_t d = 0; d < Dim; ++d) {
-    if (support.basis[d] != &inner_basis) continue;
-    const auto axis = static_cast<Eigen::Index>(d);
-    const double xi = (y[axis] - support.centre[axis]) * support.per_spacing;
-    moments[axis] = xi * (0.5 - 2 * xi * xi) / support.per_spacing;
-  }
-  return moments;
+  const Vec<Dim> xi = (y - support.centre) * support.per_spacing;
+  return xi.array() * (0.5 - 2 * xi.array().square()) / support.per_spacing;
 }
 
 template <int Dim>
@@ -29,13 +23,14 @@ Mat<Dim> antisymmetric(const Mat<Dim>& of) {
   return 0.5 * (of - of.transpose());
 }
 
-/// Second derivatives along the axes of a nodal field within a dual cell, where those of the weights are constant.
+/// Second derivatives along the axes of a nodal field within a dual cell, where those of the weights are constant; zero
+/// across a wall in the half cells beside it.
 template <int Dim>
 class Bends {
  public:
   Bends(const Support<Dim>& support, const std::array<Vec<Dim>, support_size<Dim>>& q) {
-    const double scale = support.per_spacing * support.per_spacing;
     for_each_axis([&](std::size_t d, std::size_t step, std::size_t low, std::size_t high) {
+      const double scale = support.basis[d] == &inner_basis ? support.per_spacing * support.per_spacing : 0;
       for (std::size_t line = 0; line < lines; ++line) {
         const Vec<Dim>* node = q.data() + low * (line % 3) + high * (line / 3);
         bend_[d][line] = scale * (node[0] - 2 * node[step] + node[2 * step]);

@@ -224,7 +224,10 @@ TEMPLATE_TEST_CASE_SIG("TPIC of second order keeps the second derivatives by as 
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     const double along = (y_p[p][0] - grid.low[0]) / grid.spacing;
     const double middle = std::round(along);
-    if (middle < 1 || middle > grid.cells[0] - 1) continue;  // half cells at walls have no second derivative
+    if (middle < 1 || middle > grid.cells[0] - 1) {  // weights are linear in the half cells at walls
+      worst = std::max(worst, h_p[p].col(0).norm());
+      continue;
+    }
     const double xi = along - middle;
     const double before = std::cos(k * (middle - 1)), here = std::cos(k * middle), after = std::cos(k * (middle + 1));
     const double slope = ((xi - 0.5) * before - 2 * xi * here + (xi + 0.5) * after) / grid.spacing;
