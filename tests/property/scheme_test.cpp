@@ -120,6 +120,23 @@ TEST_CASE("TPIC does so with APIC's spin, and keeps its own deformation", "[prop
   CHECK(worst < 1e-13);  // gradients of size 1 to 10
 }
 
+TEMPLATE_TEST_CASE_SIG("the spin of TPIC is that of APIC's affine part, walls included", "[property]", ((int Dim), Dim),
+                       2, 3) {
+  World world;
+  fill<Dim>(world, 300, 16);
+  set_new_velocity<Dim>(world, 17);
+  const auto grad_v_p = world.column<particle::VelocityGradient<Dim>>();
+  run<G2PVelocityApic<Dim>>(world);
+  const std::vector<Mat<Dim>> affine(grad_v_p.begin(), grad_v_p.end());
+  run<G2PVelocityTpic<Dim>>(world);
+  double worst = 0;
+  for (std::size_t p = 0; p < affine.size(); ++p) {
+    const Mat<Dim> more = grad_v_p[p] - affine[p];
+    worst = std::max(worst, (more - more.transpose()).norm());
+  }
+  CHECK(worst < 1e-13);  // gradients of size 1 to 10
+}
+
 TEST_CASE("TPIC of second order hands it to the particles and back, whatever it keeps of second derivatives",
           "[property]") {
   World world;
