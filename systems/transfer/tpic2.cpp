@@ -86,7 +86,7 @@ template <int Dim>
 
 /// phi_p of (E65), how much of a velocity's curvature the grid resolves.
 template <int Dim>
-double resolved_share(const Mat<Dim>& gradient, const Curvature<Dim>& curvature, double h) {
+double resolved_curvature(const Mat<Dim>& gradient, const Curvature<Dim>& curvature, double h) {
   double square = 0;
   for_each_pair<Dim>([&](std::size_t column, std::size_t a, std::size_t b) {
     square += (a == b ? 1 : 2) * curvature.col(static_cast<Eigen::Index>(column)).squaredNorm();
@@ -143,7 +143,7 @@ void G2PVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<
       const Sample<Dim> v = interpolate<Dim>(weights, q);
       const Mat<Dim> along_axes = bends.at(weights);
       const auto curvature = curvature_of<Dim>(along_axes, weights, q);
-      const double kept = share * liquid->interior[c] * resolved_share<Dim>(v.gradient, curvature, grid->spacing);
+      const double kept = share * liquid->interior[c] * resolved_curvature<Dim>(v.gradient, curvature, grid->spacing);
       const Vec<Dim> rest = (1 - kept) * third_moments<Dim>(support, y_p[p]);
       v_p[p] = v.value;
       grad_v_p[p] = v.gradient + antisymmetric<Dim>(along_axes * rest.asDiagonal());

@@ -12,6 +12,7 @@ import argparse
 import difflib
 import json
 import os
+import signal
 import sys
 import tempfile
 from dataclasses import replace
@@ -63,6 +64,7 @@ def unknown_name(name: str) -> str:
 
 
 def list_cases() -> None:
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # into `head`, which reads no further
     for section in SECTIONS:
         print(section)
         for case in CASES:

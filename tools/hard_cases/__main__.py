@@ -12,6 +12,7 @@ import argparse
 import difflib
 import json
 import os
+import signal
 import sys
 import tempfile
 import time
@@ -58,6 +59,7 @@ def arguments() -> argparse.Namespace:
 
 
 def list_cases() -> None:
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # into `head`, which reads no further
     for section in SECTIONS:
         print(section)
         for case in CASES:
