@@ -7,7 +7,7 @@
 /// the third moment of the weights along an axis, h xi from the middle of the dual cell to the particle. Ours. In the
 /// half cells at walls weights are linear: no second derivative, and both are the same.
 
-#include "systems/grid/support.hpp"
+#include "systems/transfer/gather.hpp"
 
 namespace minamo {
 
@@ -73,5 +73,32 @@ class Bends {
 
   std::array<std::array<Vec<Dim>, lines>, Dim> bend_;
 };
+
+/// A nodal field at a particle.
+template <int Dim>
+struct Bent {
+  const Weights<Dim>& weights;
+  const std::array<Vec<Dim>, support_size<Dim>>& q;  ///< on the particle's support
+  Sample<Dim> sample;
+  Mat<Dim> second;  ///< column d: d_d^2 q
+  Mat<Dim> beyond;  ///< C_p - grad q_p, (E71)
+};
+
+/// (E17), (E18), (E71)  use(cell, p, bent) for every particle.
+template <int Dim, class Use>
+void gather_bent(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+                 std::span<const Vec<Dim>> q_i, const Use& use) {
+  for_each_cell<Dim>(cells, [&](std::size_t c, const auto& cell) {
+    const Support<Dim> support(grid, cell);
+    const auto q = on_support<Dim>(support, q_i);
+    const Bends<Dim> bends(support, q);
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      const Weights<Dim> weights(support, y_p[p]);
+      const Mat<Dim> second = bends.at(weights);
+      const Mat<Dim> beyond = second * third_moments<Dim>(support, y_p[p]).asDiagonal();
+      use(c, p, Bent<Dim>{weights, q, interpolate<Dim>(weights, q), second, beyond});
+    }
+  });
+}
 
 }  // namespace minamo

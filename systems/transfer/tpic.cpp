@@ -42,17 +42,9 @@ void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
     });
     return;
   }
-  for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(*grid, cell);
-    const auto q = on_support<Dim>(support, v_i.span());
-    const Bends<Dim> bends(support, q);
-    for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Weights<Dim> weights(support, y_p[p]);
-      const Sample<Dim> v = interpolate<Dim>(weights, q);
-      const Mat<Dim> more = bends.at(weights) * third_moments<Dim>(support, y_p[p]).asDiagonal();
-      v_p[p] = v.value;
-      grad_v_p[p] = v.gradient + antisymmetric<Dim>(more);
-    }
+  gather_bent<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t, std::size_t p, const Bent<Dim>& v) {
+    v_p[p] = v.sample.value;
+    grad_v_p[p] = v.sample.gradient + antisymmetric<Dim>(v.beyond);
   });
 }
 

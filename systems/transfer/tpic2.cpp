@@ -1,6 +1,5 @@
 #include "systems/transfer/tpic2.hpp"
 
-#include "systems/transfer/gather.hpp"
 #include "systems/transfer/scatter.hpp"
 #include "systems/transfer/spin.hpp"
 
@@ -134,21 +133,13 @@ void G2PVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<
                                        Write<particle::Velocity<Dim>> v_p,
                                        Write<particle::VelocityGradient<Dim>> grad_v_p,
                                        Write<particle::VelocityCurvature<Dim>> h_p) const {
-  for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const Support<Dim> support(*grid, cell);
-    const auto q = on_support<Dim>(support, v_i.span());
-    const Bends<Dim> bends(support, q);
-    for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Weights<Dim> weights(support, y_p[p]);
-      const Sample<Dim> v = interpolate<Dim>(weights, q);
-      const Mat<Dim> along_axes = bends.at(weights);
-      const auto curvature = curvature_of<Dim>(along_axes, weights, q);
-      const double kept = share * liquid->interior[c] * resolved_curvature<Dim>(v.gradient, curvature, grid->spacing);
-      const Vec<Dim> rest = (1 - kept) * third_moments<Dim>(support, y_p[p]);
-      v_p[p] = v.value;
-      grad_v_p[p] = v.gradient + antisymmetric<Dim>(along_axes * rest.asDiagonal());
-      h_p[p] = kept * curvature;
-    }
+  gather_bent<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t c, std::size_t p, const Bent<Dim>& v) {
+    const auto& [value, gradient] = v.sample;
+    const auto curvature = curvature_of<Dim>(v.second, v.weights, v.q);
+    const double kept = share * liquid->interior[c] * resolved_curvature<Dim>(gradient, curvature, grid->spacing);
+    v_p[p] = value;
+    grad_v_p[p] = gradient + (1 - kept) * antisymmetric<Dim>(v.beyond);
+    h_p[p] = kept * curvature;
   });
 }
 
