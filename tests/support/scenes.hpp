@@ -26,7 +26,7 @@ inline Json with_method(const Json& scene, const std::string& transfer, const st
 
 /// Every transfer scheme with every integrator.
 inline Json any_method(const Json& scene) {
-  const std::string transfer = GENERATE("pic", "flip", "tpic", "apic", "xpic", "fmpm");
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm");
   const std::string integrator = GENERATE("newmark", "midpoint");
   return with_method(scene, transfer, integrator);
 }

@@ -1,10 +1,8 @@
 #include "support/scenes.hpp"
 
 #include "components/measure.hpp"
-#include "engine/clock.hpp"
 
 #include <cmath>
-#include <numbers>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -30,19 +28,6 @@ Json taylor_green(int cells, const std::string& integrator) {
   return with(scene_of_file("taylor_green.json"),
               {"/grid/cells=[" + std::to_string(cells) + ", " + std::to_string(cells) + "]",
                "/time/step=" + std::to_string(0.16 / cells), R"(/integrator={"scheme": ")" + integrator + "\"}"});
-}
-
-/// When the momentum along x is zero for the given time after the start, by linear interpolation. [s]
-double time_of_zero(SceneRun& run, int number) {
-  double before = 0;
-  for (int zeros = 0;;) {
-    run.step();
-    const double now = run.world().resource<measure::Momentum<2>>().linear[0];
-    const Clock& clock = run.world().resource<Clock>();
-    REQUIRE(clock.index < 1000);
-    if (before * now < 0 && ++zeros == number) return clock.time - clock.step * now / (now - before);
-    before = now;
-  }
 }
 
 }  // namespace
@@ -93,15 +78,6 @@ TEST_CASE("the ball flattens to its exact ellipsoid in space", "[verification]")
   const double corrected = velocity_error(scene, 10);
   CHECK(corrected < 1.5e-3);
   CHECK(corrected < 0.2 * velocity_error(with(scene, {R"(/transfer/inertia="lumped")"}), 10));
-}
-
-TEST_CASE("a standing wave has the period of linear theory", "[verification]") {
-  // Half of the cells of the scene, and two periods. 0.11 % was measured, 0.56 % with lumped inertia; 0.003 % at 40
-  // cells.
-  SceneRun run(with(scene_of_file("sloshing.json"), {"/grid/cells=[20, 15]", "/time/step=0.01"}));
-  const double k = std::numbers::pi;
-  const double omega = std::sqrt(9.81 * k * std::tanh(0.5 * k));
-  CHECK(time_of_zero(run, 4) == Approx(4 * std::numbers::pi / omega).epsilon(2e-3));
 }
 
 TEST_CASE("flow between no-slip walls reaches its parabola", "[verification]") {
