@@ -17,8 +17,8 @@ void there_and_back(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> 
         Vec<Dim> mq = Vec<Dim>::Zero();
         for_each_support<Dim>(
             [&](std::size_t k, const Index<Dim>& offset) { mq += weights(offset) * q_i[support.node[k]]; });
-        mq *= source.m_p[p];
-        for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { sum[k] += weights(offset) * mq; });
+        const PaddedVec<Dim> share = padded<Dim>(source.m_p[p] * mq);
+        for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { sum[k] += weights(offset) * share; });
       });
 }
 

@@ -3,17 +3,49 @@
 /// The grid-to-particle kernels that transfer schemes are made of.
 
 #include "components/particle.hpp"
-#include "systems/grid/support.hpp"
+#include "systems/transfer/cell_polynomial.hpp"
 
 #include <span>
 
 namespace minamo {
 
-/// Value and gradient of a nodal field at a particle.
+/// A nodal field as a function of the node's row.
+template <int Dim>
+auto of_nodes(std::span<const Vec<Dim>> q_i) {
+  return [q_i](std::size_t i) -> const Vec<Dim>& { return q_i[i]; };
+}
+
+/// (E17)  q_p = sum_I S_Ip q_I; use(p, q_p) for every particle. The nodal field is a function of the node's row.
+template <int Dim, class AtNode, class Use>
+void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+            const AtNode& at_node, const Use& use) {
+  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
+    const CellPolynomial<Dim> q(Support<Dim>(grid, cell), at_node);
+    for (std::size_t p = cell.begin; p < cell.end; ++p) use(p, q.at(q.local(y_p[p])).value);
+  });
+}
+
+template <int Dim, class Use>
+void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+            std::span<const Vec<Dim>> q_i, const Use& use) {
+  gather<Dim>(grid, cells, y_p, of_nodes<Dim>(q_i), use);
+}
+
+/// (E17), (E18)  use(p, jet of the nodal field) for every particle.
+template <int Dim, class Use>
+void gather_with_gradient(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+                          std::span<const Vec<Dim>> q_i, const Use& use) {
+  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
+    const CellPolynomial<Dim> q(Support<Dim>(grid, cell), of_nodes<Dim>(q_i));
+    for (std::size_t p = cell.begin; p < cell.end; ++p) use(p, q.at(q.local(y_p[p])));
+  });
+}
+
+/// Value and affine part of a nodal field at a particle.
 template <int Dim>
 struct Sample {
   Vec<Dim> value;
-  Mat<Dim> gradient;  ///< row i: gradient of component i
+  Mat<Dim> gradient;  ///< row i: of component i
 };
 
 /// sum_I S_Ip q_I and sum_I q_I (x) slope_Ip, direction by direction: half the work of a sum over nodes. Inline, or a
@@ -46,59 +78,6 @@ template <int Dim>
   return sample;
 }
 
-/// (E17)  q_p = sum_I S_Ip q_I; use(p, q_p) for every particle. The nodal field is a function of the node's row.
-template <int Dim, class AtNode, class Use>
-void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-            const AtNode& at_node, const Use& use) {
-  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(grid, cell);
-    std::array<Vec<Dim>, support_size<Dim>> q;
-    for (std::size_t k = 0; k < q.size(); ++k) q[k] = at_node(support.node[k]);
-    for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Weights<Dim> weights(support, y_p[p]);
-      Vec<Dim> q_p = Vec<Dim>::Zero();
-      for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { q_p += weights(offset) * q[k]; });
-      use(p, q_p);
-    }
-  });
-}
-
-template <int Dim, class Use>
-void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-            std::span<const Vec<Dim>> q_i, const Use& use) {
-  gather<Dim>(
-      grid, cells, y_p, [&](std::size_t i) -> const Vec<Dim>& { return q_i[i]; }, use);
-}
-
-/// The nodal field on a support.
-template <int Dim>
-std::array<Vec<Dim>, support_size<Dim>> on_support(const Support<Dim>& support, std::span<const Vec<Dim>> q_i) {
-  std::array<Vec<Dim>, support_size<Dim>> q;
-  for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
-  return q;
-}
-
-/// The value as in (E17) and sum_I q_I (x) w_Ip, where w_Ip is what slope(support, weights) makes of the weights.
-template <int Dim, class Slope, class Use>
-void gather_value_and_slope(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-                            std::span<const Vec<Dim>> q_i, const Slope& slope, const Use& use) {
-  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(grid, cell);
-    const auto q = on_support<Dim>(support, q_i);
-    for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      use(p, interpolate<Dim>(slope(support, Weights<Dim>(support, y_p[p]), y_p[p]), q));
-    }
-  });
-}
-
-/// (E17), (E18)  with grad q_p = sum_I q_I (x) grad S_Ip; use(p, sample) for every particle.
-template <int Dim, class Use>
-void gather_with_gradient(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-                          std::span<const Vec<Dim>> q_i, const Use& use) {
-  const auto keep = [](const Support<Dim>&, const Weights<Dim>& weights, const Vec<Dim>&) { return weights; };
-  gather_value_and_slope<Dim>(grid, cells, y_p, q_i, keep, use);
-}
-
 /// S_Ip D_p^-1 (x_I - y_p) in the place of the slopes.
 template <int Dim>
 [[gnu::always_inline]] inline Weights<Dim> affine_weights(const Support<Dim>& support, Weights<Dim> weights,
@@ -119,7 +98,15 @@ template <int Dim>
 template <int Dim, class Use>
 void gather_with_affine(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
                         std::span<const Vec<Dim>> q_i, const Use& use) {
-  gather_value_and_slope<Dim>(grid, cells, y_p, q_i, affine_weights<Dim>, use);
+  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
+    const Support<Dim> support(grid, cell);
+    std::array<Vec<Dim>, support_size<Dim>> q;
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] = q_i[support.node[k]];
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      const auto weights = affine_weights<Dim>(support, Weights<Dim>(support, y_p[p]), y_p[p]);
+      use(p, interpolate<Dim>(weights, q));
+    }
+  });
 }
 
 }  // namespace minamo

@@ -35,19 +35,9 @@ void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
                                       Update<particle::Velocity<Dim>> v_p) const {
   const double alpha = blend->alpha;
   // alpha (v_p + S (v_new - v_old)) + (1 - alpha) S v_new = alpha v_p + S (v_new - alpha v_old).
-  for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
-    const Support<Dim> support(*grid, cell);
-    std::array<Vec<Dim>, support_size<Dim>> increment;
-    for (std::size_t k = 0; k < increment.size(); ++k) {
-      increment[k] = v_new[support.node[k]] - alpha * v_old[support.node[k]];
-    }
-    for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Weights<Dim> weights(support, y_p[p]);
-      Vec<Dim> v = alpha * v_p[p];
-      for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { v += weights(offset) * increment[k]; });
-      v_p[p] = v;
-    }
-  });
+  const auto increment = [&](std::size_t i) -> Vec<Dim> { return v_new[i] - alpha * v_old[i]; };
+  gather<Dim>(*grid, *cells, y_p.span(), increment,
+              [&](std::size_t p, const Vec<Dim>& dv) { v_p[p] = alpha * v_p[p] + dv; });
 }
 
 template <int Dim>

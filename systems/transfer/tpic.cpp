@@ -36,16 +36,17 @@ void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
                                       Write<particle::Velocity<Dim>> v_p,
                                       Write<particle::VelocityGradient<Dim>> grad_v_p) const {
   if (!conserves_spin) {
-    gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Sample<Dim>& v) {
+    gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Jet<Dim>& v) {
       v_p[p] = v.value;
       grad_v_p[p] = v.gradient;
     });
     return;
   }
-  gather_bent<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t, std::size_t p, const Bent<Dim>& v) {
-    v_p[p] = v.sample.value;
-    grad_v_p[p] = v.sample.gradient + antisymmetric<Dim>(v.beyond);
-  });
+  gather_with_spin<Dim>(*grid, *cells, y_p.span(), v_i.span(),
+                        [&](std::size_t, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& spin) {
+                          v_p[p] = v.value;
+                          grad_v_p[p] = v.gradient + spin;
+                        });
 }
 
 template <int Dim>
@@ -53,7 +54,7 @@ void G2PAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCel
                                           Read<particle::Configuration<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
                                           Write<particle::Acceleration<Dim>> a_p,
                                           Write<particle::AccelerationGradient<Dim>> grad_a_p) const {
-  gather_with_gradient<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Sample<Dim>& a) {
+  gather_with_gradient<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Jet<Dim>& a) {
     a_p[p] = a.value;
     grad_a_p[p] = a.gradient;
   });

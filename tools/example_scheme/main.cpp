@@ -7,6 +7,7 @@
 #include <minamo/minamo.hpp>
 
 #include <minamo/systems/grid/support.hpp>
+#include <minamo/systems/transfer/gather.hpp>
 #include <minamo/systems/transfer/scatter.hpp>
 
 using namespace minamo;
@@ -26,7 +27,7 @@ struct ScatterVelocity {
         Vec<Dim> away = support.corner - y_p[p];
         for (int d = 0; d < Dim; ++d) away[d] += offset[static_cast<std::size_t>(d)] * grid->spacing;
         const Vec<Dim> momentum = m_p[p] * (v_p[p] + G_p[p] * away);
-        sum[k] += weights(offset) * momentum;
+        sum[k] += weights(offset) * padded<Dim>(momentum);
       });
     };
     scatter_mean<Dim>(source, v_i.span(), add);
@@ -49,20 +50,10 @@ struct GatherVelocity {
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
                   Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
                   Write<particle::VelocityGradient<Dim>> G_p) const {
-    for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
-      const Support<Dim> support(*grid, cell);
-      for (std::size_t p = cell.begin; p < cell.end; ++p) {
-        const Weights<Dim> weights(support, y_p[p]);
-        Vec<Dim> v = Vec<Dim>::Zero();
-        Mat<Dim> A = Mat<Dim>::Zero();
-        for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-          const Vec<Dim>& at_node = v_i[support.node[k]];
-          v += weights(offset) * at_node;
-          A += at_node * weights.gradient(offset).transpose();
-        });
-        v_p[p] = v;
-        G_p[p] = 0.5 * rotation * (A - A.transpose()) + 0.5 * strain * (A + A.transpose());
-      }
+    gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Jet<Dim>& v) {
+      const Mat<Dim>& A = v.gradient;
+      v_p[p] = v.value;
+      G_p[p] = 0.5 * rotation * (A - A.transpose()) + 0.5 * strain * (A + A.transpose());
     });
   }
 };
