@@ -54,20 +54,19 @@ Work p2g_velocity_tpic(const Rows& rows) {
           per_particle * rows.particles + Dim * rows.nodes};
 }
 
-/// (E17), (E18), (E71)  Reads y_p, v_I; writes v_p, grad v_p. Slopes: 9 d. Direction by direction, per row of three
-/// nodes value and slope along it 5 d each, value, and slopes in both directions of the plane 2 d each; in space per
-/// plane of nine 2 d for each of value and three slopes. Spin: moments 5 d; per entry off the diagonal 1, and per row
-/// of three lines 5, in space 2 more for the row's weight; per pair of entries 4. Per cell, axis, line and component
-/// across it 4.
+/// (E17), (E18), (E71)  Reads y_p, v_I; writes v_p, grad v_p. A polynomial per cell: per axis, line of three nodes and
+/// component 3 numbers of 5 each. Per particle and component, 4 for a value and 2 for a slope of a polynomial: along x
+/// both on every line, along y both of the values and the value of the slopes, along z alike with two slopes; d to
+/// scale. Second derivatives along an axis of the components across it: along x 4, in space 16, along y 0 and 4, along
+/// z 0. Spin: 2 to xi, moments 5 d, per entry off the diagonal 1, per pair of them 4.
 template <int Dim>
 Work g2p_velocity_tpic(const Rows& rows) {
-  const double planes = Dim == 3 ? 3 : 1;
+  const double lines = power(3, Dim - 1);
+  const double per_component = 6 * lines + (Dim == 3 ? 3 * 10 + 14 : 10) + Dim;
   const double across = Dim * (Dim - 1);  // axes times components
-  const double of_spin = 5 * Dim + across * (planes * (Dim == 3 ? 7 : 5) + 1 + 2);
-  const double per_particle =
-      weight_flops<Dim> + 9 * Dim + planes * (3 * 16 * Dim) + (Dim == 3 ? planes * 8 * Dim : 0) + of_spin;
+  const double of_spin = (Dim == 3 ? 2 * (16 + 4) : 4) + 7 * Dim + across + 2 * across;
   return {8 * ((2 * Dim + Dim * Dim) * rows.particles + Dim * rows.nodes),
-          per_particle * rows.particles + 4 * 3 * planes * across * rows.cells};
+          (Dim * per_component + of_spin) * rows.particles + 15 * Dim * Dim * lines * rows.cells};
 }
 
 /// (E19)  Reads y_p, m_p; writes M_c. Per particle xi: 2 d, V_p: 1, powers: 3 d, V eta^b: 5, times xi^a: 25, added up:
