@@ -35,17 +35,9 @@ class CellPolynomial {
   CellPolynomial(const Support<Dim>& support, const AtNode& at_node)
       : centre_(support.centre), per_spacing_(support.per_spacing) {
     for (std::size_t k = 0; k < c_.size(); ++k) c_[k] = padded<Dim>(at_node(support.node[k]));
-    std::size_t stride = 1;
-    for (std::size_t d = 0; d < Dim; ++d, stride *= 3) {
-      const auto& weight = support.basis[d]->weight;
-      for (std::size_t line = 0; line < c_.size() / 3; ++line) {
-        PaddedVec<Dim>* node = c_.data() + line % stride + line / stride * 3 * stride;
-        const PaddedVec<Dim> q[] = {node[0], node[stride], node[2 * stride]};
-        for (std::size_t k = 0; k < weight_powers; ++k) {
-          node[k * stride] = weight[0][k] * q[0] + weight[1][k] * q[1] + weight[2][k] * q[2];
-        }
-      }
-    }
+    along_axis<0>(*support.basis[0]);
+    along_axis<1>(*support.basis[1]);
+    if constexpr (Dim == 3) along_axis<2>(*support.basis[2]);
   }
 
   /// The point in units of h, from the cell's own node.
@@ -80,6 +72,23 @@ class CellPolynomial {
   }
 
  private:
+  /// From values at the three nodes of every line along an axis to coefficients of powers.
+  template <int Axis>
+  void along_axis(const AxisBasis& basis) {
+    constexpr std::size_t stride = power(3, Axis);
+    for (std::size_t line = 0; line < support_size<Dim> / 3; ++line) {
+      PaddedVec<Dim>* node = c_.data() + line % stride + line / stride * 3 * stride;
+      const auto coefficient = [&](std::size_t k) -> PaddedVec<Dim> {
+        return basis.weight[0][k] * node[0] + basis.weight[1][k] * node[stride] + basis.weight[2][k] * node[2 * stride];
+      };
+      const PaddedVec<Dim> constant = coefficient(0);
+      const PaddedVec<Dim> linear = coefficient(1);
+      node[2 * stride] = coefficient(2);
+      node[stride] = linear;
+      node[0] = constant;
+    }
+  }
+
   /// Value and derivatives of c0 + c1 x + c2 x^2.
   struct Line {
     PaddedVec<Dim> value, first, second;

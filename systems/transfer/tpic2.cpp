@@ -25,20 +25,27 @@ struct Series {
   std::array<PaddedVec<Dim>, Dim*(Dim + 1) / 2> quadratic;
 
   /// `way` leads from the particle to the first node. [m]
-  Series(double m, const Vec<Dim>& v, Mat<Dim> gradient, const SecondDerivatives<Dim>& curvature, const Vec<Dim>& way,
-         const Weights<Dim>& weights, double h) {
-    Vec<Dim> at_first = v + gradient * way;
+  Series(double m, const Vec<Dim>& v, const Mat<Dim>& gradient, const SecondDerivatives<Dim>& curvature,
+         const Vec<Dim>& way, const Weights<Dim>& weights, double h)
+      : constant(padded<Dim>(v)) {
+    for (int d = 0; d < Dim; ++d) {
+      linear[index(d)] = padded<Dim>(gradient.col(d));
+      constant += way[d] * linear[index(d)];
+    }
     for_each_pair<Dim>([&](int column, int a, int b) {
-      const Vec<Dim> of = curvature.col(column);
-      gradient.col(a) += way[b] * of;
-      if (a != b) gradient.col(b) += way[a] * of;
-      const double square =
-          a == b ? 0.5 * (way[a] * way[a] - mean_square(way[a], weights.value[index(a)], h)) : way[a] * way[b];
-      at_first += square * of;
-      quadratic[index(column)] = padded<Dim>(((a == b ? 0.5 : 1) * m * h * h) * of);
+      const PaddedVec<Dim> of = padded<Dim>(curvature.col(column));
+      const double square = way[a] * way[b];
+      linear[index(a)] += way[b] * of;
+      if (a == b) {
+        constant += 0.5 * (square - mean_square(way[a], weights.value[index(a)], h)) * of;
+      } else {
+        constant += square * of;
+        linear[index(b)] += way[a] * of;
+      }
+      quadratic[index(column)] = ((a == b ? 0.5 : 1) * m * h * h) * of;
     });
-    constant = padded<Dim>(m * at_first);
-    for (int d = 0; d < Dim; ++d) linear[index(d)] = padded<Dim>((m * h) * gradient.col(d));
+    constant *= m;
+    for (PaddedVec<Dim>& of : linear) of *= m * h;
   }
 
   [[gnu::always_inline]] PaddedVec<Dim> at(const Index<Dim>& offset) const {
