@@ -33,7 +33,7 @@ void read_transfer(Input& input, const SystemRegistry& registry, Scene& scene) {
       }
     });
   }
-  scene.transfer = input.variant("scheme", "transfer scheme", "tpic", variants);
+  scene.transfer = input.variant("scheme", "transfer scheme", "tpic2", variants);
   scene.transfer_scheme = registry.choices<TransferScheme>().at(scene.transfer);
 }
 

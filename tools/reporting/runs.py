@@ -133,7 +133,7 @@ class Run:
     @property
     def scheme(self) -> str:
         """Transfer scheme, as it is written in papers."""
-        return self.scene.get("transfer", {}).get("scheme", "tpic").upper()
+        return self.scene.get("transfer", {}).get("scheme", "tpic2").upper()
 
     @property
     def status(self) -> str:
