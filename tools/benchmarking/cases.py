@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-# What a scene gets that says nothing of its method; the scenes below name the method of the paper.
+# The defaults, but TPIC of first order, with which the figures of others were measured; the scenes below name the method
+# of the paper.
 DEFAULTS = {
     "/transfer": {"scheme": "tpic"},
     "/integrator": {"scheme": "midpoint"},
