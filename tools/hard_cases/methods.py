@@ -27,7 +27,7 @@ class Method(NamedTuple):
 
 
 METHODS = [Method(*names) for names in product(SCHEMES, INTEGRATORS, VOLUMES)]
-DEFAULT = Method("tpic", "midpoint", "projection")
+DEFAULT = Method("tpic2", "midpoint", "projection")
 
 
 def listed(methods: Iterable[Method]) -> str:

@@ -85,7 +85,7 @@ def cases() -> list[Case]:
              [dam_break_of_the_paper(60.0, 2e-3)], [*ALWAYS, ENERGY, WHOLE, LEVEL, CAME_TO_REST],
              {"level without the energy of waves, of the depth": lambda runs: level_below_waves(runs[0]),
               "share of the first standing wave in the kinetic energy": lambda runs: share_of_standing_wave(runs[0])},
-             methods=[Method(scheme, "midpoint", "projection") for scheme in ("tpic", "flip")], seconds=900, long=True),
+             methods=[Method(scheme, "midpoint", "projection") for scheme in ("tpic", "tpic2", "flip")], seconds=900, long=True),
         # Divergence that turned over from step to step without end grew here with FLIP.
         Case("dam_break_of_16", "endurance", "the dam break of the paper, 16 particles per cell, steps of 1 ms, 5000 of them",
              [dam_break_of_the_paper(5.0, 1e-3, 4)], [*ALWAYS, ENERGY, WHOLE],
