@@ -1,6 +1,6 @@
 #include "systems/transfer/apic.hpp"
 
-#include "systems/transfer/gather.hpp"
+#include "systems/transfer/affine.hpp"
 
 namespace minamo {
 
@@ -9,10 +9,11 @@ void G2PVelocityApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
                                       Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
                                       Write<particle::Velocity<Dim>> v_p,
                                       Write<particle::VelocityGradient<Dim>> c_p) const {
-  gather_with_affine<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Sample<Dim>& v) {
-    v_p[p] = v.value;
-    c_p[p] = v.gradient;
-  });
+  gather_with_affine<Dim>(*grid, *cells, y_p.span(), v_i.span(),
+                          [&](std::size_t, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& beyond) {
+                            v_p[p] = v.value;
+                            c_p[p] = v.gradient + beyond;
+                          });
 }
 
 template <int Dim>
@@ -20,10 +21,11 @@ void G2PAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCel
                                           Read<particle::Configuration<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
                                           Write<particle::Acceleration<Dim>> a_p,
                                           Write<particle::AccelerationGradient<Dim>> c_p) const {
-  gather_with_affine<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Sample<Dim>& a) {
-    a_p[p] = a.value;
-    c_p[p] = a.gradient;
-  });
+  gather_with_affine<Dim>(*grid, *cells, y_p.span(), a_i.span(),
+                          [&](std::size_t, std::size_t p, const Jet<Dim>& a, const Mat<Dim>& beyond) {
+                            a_p[p] = a.value;
+                            c_p[p] = a.gradient + beyond;
+                          });
 }
 
 template struct G2PVelocityApic<2>;

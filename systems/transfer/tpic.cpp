@@ -1,8 +1,8 @@
 #include "systems/transfer/tpic.hpp"
 
+#include "systems/transfer/affine.hpp"
 #include "systems/transfer/gather.hpp"
 #include "systems/transfer/scatter.hpp"
-#include "systems/transfer/spin.hpp"
 
 namespace minamo {
 
@@ -42,11 +42,11 @@ void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
     });
     return;
   }
-  gather_with_spin<Dim>(*grid, *cells, y_p.span(), v_i.span(),
-                        [&](std::size_t, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& spin) {
-                          v_p[p] = v.value;
-                          grad_v_p[p] = v.gradient + spin;
-                        });
+  gather_with_affine<Dim>(*grid, *cells, y_p.span(), v_i.span(),
+                          [&](std::size_t, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& beyond) {
+                            v_p[p] = v.value;
+                            grad_v_p[p] = v.gradient + antisymmetric<Dim>(beyond);
+                          });
 }
 
 template <int Dim>

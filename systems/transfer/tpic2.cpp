@@ -1,7 +1,7 @@
 #include "systems/transfer/tpic2.hpp"
 
+#include "systems/transfer/affine.hpp"
 #include "systems/transfer/scatter.hpp"
-#include "systems/transfer/spin.hpp"
 
 namespace minamo {
 
@@ -106,14 +106,14 @@ void G2PVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<
                                        Write<particle::Velocity<Dim>> v_p,
                                        Write<particle::VelocityGradient<Dim>> grad_v_p,
                                        Write<particle::VelocityCurvature<Dim>> h_p) const {
-  gather_with_spin<Dim>(*grid, *cells, y_p.span(), v_i.span(),
-                        [&](std::size_t c, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& spin) {
-                          const double resolved = resolved_curvature<Dim>(v.gradient, v.second, grid->spacing);
-                          const double kept = share * liquid->interior[c] * resolved;
-                          v_p[p] = v.value;
-                          grad_v_p[p] = v.gradient + (1 - kept) * spin;
-                          h_p[p] = kept * v.second;
-                        });
+  gather_with_affine<Dim>(*grid, *cells, y_p.span(), v_i.span(),
+                          [&](std::size_t c, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& beyond) {
+                            const double resolved = resolved_curvature<Dim>(v.gradient, v.second, grid->spacing);
+                            const double kept = share * liquid->interior[c] * resolved;
+                            v_p[p] = v.value;
+                            grad_v_p[p] = v.gradient + (1 - kept) * antisymmetric<Dim>(beyond);
+                            h_p[p] = kept * v.second;
+                          });
 }
 
 template struct P2GVelocityTpic2<2>;

@@ -162,6 +162,36 @@ TEST_CASE("TPIC with the spin of its gradient does not: it is another one than t
   CHECK(std::abs(particle_angular_momentum(world) - nodal_angular_momentum(world)) > 1e-3);
 }
 
+TEMPLATE_TEST_CASE_SIG("APIC's affine part is the sum over nodes that defines it", "[property]", ((int Dim), Dim), 2,
+                       3) {
+  World world;
+  fill<Dim>(world, 300, 18);
+  set_new_velocity<Dim>(world, 19);
+  run<G2PVelocityApic<Dim>>(world);
+  const Grid<Dim> grid = world.resource<Grid<Dim>>();
+  const auto v_i = world.column<node::NewVelocity<Dim>>();
+  double worst = 0;
+  std::size_t compared = 0;
+  for (std::size_t p = 0; p < world.rows<Particles>(); ++p) {
+    const Vec<Dim> y = world.column<particle::Configuration<Dim>>()[p];
+    const PlainWeights<Dim> plain(grid, y);
+    Mat<Dim> sum = Mat<Dim>::Zero();
+    Vec<Dim> second_moment = Vec<Dim>::Zero();
+    for (std::size_t i = 0; i < v_i.size(); ++i) {
+      const Vec<Dim> way = node_position<Dim>(grid, i) - y;
+      sum += plain.value[i] * v_i[i] * way.transpose();
+      second_moment += plain.value[i] * way.cwiseAbs2();
+    }
+    // On a wall the sums vanish, and with them the moment that they are divided by.
+    if (second_moment.minCoeff() < 1e-3 * grid.spacing * grid.spacing) continue;
+    const Mat<Dim> affine = sum * second_moment.cwiseInverse().asDiagonal();
+    worst = std::max(worst, (world.column<particle::VelocityGradient<Dim>>()[p] - affine).norm());
+    ++compared;
+  }
+  CHECK(compared > 250);
+  CHECK(worst < 1e-11);  // sums of size 1 and rounding 1e-16 over a moment of at least 2.5e-4 m^2
+}
+
 TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velocity", "[property]", ((int Dim), Dim),
                        2, 3) {
   World world;
