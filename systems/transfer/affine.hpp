@@ -5,8 +5,7 @@
 ///
 /// (E71)  C_p - grad v_p = sum_d T_d/(2 D_d) d_d^2 v (x) e_d, D_d = h^2/4 the second and T_d = h^3 (xi_d/4 - xi_d^3)
 /// the third moment of the weights along an axis, h xi from the middle of the dual cell to the particle. Ours. In the
-/// half cells at walls weights are linear: no second derivative, and both are the same, also on the wall, where D_d =
-/// 0.
+/// half cells at walls weights are linear: no second derivative, and both are the same.
 
 #include "systems/transfer/gather.hpp"
 

@@ -98,5 +98,5 @@ TEST_CASE("a standing wave dies away as fast as in a viscous liquid", "[verifica
   const double exact = -rate_of_wave(nu).real();
   REQUIRE(2 * nu * wave_number * wave_number > 1.09 * exact);
   SceneRun run(sloshing({"/fluid/viscosity=10", R"(/transfer={"scheme": "tpic2"})", "/time/step=0.02"}));
-  CHECK(damping(half_periods(run, 6)) == Approx(exact).epsilon(0.02));
+  CHECK(damping(half_periods(run, 6)) == Approx(exact).epsilon(0.01));
 }
