@@ -52,7 +52,7 @@ class ColumnView {
   std::span<Value> span() const { return storage_->values(); }
 
  private:
-  ColumnStorage<C>* storage_;
+  ColumnStorage<typename C::value_type>* storage_;
 };
 
 /// A resource as a system sees it.

@@ -90,11 +90,11 @@ enum class Old {
   unread,
 };
 
-template <ColumnComponent C>
+/// Columns of the same type of value share its code.
+template <class T>
 class ColumnStorage final : public Storage {
  public:
-  using T = typename C::value_type;
-  ColumnStorage() : Storage(C::info, C::table::name) {}
+  ColumnStorage(const ComponentInfo& info, std::string_view table) : Storage(info, table) {}
   std::span<T> values() { return values_; }
   void resize(std::size_t rows) override {
     keep(Old::needed);
@@ -113,14 +113,7 @@ class ColumnStorage final : public Storage {
   void mark() override { keeping_ = detail::Keeping::due; }
   /// To be called before a change. Where all values are written anew, the old ones are set aside instead of copied.
   void keep(Old old) {
-    if (keeping_ != detail::Keeping::due) return;
-    keeping_ = detail::Keeping::done;
-    if (old == Old::needed) {
-      kept_ = values_;
-    } else {
-      kept_.swap(values_);
-      values_.resize(kept_.size(), zero<T>());
-    }
+    if (keeping_ == detail::Keeping::due) keep_now(old);
   }
   void roll_back() override {
     if (keeping_ == detail::Keeping::done) values_.swap(kept_);
@@ -133,6 +126,15 @@ class ColumnStorage final : public Storage {
   std::size_t doubles_per_value() const override { return detail::doubles_in<T>(); }
 
  private:
+  [[gnu::noinline]] void keep_now(Old old) {
+    keeping_ = detail::Keeping::done;
+    if (old == Old::needed) {
+      kept_ = values_;
+    } else {
+      kept_.swap(values_);
+      values_.resize(kept_.size(), zero<T>());
+    }
+  }
   /// The rows in spare_ become the values; the old ones are kept if that is due, which costs nothing.
   void take_spare() {
     values_.swap(spare_);
@@ -150,7 +152,7 @@ class ColumnStorage final : public Storage {
 template <ResourceComponent C>
 class ResourceStorage final : public Storage {
  public:
-  ResourceStorage() : Storage(C::info, {}) {}
+  ResourceStorage(const ComponentInfo& info, std::string_view table) : Storage(info, table) {}
   C& value() { return value_; }
   void resize(std::size_t) override {}
   void reorder(std::span<const std::uint32_t>) override {}
@@ -186,13 +188,13 @@ class World {
   }
 
   template <ColumnComponent C>
-  ColumnStorage<C>& storage() {
-    return stored<C, ColumnStorage<C>>();
+  ColumnStorage<typename C::value_type>& storage() {
+    return stored<C, ColumnStorage<typename C::value_type>>(C::table::name);
   }
 
   template <ResourceComponent C>
   C& resource() {
-    return stored<C, ResourceStorage<C>>().value();
+    return stored<C, ResourceStorage<C>>({}).value();
   }
 
   template <Described C>
@@ -244,9 +246,9 @@ class World {
 
  private:
   template <class C, class StorageType>
-  StorageType& stored() {
+  StorageType& stored(std::string_view table) {
     const std::size_t id = component_id<C>();
-    if (id >= by_id_.size() || !by_id_[id]) insert(id, std::make_unique<StorageType>());
+    if (id >= by_id_.size() || !by_id_[id]) insert(id, std::make_unique<StorageType>(C::info, table));
     return static_cast<StorageType&>(*by_id_[id]);
   }
   void insert(std::size_t id, std::unique_ptr<Storage> storage);
