@@ -2,16 +2,44 @@
 
 #include "engine/parallel.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace minamo {
 
 namespace {
 
 constexpr std::size_t blocks_per_task = 32;
 
+/// Rows of liquid that fills its cells are sums of the same numbers, in orders of their own: what they may differ by,
+/// of the largest entry of their kind.
+constexpr double roundings = 1e-14;
+
+/// Entries of a block in memory, and those that are alike in all rows of a kind.
+struct Stored {
+  const double* first;
+  std::size_t stride;
+  Lanes operator()(std::size_t entry) const { return load(first + entry * stride); }
+};
+struct Alike {
+  const double* entries;
+  Lanes operator()(std::size_t entry) const { return Lanes::Constant(entries[entry]); }
+};
+
 /// The sum over the five neighbours in a line of the stencil, as a tree: no addition waits for many others.
-[[gnu::always_inline]] inline Lanes line_sum(const double* entry, std::size_t step, const double* x) {
-  const auto term = [&](std::size_t k) -> Lanes { return load(entry + k * step) * load(x + k); };
+template <class Entries>
+[[gnu::always_inline]] inline Lanes line_sum(const Entries& entries, std::size_t first, std::size_t step,
+                                             const double* x) {
+  const auto term = [&](std::size_t k) -> Lanes { return entries(first + k * step) * load(x + k); };
   return ((term(0) + term(1)) + (term(3) + term(4))) + term(2);
+}
+
+template <std::size_t N>
+bool are_near(const std::array<Lanes, N>& values, const double* there, const std::array<double, N>& tolerance) {
+  for (std::size_t e = 0; e < N; ++e) {
+    if (((values[e] - there[e]).abs() > tolerance[e]).any()) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -35,29 +63,79 @@ void PressureSchur<Dim>::fill_mobility(const EquationTerms<Dim>& t) {
 }
 
 template <int Dim>
-void PressureSchur<Dim>::fill_block(const EquationTerms<Dim>& t, const Block& block) {
+auto PressureSchur<Dim>::entries(const EquationTerms<Dim>& t, const Block& block, std::size_t k) const -> Entries {
+  const std::size_t back = stencil_size<Dim> - 1 - k;
+  std::array<const double*, RowBlocks<Dim>::width> to_other, from_other, stabilization;
+  for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
+    const std::int32_t row = block.row[lane];
+    const std::int32_t other = blocks_.row(block.at(k) + lane);
+    const bool is_there = row >= 0 && other >= 0;
+    const auto r = static_cast<std::size_t>(row);
+    to_other[lane] = is_there ? t.divergence[r].data() + Dim * k : no_row.data();
+    stabilization[lane] = is_there ? t.stabilization[r].data() + (Dim + 1) * k : no_row.data();
+    from_other[lane] = is_there ? t.divergence[static_cast<std::size_t>(other)].data() + Dim * back : no_row.data();
+  }
+  Entries found;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    found.push[d] = take(from_other, d);
+    found.spread[d] = t.c_v * take(to_other, d) + t.c_a * take(stabilization, d);
+  }
+  found.spread[Dim] = take(stabilization, Dim);
+  return found;
+}
+
+/// Whether the rows of a block have all their neighbours and are alike. If so, inner_ becomes what they have.
+template <int Dim>
+bool PressureSchur<Dim>::take_inner(const EquationTerms<Dim>& t, const Block& block) {
+  inner_.push_tolerance.fill(0);
+  inner_.spread_tolerance.fill(0);
+  for (const std::int32_t row : block.row) {
+    if (row < 0) return false;
+  }
+  const auto first = static_cast<std::size_t>(block.row[0]);
+  for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double divergence = roundings * std::abs(t.divergence[first][Dim * k + d]);
+      const double gradient = roundings * std::abs(t.stabilization[first][(Dim + 1) * k + d]);
+      inner_.push_tolerance[d] = std::max(inner_.push_tolerance[d], divergence);
+      inner_.spread_tolerance[d] = std::max(inner_.spread_tolerance[d], t.c_v * divergence + t.c_a * gradient);
+    }
+    inner_.spread_tolerance[Dim] =
+        std::max(inner_.spread_tolerance[Dim], roundings * std::abs(t.stabilization[first][(Dim + 1) * k + Dim]));
+  }
+  for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+    for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
+      if (blocks_.row(block.at(k) + lane) < 0) return false;
+    }
+    const Entries found = entries(t, block, k);
+    for (std::size_t d = 0; d < Dim; ++d) inner_.push[Dim * k + d] = found.push[d][0];
+    for (std::size_t d = 0; d <= Dim; ++d) inner_.spread[(Dim + 1) * k + d] = found.spread[d][0];
+    if (!is_inner(found, k)) return false;
+  }
+  return true;
+}
+
+template <int Dim>
+bool PressureSchur<Dim>::is_inner(const Entries& found, std::size_t k) const {
+  return are_near(found.push, inner_.push.data() + Dim * k, inner_.push_tolerance) &&
+         are_near(found.spread, inner_.spread.data() + (Dim + 1) * k, inner_.spread_tolerance);
+}
+
+template <int Dim>
+void PressureSchur<Dim>::fill_block(const EquationTerms<Dim>& t, std::size_t b) {
+  const Block& block = blocks_.blocks()[b];
   double* push = push_.at(block.slot);
   double* spread = spread_.at(block.slot);
   const std::size_t stride = push_.stride(block.slot);
-  std::array<const double*, RowBlocks<Dim>::width> to_other, from_other, stabilization;
+  bool inner = has_inner_;
   for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-    const std::size_t back = stencil_size<Dim> - 1 - k;
-    for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
-      const std::int32_t row = block.row[lane];
-      const std::int32_t other = blocks_.row(block.at(k) + lane);
-      const bool is_there = row >= 0 && other >= 0;
-      const auto r = static_cast<std::size_t>(row);
-      to_other[lane] = is_there ? t.divergence[r].data() + Dim * k : no_row.data();
-      stabilization[lane] = is_there ? t.stabilization[r].data() + (Dim + 1) * k : no_row.data();
-      from_other[lane] = is_there ? t.divergence[static_cast<std::size_t>(other)].data() + Dim * back : no_row.data();
-    }
-    for (std::size_t d = 0; d < Dim; ++d) {
-      store(take(from_other, d), push + (Dim * k + d) * stride);
-      store(t.c_v * take(to_other, d) + t.c_a * take(stabilization, d), spread + ((Dim + 1) * k + d) * stride);
-    }
-    store(take(stabilization, Dim), spread + ((Dim + 1) * k + Dim) * stride);
+    const Entries found = entries(t, block, k);
+    for (std::size_t d = 0; d < Dim; ++d) store(found.push[d], push + (Dim * k + d) * stride);
+    for (std::size_t d = 0; d <= Dim; ++d) store(found.spread[d], spread + ((Dim + 1) * k + d) * stride);
+    inner = inner && is_inner(found, k);
   }
-  double* own = spread + ((Dim + 1) * (stencil_size<Dim> / 2) + Dim) * stride;
+  is_inner_[b] = inner;
+  double* own = spread + own_pressure * stride;
   for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
     if (block.row[lane] < 0) continue;
     own[lane] += t.pressure_per_mass * t.m_i[t.node[static_cast<std::size_t>(block.row[lane])]];
@@ -84,9 +162,16 @@ void PressureSchur<Dim>::assemble(const EquationTerms<Dim>& t, const Grid<Dim>& 
   spread_.resize(blocks_, (Dim + 1) * stencil_size<Dim>);
   fill_mobility(t);
   const auto& blocks = blocks_.blocks();
+  has_inner_ = std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) { return take_inner(t, block); });
+  is_inner_.resize(blocks.size());
   for_each_row(
-      blocks.size(), [&](std::size_t b) { fill_block(t, blocks[b]); }, blocks_per_task);
+      blocks.size(), [&](std::size_t b) { fill_block(t, b); }, blocks_per_task);
   fill_margins();
+}
+
+template <int Dim>
+std::size_t PressureSchur<Dim>::inner_blocks() const {
+  return static_cast<std::size_t>(std::count(is_inner_.begin(), is_inner_.end(), 1));
 }
 
 template <int Dim>
@@ -95,22 +180,52 @@ void PressureSchur<Dim>::take_pressure(const Values& p) {
   blocks_.fill_images(pressure_.data());
 }
 
-/// D^T p for the rows of a block.
 template <int Dim>
-auto PressureSchur<Dim>::push_block(const Block& block) const -> std::array<Lanes, Dim> {
+template <class Source>
+auto PressureSchur<Dim>::push_lines(const Block& block, const Source& entries) const -> std::array<Lanes, Dim> {
   std::array<Lanes, Dim> sum;
   sum.fill(Lanes::Zero());
-  const std::size_t stride = push_.stride(block.slot);
-  const double* entry = push_.at(block.slot);
-  for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line, entry += 5 * Dim * stride) {
+  for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line) {
     if (blocks_.is_beyond(block.beside[line])) continue;
     const double* p = pressure_.data() + block.line(line);
-    for (std::size_t d = 0; d < Dim; ++d) sum[d] += line_sum(entry + d * stride, Dim * stride, p);
+    for (std::size_t d = 0; d < Dim; ++d) sum[d] += line_sum(entries, 5 * Dim * line + d, Dim, p);
   }
   return sum;
 }
 
-/// B w + (T + e) p of the pressure and velocity in the slots.
+/// D^T p for the rows of a block.
+template <int Dim>
+auto PressureSchur<Dim>::push_block(std::size_t b) const -> std::array<Lanes, Dim> {
+  const Block& block = blocks_.blocks()[b];
+  if (is_inner_[b]) return push_lines(block, Alike{inner_.push.data()});
+  return push_lines(block, Stored{push_.at(block.slot), push_.stride(block.slot)});
+}
+
+template <int Dim>
+template <class Source>
+Lanes PressureSchur<Dim>::spread_lines(const Block& block, const Source& entries) const {
+  Lanes sum = Lanes::Zero();
+  for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line) {
+    if (blocks_.is_beyond(block.beside[line])) continue;
+    const std::size_t there = block.line(line);
+    const std::size_t first = 5 * (Dim + 1) * line;
+    for (std::size_t d = 0; d < Dim; ++d) sum += line_sum(entries, first + d, Dim + 1, velocity(d) + there);
+    sum += line_sum(entries, first + Dim, Dim + 1, pressure_.data() + there);
+  }
+  return sum;
+}
+
+/// B w + (T + e) p of the pressure and velocity in the slots of a block.
+template <int Dim>
+Lanes PressureSchur<Dim>::spread_block(std::size_t b) const {
+  const Block& block = blocks_.blocks()[b];
+  const Stored stored{spread_.at(block.slot), spread_.stride(block.slot)};
+  if (!is_inner_[b]) return spread_lines(block, stored);
+  // e goes with the mass of a node, which is its own.
+  const Lanes e = stored(own_pressure) - inner_.spread[own_pressure];
+  return spread_lines(block, Alike{inner_.spread.data()}) + e * load(pressure_.data() + block.slot);
+}
+
 template <int Dim>
 void PressureSchur<Dim>::spread_blocks(Values& out) {
   for (std::size_t d = 0; d < Dim; ++d) blocks_.fill_images(velocity(d));
@@ -118,21 +233,10 @@ void PressureSchur<Dim>::spread_blocks(Values& out) {
   for_each_row(
       blocks.size(),
       [&](std::size_t b) {
-        const Block& block = blocks[b];
-        Lanes sum = Lanes::Zero();
-        const std::size_t stride = spread_.stride(block.slot);
-        const double* entry = spread_.at(block.slot);
-        for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line, entry += 5 * (Dim + 1) * stride) {
-          if (blocks_.is_beyond(block.beside[line])) continue;
-          const std::size_t there = block.line(line);
-          for (std::size_t d = 0; d < Dim; ++d) {
-            sum += line_sum(entry + d * stride, (Dim + 1) * stride, velocity(d) + there);
-          }
-          sum += line_sum(entry + Dim * stride, (Dim + 1) * stride, pressure_.data() + there);
-        }
+        const Lanes sum = spread_block(b);
         for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
-          if (block.row[lane] >= 0)
-            out[static_cast<std::size_t>(block.row[lane])] = sum[static_cast<Eigen::Index>(lane)];
+          if (blocks[b].row[lane] >= 0)
+            out[static_cast<std::size_t>(blocks[b].row[lane])] = sum[static_cast<Eigen::Index>(lane)];
         }
       },
       blocks_per_task);
@@ -145,7 +249,7 @@ void PressureSchur<Dim>::push(const Values& p, Values& out) {
   for_each_row(
       blocks.size(),
       [&](std::size_t b) {
-        const auto sum = push_block(blocks[b]);
+        const auto sum = push_block(b);
         for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
           if (blocks[b].row[lane] < 0) continue;
           double* row = out.data() + Dim * static_cast<std::size_t>(blocks[b].row[lane]);
@@ -171,7 +275,7 @@ void PressureSchur<Dim>::apply_with_mobility(const Values& p, Values& out) {
   for_each_row(
       blocks.size(),
       [&](std::size_t b) {
-        const auto sum = push_block(blocks[b]);
+        const auto sum = push_block(b);
         for (std::size_t d = 0; d < Dim; ++d) {
           store(sum[d] * load(slot_mobility_.data() + d * blocks_.slots() + blocks[b].slot),
                 velocity(d) + blocks[b].slot);

@@ -27,6 +27,9 @@ class PressureSchur {
   /// B_IJ at [(Dim + 1) k + d], T_IJ + e at [(Dim + 1) k + Dim].
   const BlockEntries<Dim>& spread_entries() const { return spread_; }
 
+  /// Blocks whose rows are read once for all.
+  std::size_t inner_blocks() const;
+
   /// out = D^T p, at [Dim r + d].
   void push(const Values& p, Values& out);
   /// out = B w + (T + e) p, w at [Dim r + d].
@@ -36,17 +39,43 @@ class PressureSchur {
 
  private:
   using Block = typename RowBlocks<Dim>::Block;
+  static constexpr std::size_t own_pressure = (Dim + 1) * (stencil_size<Dim> / 2) + Dim;
+  /// Of the rows of a block at one place of the stencil, T without e.
+  struct Entries {
+    std::array<Lanes, Dim> push;
+    std::array<Lanes, Dim + 1> spread;
+  };
+  /// Of rows deep in the liquid, (E68), which are all alike: products need not read them from memory row by row.
+  struct InnerRow {
+    std::array<double, Dim * stencil_size<Dim>> push;
+    std::array<double, (Dim + 1) * stencil_size<Dim>> spread;
+    std::array<double, Dim> push_tolerance;
+    std::array<double, Dim + 1> spread_tolerance;
+  };
+
   void fill_mobility(const EquationTerms<Dim>& terms);
-  void fill_block(const EquationTerms<Dim>& terms, const Block& block);
+  Entries entries(const EquationTerms<Dim>& terms, const Block& block, std::size_t place) const;
+  bool take_inner(const EquationTerms<Dim>& terms, const Block& block);
+  bool is_inner(const Entries& found, std::size_t place) const;
+  void fill_block(const EquationTerms<Dim>& terms, std::size_t b);
   void fill_margins();
-  std::array<Lanes, Dim> push_block(const Block& block) const;
+  template <class Source>
+  std::array<Lanes, Dim> push_lines(const Block& block, const Source& entries) const;
+  template <class Source>
+  Lanes spread_lines(const Block& block, const Source& entries) const;
+  std::array<Lanes, Dim> push_block(std::size_t b) const;
+  Lanes spread_block(std::size_t b) const;
   void spread_blocks(Values& out);
   void take_pressure(const Values& p);
   double* velocity(std::size_t d) { return velocity_.data() + d * blocks_.slots(); }
+  const double* velocity(std::size_t d) const { return velocity_.data() + d * blocks_.slots(); }
 
   RowBlocks<Dim> blocks_;
   BlockEntries<Dim> push_;
   BlockEntries<Dim> spread_;
+  InnerRow inner_{};
+  bool has_inner_ = false;
+  std::vector<std::uint8_t> is_inner_;  // of every block
   Values mobility_;
   // Per slot: pressure; displacement and mobility, one direction after the other.
   Values pressure_, velocity_, slot_mobility_;

@@ -2,12 +2,7 @@
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
-#include "components/fluid.hpp"
 #include "components/grid.hpp"
-#include "components/node.hpp"
-#include "components/sites.hpp"
-#include "components/step.hpp"
-#include "engine/clock.hpp"
 #include "engine/step_control.hpp"
 #include "systems/solve/velocity_block.hpp"
 
@@ -47,24 +42,6 @@ void press_onto_wall(World& world, double cells) {
   }
 }
 
-template <int Dim>
-EquationTerms<Dim> terms_of_step(World& world) {
-  const auto& rates = world.resource<Rates>();
-  return {rates.velocity,
-          rates.acceleration,
-          pressure_per_mass(world.resource<Clock>().step, world.resource<Fluid>().density,
-                            world.resource<Grid<Dim>>().spacing),
-          world.column<node::Row>(),
-          world.column<node::Fixed>(),
-          world.column<node::Mass>(),
-          world.column<node::Site<Dim>>(),
-          &world.resource<WetSites<Dim>>(),
-          world.column<matrix::Node>(),
-          world.column<matrix::Divergence<Dim>>(),
-          world.column<matrix::Stabilization<Dim>>(),
-          world.column<matrix::Viscosity<Dim>>()};
-}
-
 /// A v by the dense matrix of the step.
 template <int Dim>
 Values times_dense(const Eigen::MatrixXd& matrix, const Values& v) {
@@ -80,7 +57,7 @@ Values times_dense(const Eigen::MatrixXd& matrix, const Values& v) {
 template <int Dim>
 struct BlockOfStep {
   BlockOfStep(World& world, StiffSolver solver) {
-    const auto terms = terms_of_step<Dim>(world);
+    const auto terms = dense::terms_of_step<Dim>(world);
     schur.assemble(terms, world.resource<Grid<Dim>>());
     block.prepare(terms, schur, solver);
   }

@@ -1,6 +1,7 @@
 #include "support/dense_equations.hpp"
 
 #include "components/matrix.hpp"
+#include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "support/kernels.hpp"
 
@@ -240,6 +241,26 @@ Equations as_assembled(World& world) {
   return eq;
 }
 
+template <int Dim>
+EquationTerms<Dim> terms_of_step(World& world) {
+  const auto& rates = world.resource<Rates>();
+  return {rates.velocity,
+          rates.acceleration,
+          pressure_per_mass(world.resource<Clock>().step, world.resource<Fluid>().density,
+                            world.resource<Grid<Dim>>().spacing),
+          world.column<node::Row>(),
+          world.column<node::Fixed>(),
+          world.column<node::Mass>(),
+          world.column<node::Site<Dim>>(),
+          &world.resource<WetSites<Dim>>(),
+          world.column<matrix::Node>(),
+          world.column<matrix::Divergence<Dim>>(),
+          world.column<matrix::Stabilization<Dim>>(),
+          world.column<matrix::Viscosity<Dim>>()};
+}
+
+template EquationTerms<2> terms_of_step<2>(World&);
+template EquationTerms<3> terms_of_step<3>(World&);
 template Equations assemble<2>(scene_run::SceneRun&);
 template Equations assemble<3>(scene_run::SceneRun&);
 

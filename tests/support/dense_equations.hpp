@@ -6,6 +6,8 @@
 
 #include "support/scene_run.hpp"
 
+#include "systems/solve/equations.hpp"
+
 #include <Eigen/Dense>
 
 namespace minamo::dense {
@@ -21,5 +23,9 @@ Equations assemble(scene_run::SceneRun& run);
 
 /// The matrix that the engine assembled in the last step, and its right-hand side.
 Equations as_assembled(World& world);
+
+/// What that matrix is made of.
+template <int Dim>
+EquationTerms<Dim> terms_of_step(World& world);
 
 }  // namespace minamo::dense
