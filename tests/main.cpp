@@ -1,10 +1,14 @@
 /// \file
 /// main() of the test programs: Catch2's, and `--write-ctest-file FILE`, which writes the list of tests for ctest.
+/// MINAMO_TEST_THREADS=N is what a test may have; without it all the processor has.
 
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -24,11 +28,24 @@ std::string as_test_spec(std::string_view name) {
   return spec;
 }
 
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_THREAD__)
+constexpr bool looks_for_races = true;
+constexpr bool is_sanitized = true;
+#elif defined(__SANITIZE_ADDRESS__)
+constexpr bool looks_for_races = false;
 constexpr bool is_sanitized = true;
 #else
+constexpr bool looks_for_races = false;
 constexpr bool is_sanitized = false;
 #endif
+
+/// ctest runs as many tests at a time as there are processors. More threads in each would wait for one another, which
+/// is a sixth of the time with the sanitizers; those that are about threads count for two.
+const char* threads_of(const Catch::TestCase& test) {
+  const bool parallel = std::count(test.tags.begin(), test.tags.end(), "threads") > 0;
+  if (parallel) return " PROCESSORS 2";
+  return looks_for_races ? "" : " ENVIRONMENT MINAMO_TEST_THREADS=1";
+}
 
 std::string quoted(const std::string& text) { return "[===[" + text + "]===]"; }
 
@@ -45,7 +62,7 @@ void write_ctest_file(const std::filesystem::path& file, const std::filesystem::
     script << "add_test(" << quoted(test.name) << ' ' << quoted(program.string()) << ' '
            << quoted(as_test_spec(test.name)) << ")\n"
            << "set_tests_properties(" << quoted(test.name) << " PROPERTIES LABELS " << quoted(labels) << " TIMEOUT "
-           << timeout_s << ")\n";
+           << timeout_s << threads_of(test) << ")\n";
   }
 }
 
@@ -56,5 +73,7 @@ int main(int argc, char* argv[]) {
     write_ctest_file(argv[2], std::filesystem::canonical("/proc/self/exe"));
     return 0;
   }
-  return Catch::Session().run(argc, argv);
+  const char* threads = std::getenv("MINAMO_TEST_THREADS");
+  tbb::task_arena arena(threads ? std::atoi(threads) : tbb::task_arena::automatic);
+  return arena.execute([&] { return Catch::Session().run(argc, argv); });
 }

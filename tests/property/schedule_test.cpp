@@ -205,7 +205,7 @@ std::vector<Plan> any_plans() {
 
 }  // namespace
 
-TEST_CASE("a graph gives bit for bit what its list gives", "[property]") {
+TEST_CASE("a graph gives bit for bit what its list gives", "[property][threads]") {
   const auto plans = any_plans();
   CHECK(result(plans, Execution::graph) == result(plans, Execution::list));
 }

@@ -166,7 +166,7 @@ TEST_CASE("velocity is compared at the end of the step, pressure when and where 
   CHECK(error(world, "pressure") < 1e-14);
 }
 
-TEST_CASE("errors do not depend on the number of threads", "[unit]") {
+TEST_CASE("errors do not depend on the number of threads", "[unit][threads]") {
   World world;
   exact_particles(world, 5000);
   change_all<particle::Velocity<2>>(world, [](const Vec<2>& v) { return Vec<2>(v + Vec<2>(std::sin(1e3 * v[0]), 0)); });

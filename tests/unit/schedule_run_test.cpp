@@ -112,7 +112,7 @@ TEST_CASE("a list runs in order on the calling thread", "[unit]") {
   CHECK(calls == std::vector<std::pair<int, std::thread::id>>{{0, here}, {1, here}});
 }
 
-TEST_CASE("a schedule runs in the task arena of its caller", "[unit]") {
+TEST_CASE("a schedule runs in the task arena of its caller", "[unit][threads]") {
   World world;
   int threads = 0;
   Schedule schedule({running<>("a", [&] { threads = tbb::this_task_arena::max_concurrency(); })}, world);
@@ -121,7 +121,7 @@ TEST_CASE("a schedule runs in the task arena of its caller", "[unit]") {
   CHECK(threads == 1);
 }
 
-TEST_CASE("different tables can be resized at the same time", "[unit]") {
+TEST_CASE("different tables can be resized at the same time", "[unit][threads]") {
   World world;
   Schedule schedule({make_system<ResizeBoth>("rows"), make_system<ResizeOther>("other")}, world);
   for (int step = 0; step < 100; ++step) schedule.run();
@@ -129,7 +129,7 @@ TEST_CASE("different tables can be resized at the same time", "[unit]") {
   CHECK(world.rows<OtherRows>() == 100);
 }
 
-TEST_CASE("a system can run a schedule of its own", "[unit]") {
+TEST_CASE("a system can run a schedule of its own", "[unit][threads]") {
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     GENERATE(std::size_t{1}, std::size_t{2}));
   World world;
