@@ -6,7 +6,7 @@ namespace minamo {
 
 namespace {
 
-using Weights = std::array<std::array<double, weight_powers>, 3>;
+using WeightPowers = std::array<std::array<double, weight_powers>, 3>;
 
 template <std::size_t N, std::size_t M>
 constexpr std::array<double, product_powers> product(const std::array<double, N>& x, const std::array<double, M>& y) {
@@ -44,7 +44,7 @@ constexpr std::array<double, product_powers> integrals(const std::array<double, 
 }
 
 /// The dual cell goes from `low` to `high`.
-constexpr AxisBasis make_basis(int first, double low, double high, const Weights& weight) {
+constexpr AxisBasis make_basis(int first, double low, double high, const WeightPowers& weight) {
   AxisBasis basis{};
   basis.first = first;
   basis.weight = weight;
