@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string scene = R"({"dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [8, 8]},
+const std::string small_scene = R"({"dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [8, 8]},
   "fluid": {"density": 1000, "viscosity": 0}, "particles": [{"shape": {"box": {"low": [0, 0], "high": [0.5, 0.5]}}}],
   "time": {"end": 0.02, "step": 0.01}})";
 
@@ -81,7 +81,7 @@ TEST_CASE("what is no file is refused without reading it", "[error]") {
 TEST_CASE("a file that may not be read is refused with the reason", "[error]") {
   const Folder folder;
   const std::string path = folder / "closed.json";
-  std::ofstream(path) << scene;
+  std::ofstream(path) << small_scene;
   fs::permissions(folder / "", fs::perms::all);
   fs::permissions(path, fs::perms::none);
   const AsNobody rights;
@@ -90,7 +90,7 @@ TEST_CASE("a file that may not be read is refused with the reason", "[error]") {
 
 TEST_CASE("a file of a gigabyte is refused without reading it", "[error]") {
   const Folder folder;
-  std::ofstream(folder / "a.json") << scene;
+  std::ofstream(folder / "a.json") << small_scene;
   fs::resize_file(folder / "a.json", 1'000'000'000);
   check_refused(output_of_program(folder / "", {"check", "a.json"}),
                 "a.json: too large\n  expected  at most 16 MB\n  got       1000 MB\n");
@@ -156,7 +156,7 @@ TEST_CASE("a text in the wrong encoding is refused, and shown as a terminal can 
 }
 
 TEST_CASE("a scene with a byte order mark or with line ends of Windows is read", "[error]") {
-  const std::string text = GENERATE("\xef\xbb\xbf" + scene, with(scene, ",\n", ",\r\n"));
+  const std::string text = GENERATE("\xef\xbb\xbf" + small_scene, with(small_scene, ",\n", ",\r\n"));
   const ProgramOutput check = check_text(text);
   CHECK(check.err.empty());
   CHECK(check.out == "a.json: valid, 64 particles\n");

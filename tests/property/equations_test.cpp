@@ -86,7 +86,7 @@ double part_difference(const Eigen::VectorXd& got, const Eigen::VectorXd& expect
 }
 
 // Sums over some 50 particles, through moments whose coefficients cancel: 1e-15 measured.
-constexpr double rounding = 1e-14;
+constexpr double rounding_of_assembly = 1e-14;
 
 }  // namespace
 
@@ -109,10 +109,10 @@ TEMPLATE_TEST_CASE_SIG("the assembled matrix is the discrete equations", "[prope
   const auto got = dense::as_assembled(run.world()).matrix;
   const auto expected = dense::assemble<Dim>(run).matrix;
   REQUIRE(got.rows() == expected.rows());
-  CHECK(block_difference(got, expected, Dim, false, false) < rounding);
-  CHECK(block_difference(got, expected, Dim, false, true) < rounding);
-  CHECK(block_difference(got, expected, Dim, true, false) < rounding);
-  CHECK(block_difference(got, expected, Dim, true, true) < rounding);
+  CHECK(block_difference(got, expected, Dim, false, false) < rounding_of_assembly);
+  CHECK(block_difference(got, expected, Dim, false, true) < rounding_of_assembly);
+  CHECK(block_difference(got, expected, Dim, true, false) < rounding_of_assembly);
+  CHECK(block_difference(got, expected, Dim, true, true) < rounding_of_assembly);
 }
 
 TEST_CASE("nodes whose entries of the Laplacian cancel are still coupled", "[property]") {
@@ -121,8 +121,8 @@ TEST_CASE("nodes whose entries of the Laplacian cancel are still coupled", "[pro
   run.step();
   const auto got = dense::as_assembled(run.world()).matrix;
   const auto expected = dense::assemble<2>(run).matrix;
-  CHECK(block_difference(got, expected, 2, false, true) < rounding);
-  CHECK(block_difference(got, expected, 2, true, false) < rounding);
+  CHECK(block_difference(got, expected, 2, false, true) < rounding_of_assembly);
+  CHECK(block_difference(got, expected, 2, true, false) < rounding_of_assembly);
 }
 
 TEMPLATE_TEST_CASE_SIG("the assembled right-hand side is the discrete equations", "[property]", ((int Dim), Dim), 2,
@@ -133,8 +133,8 @@ TEMPLATE_TEST_CASE_SIG("the assembled right-hand side is the discrete equations"
   const auto got = dense::as_assembled(run.world()).right_hand_side;
   const auto expected = dense::assemble<Dim>(run).right_hand_side;
   REQUIRE(got.rows() == expected.rows());
-  CHECK(part_difference(got, expected, Dim, false) < rounding);
-  CHECK(part_difference(got, expected, Dim, true) < rounding);
+  CHECK(part_difference(got, expected, Dim, false) < rounding_of_assembly);
+  CHECK(part_difference(got, expected, Dim, true) < rounding_of_assembly);
 }
 
 /// Rows and columns are scaled first: entries are forces, rates of volume and more, of a cell and of 1/256 of one.

@@ -11,7 +11,7 @@ namespace {
 
 /// A tank of water with a wave on it: rows that are all alike deep in it, others at walls and at the surface.
 template <int Dim>
-Json tank() {
+Json water() {
   Json scene = Json::parse(R"json({
     "dimension": 2, "grid": {"low": [0, 0], "high": [1.4, 1.2], "cells": [14, 12]},
     "fluid": {"density": 1000, "viscosity": 1e-3}, "body_force": [0, -9.81],
@@ -49,7 +49,7 @@ TEMPLATE_TEST_CASE_SIG("products with the blocks of (E55) are those of the matri
                        3) {
   const std::string quadrature = GENERATE("mixed", "particles");
   CAPTURE(quadrature);
-  SceneRun run(with(tank<Dim>(), {R"(/quadrature={"scheme": ")" + quadrature + "\"}"}));
+  SceneRun run(with(water<Dim>(), {R"(/quadrature={"scheme": ")" + quadrature + "\"}"}));
   run.step(2);
   PressureSchur<Dim> schur;
   schur.assemble(dense::terms_of_step<Dim>(run.world()), run.world().template resource<Grid<Dim>>());

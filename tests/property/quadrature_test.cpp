@@ -73,7 +73,7 @@ Json tank() {
 }
 
 /// Moments of degree 4, whose terms cancel: some hundred roundings, as for sums over particles alone.
-constexpr double rounding = 1e-12;
+constexpr double rounding_of_moments = 1e-12;
 
 /// The assembled equations are those of plain loops over particles and Gauss points.
 template <int Dim>
@@ -82,8 +82,8 @@ void check_equations(SceneRun& run) {
   const auto expected = dense::assemble<Dim>(run);
   REQUIRE(got.matrix.rows() == expected.matrix.rows());
   const auto differs = [](const auto& a, const auto& b) { return (a - b).norm() / b.norm(); };
-  CHECK(differs(got.matrix, expected.matrix) < rounding);
-  CHECK(differs(got.right_hand_side, expected.right_hand_side) < rounding);
+  CHECK(differs(got.matrix, expected.matrix) < rounding_of_moments);
+  CHECK(differs(got.right_hand_side, expected.right_hand_side) < rounding_of_moments);
 }
 
 }  // namespace

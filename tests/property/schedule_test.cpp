@@ -1,5 +1,7 @@
 #include "engine/schedule.hpp"
 
+#include "support/rows.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -10,15 +12,9 @@
 #include <thread>
 
 using namespace minamo;
+using namespace minamo::rows;
 
 namespace {
-
-struct Rows {
-  static constexpr std::string_view name = "row";
-};
-struct OtherRows {
-  static constexpr std::string_view name = "other";
-};
 
 constexpr std::array<std::string_view, 9> names{"row.0",   "row.1",   "row.2",      "row.3",     "other.4",
                                                 "other.5", "other.6", "resource.7", "resource.8"};
@@ -101,10 +97,10 @@ System system_of(const Plan& plan) {
   return system;
 }
 
-/// \param density  chance of a system to touch a component [1]
-std::vector<Plan> random_plans(std::uint32_t seed, double density) {
+/// \param chance  of a system to touch a component [1]
+std::vector<Plan> random_plans(std::uint32_t seed, double chance) {
   std::mt19937 random(seed);
-  std::bernoulli_distribution touches(density);
+  std::bernoulli_distribution touches(chance);
   std::bernoulli_distribution resizes(0.1);
   std::uniform_int_distribution<int> mode(0, 3);  // half of the accesses read
   std::vector<Plan> plans(24);
@@ -198,9 +194,9 @@ std::vector<Edge> all_pairs(const std::vector<Plan>& plans) {
 
 std::vector<Plan> any_plans() {
   const auto seed = GENERATE(range(0u, 100u));
-  const auto density = GENERATE(0.05, 0.15, 0.4);
-  UNSCOPED_INFO("seed " << seed << ", density " << density);
-  return random_plans(seed, density);
+  const auto chance = GENERATE(0.05, 0.15, 0.4);
+  UNSCOPED_INFO("seed " << seed << ", chance " << chance);
+  return random_plans(seed, chance);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 /// \file
 /// The memory of runs: estimated against measured, and refused where a limit leaves too little.
 
+#include "support/program.hpp"
 #include "support/program_output.hpp"
 #include "support/scene_run.hpp"
 #include "systems/setup/memory.hpp"
@@ -10,12 +11,6 @@
 #ifndef __SANITIZE_ADDRESS__  // which takes several times the memory, and all address space
 
 using namespace minamo;
-
-namespace {
-
-std::string scene_path(const std::string& name) { return std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name; }
-
-}  // namespace
 
 TEST_CASE("a run takes as much memory as was estimated, within the bounds that are documented", "[scene]") {
   // Water, and honey: in space the factors of its velocities are most of what a run takes.

@@ -13,13 +13,11 @@ using namespace minamo;
 
 namespace {
 
-std::string scene(const std::string& name) { return std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name; }
-
 using Arguments = std::vector<std::string>;
 
 /// `minamo run` of the dam break on a coarse grid, with more arguments.
 Arguments dam_break(const std::string& out, const Arguments& more) {
-  Arguments arguments{"run",   scene("dam_break.json"), "--out", out, "--threads", "1", "--quiet",
+  Arguments arguments{"run",   scene_path("dam_break.json"), "--out", out, "--threads", "1", "--quiet",
                       "--set", "/grid/cells=[20, 20]"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
@@ -116,8 +114,8 @@ TEST_CASE("a scheme can be overridden alone: keys of the one in the file go with
   const std::string changed = GENERATE(R"(/transfer/scheme="flip")", R"(/transfer/scheme="apic")",
                                        R"(/integrator/scheme="midpoint")", R"(/solver/scheme="umfpack")");
   CAPTURE(changed);
-  REQUIRE(run_program(
-              {"run", scene("dam_break.json"), "--out", folder / "out", "--steps", "1", "--quiet", "--set", changed})
+  REQUIRE(run_program({"run", scene_path("dam_break.json"), "--out", folder / "out", "--steps", "1", "--quiet", "--set",
+                       changed})
               .code == 0);
   // What the new scheme knows, too, stays as it is in the file.
   const Json transfer = json_of(folder / "out/scene.json")["transfer"];
@@ -126,7 +124,7 @@ TEST_CASE("a scheme can be overridden alone: keys of the one in the file go with
 
 TEST_CASE("an override that the new scheme does not know is an error", "[scene]") {
   const Folder folder;
-  const ProgramEnd wrong = run_program({"run", scene("dam_break.json"), "--out", folder / "out", "--set",
+  const ProgramEnd wrong = run_program({"run", scene_path("dam_break.json"), "--out", folder / "out", "--set",
                                         R"(/transfer/scheme="flip")", "--set", R"(/transfer/inertia="lumped")"});
   CHECK(wrong.code == 2);
   CHECK_THAT(wrong.output, Catch::Contains("/transfer/inertia: unknown key with scheme \"flip\""));
@@ -150,7 +148,7 @@ TEST_CASE("a scene that is not there ends with 2", "[scene]") {
 }
 
 TEST_CASE("an unknown option ends with 2", "[scene]") {
-  CHECK(run_program({"run", scene("dam_break.json"), "--nonsense"}).code == 2);
+  CHECK(run_program({"run", scene_path("dam_break.json"), "--nonsense"}).code == 2);
 }
 
 TEST_CASE("check accepts every scene", "[scene]") {
@@ -203,7 +201,7 @@ TEST_CASE("an interrupted run ends with 130 and leaves a checkpoint", "[scene]")
 }
 
 TEST_CASE("graph shows the systems of a scene and what they touch", "[scene]") {
-  const ProgramEnd end = run_program({"graph", scene("dam_break_pic.json"), "--format", "json"});
+  const ProgramEnd end = run_program({"graph", scene_path("dam_break_pic.json"), "--format", "json"});
   REQUIRE(end.code == 0);
   const Json graph = Json::parse(end.output);
   CHECK_FALSE(graph["systems"].empty());

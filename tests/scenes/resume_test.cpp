@@ -18,10 +18,8 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-std::string scene(const std::string& name) { return std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name; }
-
 Arguments run_of(const std::string& scene_name, const Arguments& overrides) {
-  Arguments arguments{"run", scene(scene_name), "--threads", "1", "--quiet"};
+  Arguments arguments{"run", scene_path(scene_name), "--threads", "1", "--quiet"};
   for (const std::string& assignment : overrides) arguments.insert(arguments.end(), {"--set", assignment});
   return arguments;
 }

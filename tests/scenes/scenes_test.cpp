@@ -3,7 +3,6 @@
 #include "components/matrix.hpp"
 
 #include <filesystem>
-#include <numeric>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -29,11 +28,6 @@ Json quick(const std::string& name) {
   }
   if (!scene["time"].contains("step")) scene["time"] = {{"end", scene["time"]["end"]}, {"step", 1e-3}};
   return scene;
-}
-
-double total_mass(World& world) {
-  const auto m_p = world.column<particle::Mass>();
-  return std::accumulate(m_p.begin(), m_p.end(), 0.0);
 }
 
 /// Names of the state components of doubles with a number that is not finite.

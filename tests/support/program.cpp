@@ -66,6 +66,8 @@ ProgramEnd Program::wait() {
 
 ProgramEnd run_program(const std::vector<std::string>& arguments) { return Program(arguments).wait(); }
 
+std::string scene_path(const std::string& name) { return std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name; }
+
 void wait_for_file(const std::string& path, std::size_t bytes) {
   const auto give_up = Clock::now() + patience;
   std::error_code missing;

@@ -34,6 +34,9 @@ class Program {
 
 ProgramEnd run_program(const std::vector<std::string>& arguments);
 
+/// Of a scene in scenes/.
+std::string scene_path(const std::string& name);
+
 /// Waits for a file to have more than so many bytes. \throws std::runtime_error after a minute.
 void wait_for_file(const std::string& path, std::size_t bytes);
 

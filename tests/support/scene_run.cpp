@@ -4,6 +4,8 @@
 #include "systems/register.hpp"
 #include "tools/scene_file.hpp"
 
+#include <numeric>
+
 namespace minamo::scene_run {
 
 Json scene_of_file(const std::string& name) { return read_json(std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name); }
@@ -28,6 +30,17 @@ Scene read(const Json& json) {
   document.finish();
   document.require_valid();
   return scene;
+}
+
+std::vector<std::string> step_names(const Json& scene) {
+  std::vector<std::string> names;
+  for (const System& system : make_pipeline(read(scene), registry()).step) names.push_back(system.name);
+  return names;
+}
+
+double total_mass(World& world) {
+  const auto m_p = world.column<particle::Mass>();
+  return std::accumulate(m_p.begin(), m_p.end(), 0.0);
 }
 
 namespace {

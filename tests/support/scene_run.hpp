@@ -24,6 +24,9 @@ const SystemRegistry& registry();
 /// \throws InputError
 Scene read(const Json& json);
 
+/// The systems of a step.
+std::vector<std::string> step_names(const Json& scene);
+
 /// \pre the scene has a fixed step.
 class SceneRun {
  public:
@@ -55,6 +58,9 @@ std::vector<typename C::value_type> by_id(World& world) {
   for (std::size_t p = 0; p < id.size(); ++p) sorted[static_cast<std::size_t>(id[p])] = column[p];
   return sorted;
 }
+
+/// Of the particles. [kg]
+double total_mass(World& world);
 
 /// All components whose lifetime is state, byte for byte.
 std::map<std::string, std::vector<std::byte>> state(const World& world);

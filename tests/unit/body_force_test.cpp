@@ -24,12 +24,6 @@ const Json falling = Json::parse(R"json({
   "particles": [{"shape": {"box": {"low": [0.75, 0.75], "high": [1.25, 1.25]}}}],
   "integrator": {"scheme": "midpoint"}, "time": {"end": 1, "step": 0.01}})json");
 
-std::vector<std::string> names(const std::vector<System>& systems) {
-  std::vector<std::string> all;
-  for (const System& system : systems) all.push_back(system.name);
-  return all;
-}
-
 }  // namespace
 
 TEST_CASE("a uniform body force is the same at all nodes with mass", "[unit]") {
@@ -76,11 +70,11 @@ TEST_CASE("the nodal body force keeps the total force of the particles", "[unit]
 }
 
 TEST_CASE("the pipeline samples a body force only if it varies in space", "[unit]") {
-  const auto uniform = names(make_pipeline(scene_run::read(falling), scene_run::registry()).step);
+  const auto uniform = scene_run::step_names(falling);
   CHECK(std::count(uniform.begin(), uniform.end(), "uniform_body_force") == 1);
   CHECK(std::count(uniform.begin(), uniform.end(), "sample_body_force") == 0);
   const Json varying = scene_run::with(falling, {R"(/body_force=["x", 0])"});
-  const auto sampled = names(make_pipeline(scene_run::read(varying), scene_run::registry()).step);
+  const auto sampled = scene_run::step_names(varying);
   CHECK(std::count(sampled.begin(), sampled.end(), "uniform_body_force") == 0);
   CHECK(std::count(sampled.begin(), sampled.end(), "sample_body_force") == 1);
 }

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path source = MINAMO_SOURCE_DIR;
+const fs::path sources = MINAMO_SOURCE_DIR;
 
 std::set<int> numbers_in(const std::string& text, const std::regex& pattern) {
   std::set<int> numbers;
@@ -30,7 +30,7 @@ const std::regex mention(R"(\(E(\d+)\))");
 std::set<int> numbers_in_code() {
   std::set<int> numbers;
   for (const char* folder : {"systems", "components"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(sources / folder)) {
       if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
       numbers.merge(numbers_in(text_of(entry.path()), mention));
     }
@@ -38,7 +38,7 @@ std::set<int> numbers_in_code() {
   return numbers;
 }
 
-std::string document() { return text_of(source / "systems/EQUATIONS.md"); }
+std::string document() { return text_of(sources / "systems/EQUATIONS.md"); }
 
 /// The entries of the document, `**(E3)** ...` up to an empty line, by number.
 std::map<int, std::string> entries() {
@@ -77,7 +77,7 @@ TEST_CASE("the files that an entry names have its number", "[unit]") {
     std::size_t files = 0;
     for (std::sregex_iterator at(text.begin(), text.end(), path), end; at != end; ++at, ++files) {
       CAPTURE(number, (*at)[1].str());
-      CHECK(numbers_in(text_of(source / (*at)[1].str()), mention).contains(number));
+      CHECK(numbers_in(text_of(sources / (*at)[1].str()), mention).contains(number));
     }
     CAPTURE(number);
     CHECK(files > 0);

@@ -46,18 +46,6 @@ void change_all(World& world, const Change& change) {
   for (auto& value : world.column<C>()) value = change(value);
 }
 
-double total_mass(World& world) {
-  double sum = 0;
-  for (const double m : world.column<particle::Mass>()) sum += m;
-  return sum;
-}
-
-std::vector<std::string> names(const std::vector<System>& systems) {
-  std::vector<std::string> all;
-  for (const System& system : systems) all.push_back(system.name);
-  return all;
-}
-
 }  // namespace
 
 TEST_CASE("a weighted mean in parts is that of the whole", "[unit]") {
@@ -122,7 +110,7 @@ TEST_CASE("errors weigh particles by their volume", "[unit]") {
   world.resource<exact::Velocity>().of_part.fill({field("2"), field("0")});
   change_all<particle::Velocity<2>>(world, [](const Vec<2>&) { return Vec<2>(2, 0); });
   world.column<particle::Velocity<2>>()[5] = {2, 3};
-  const double share = world.column<particle::Mass>()[5] / total_mass(world);
+  const double share = world.column<particle::Mass>()[5] / scene_run::total_mass(world);
   CHECK(std::abs(error(world, "velocity") - std::sqrt(share * 9 / 4)) < 1e-14);
 }
 
@@ -187,7 +175,7 @@ TEST_CASE("a block in free flight follows its exact solution", "[verification]")
 
 TEST_CASE("a scene without exact block has neither its systems nor its columns", "[unit]") {
   const Json scene = scene_run::scene_of_file("dam_break.json");
-  const auto steps = names(make_pipeline(scene_run::read(scene), scene_run::registry()).step);
+  const auto steps = scene_run::step_names(scene);
   CHECK(std::none_of(steps.begin(), steps.end(), [](const std::string& n) { return n.find("error") != n.npos; }));
   CHECK(std::count(steps.begin(), steps.end(), "sample_pressure") == 0);
   SceneRun run(scene);
@@ -199,7 +187,7 @@ TEST_CASE("a scene without exact block has neither its systems nor its columns",
 
 TEST_CASE("only the exact field that is given is measured", "[unit]") {
   const Json scene = scene_run::with(scene_run::scene_of_file("dam_break.json"), {R"(/exact={"velocity": [0, 0]})"});
-  const auto steps = names(make_pipeline(scene_run::read(scene), scene_run::registry()).step);
+  const auto steps = scene_run::step_names(scene);
   CHECK(std::count(steps.begin(), steps.end(), "measure_error_velocity") == 1);
   CHECK(std::count(steps.begin(), steps.end(), "measure_error_pressure") == 0);
 }

@@ -30,7 +30,7 @@ std::vector<std::vector<std::string>> history(const Json& scene, int steps) {
   return rows;
 }
 
-Json small_scene() { return with(scene_of_file("dam_break.json"), {"/grid/cells=[20, 20]"}); }
+Json few_cells() { return with(scene_of_file("dam_break.json"), {"/grid/cells=[20, 20]"}); }
 
 constexpr std::size_t columns_2d = 14;
 
@@ -49,7 +49,7 @@ TEST_CASE("the history in space has the columns of the interface", "[unit]") {
 }
 
 TEST_CASE("the history has a row for the start and one per step", "[unit]") {
-  const auto rows = history(small_scene(), 3);
+  const auto rows = history(few_cells(), 3);
   REQUIRE(rows.size() == 5);
   CHECK(rows[0][0] == "step");
   CHECK(rows[1][0] == "0");
@@ -62,14 +62,14 @@ TEST_CASE("the history has a row for the start and one per step", "[unit]") {
 }
 
 TEST_CASE("the history has an empty potential energy where the force varies in time", "[unit]") {
-  const auto rows = history(with(small_scene(), {R"(/body_force=[0, "-9.81*t"])"}), 1);
+  const auto rows = history(with(few_cells(), {R"(/body_force=[0, "-9.81*t"])"}), 1);
   CHECK(rows.at(2).at(4).empty());
   CHECK(rows.at(2).size() == columns_2d);
 }
 
 TEST_CASE("probes come after the columns of every history, errors last", "[unit]") {
-  const auto rows = history(with(small_scene(), {R"(/exact={"velocity": [0, 0], "pressure": 0})",
-                                                 R"(/probes=[{"name": "wall", "at": [0, 0.1]}])"}),
+  const auto rows = history(with(few_cells(), {R"(/exact={"velocity": [0, 0], "pressure": 0})",
+                                               R"(/probes=[{"name": "wall", "at": [0, 0.1]}])"}),
                             1);
   const std::vector<std::string> further(rows.at(0).begin() + columns_2d, rows.at(0).end());
   CHECK(further == std::vector<std::string>{"wall_pressure", "wall_velocity_x", "wall_velocity_y", "error_velocity",
@@ -78,7 +78,7 @@ TEST_CASE("probes come after the columns of every history, errors last", "[unit]
 }
 
 TEST_CASE("errors end with what is known of the exact solution, and the totals keep the last", "[unit]") {
-  SceneRun run(with(small_scene(), {R"(/exact={"velocity": [0, 0], "pressure": 0, "until": 0.0015})"}));
+  SceneRun run(with(few_cells(), {R"(/exact={"velocity": [0, 0], "pressure": 0, "until": 0.0015})"}));
   const Folder folder;
   run.world().resource<HistoryFile>().file.open(folder / "history.csv");
   run.step(2);
@@ -93,7 +93,7 @@ TEST_CASE("errors end with what is known of the exact solution, and the totals k
 }
 
 TEST_CASE("a column that the header does not have ends the run", "[error]") {
-  SceneRun run(small_scene());
+  SceneRun run(few_cells());
   run.step();
   run.world().resource<measure::Columns>().set("enstrophy", 1);
   CHECK_THROWS_WITH(run.step(), Catch::Contains("column enstrophy of history.csv was not measured at the start"));

@@ -11,7 +11,7 @@ using namespace minamo::kernels;
 namespace {
 
 /// Rows that Activate gives to nodes of these masses.
-std::vector<std::int32_t> rows(const std::vector<double>& masses, World& world) {
+std::vector<std::int32_t> rows_of(const std::vector<double>& masses, World& world) {
   world.resize<Nodes>(masses.size());
   std::copy(masses.begin(), masses.end(), world.column<node::Mass>().begin());
   run<Activate<2>>(world);
@@ -24,7 +24,7 @@ std::vector<std::int32_t> rows(const std::vector<double>& masses, World& world) 
 TEST_CASE("nodes with more than 1e-4 of the mean mass of nodes with mass are active", "[unit]") {
   World world;
   // The mean over the four nodes with mass is 1 up to 1e-4.
-  CHECK(rows({2, 0, 0.9e-4, 2, 1.1e-4, 0}, world) == std::vector<std::int32_t>{0, -1, -1, 1, 2, -1});
+  CHECK(rows_of({2, 0, 0.9e-4, 2, 1.1e-4, 0}, world) == std::vector<std::int32_t>{0, -1, -1, 1, 2, -1});
 }
 
 TEST_CASE("a node with hardly any mass is active next to a node of a wall that has some", "[unit]") {
@@ -35,7 +35,7 @@ TEST_CASE("a node with hardly any mass is active next to a node of a wall that h
   const auto at = [&](int i, int j) { return grid.row({i, j}); };
   for (const std::size_t heavy : {at(3, 0), at(0, 0), at(3, 3)}) masses[heavy] = 1;
   for (const std::size_t light : {at(3, 1), at(1, 1), at(4, 3), at(6, 3)}) masses[light] = 1e-12;
-  const auto row = rows(masses, world);
+  const auto row = rows_of(masses, world);
   CHECK(row[at(3, 1)] >= 0);   // beside the floor
   CHECK(row[at(1, 1)] >= 0);   // in a corner
   CHECK(row[at(4, 3)] == -1);  // inside, where light nodes are at the edge of a support
@@ -44,14 +44,14 @@ TEST_CASE("a node with hardly any mass is active next to a node of a wall that h
 
 TEST_CASE("a row of the matrix knows its node", "[unit]") {
   World world;
-  rows({0, 1, 0, 1}, world);
+  rows_of({0, 1, 0, 1}, world);
   const auto node = world.column<matrix::Node>();
   CHECK(std::vector<std::uint32_t>(node.begin(), node.end()) == std::vector<std::uint32_t>{1, 3});
 }
 
 TEST_CASE("without mass no node is active", "[unit]") {
   World world;
-  rows({0, 0}, world);
+  rows_of({0, 0}, world);
   CHECK(world.rows<ActiveNodes>() == 0);
 }
 

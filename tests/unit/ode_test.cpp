@@ -40,19 +40,11 @@ Instant integrated(const std::vector<Expression>& rate, Instant instant, double 
   return instant;
 }
 
-const Json falling = Json::parse(R"json({
+const Json accelerated = Json::parse(R"json({
   "dimension": 2, "constants": {"k": 2}, "grid": {"low": [0, 0], "high": [2, 2], "cells": [16, 16]},
   "fluid": {"density": 1000, "viscosity": 0}, "body_force": [0, "-g"], "ode": {"g": {"start": 1, "rate": "k"}},
   "particles": [{"shape": {"box": {"low": [0.75, 0.75], "high": [1.25, 1.25]}}, "velocity": ["3*g", 0]}],
   "integrator": {"scheme": "midpoint"}, "time": {"end": 1, "step": 0.01}})json");
-
-std::vector<std::string> step_names(const Json& scene) {
-  std::vector<std::string> all;
-  for (const System& system : make_pipeline(scene_run::read(scene), scene_run::registry()).step) {
-    all.push_back(system.name);
-  }
-  return all;
-}
 
 }  // namespace
 
@@ -124,7 +116,7 @@ TEST_CASE("an ode variable that becomes infinite ends the run and keeps its last
 }
 
 TEST_CASE("a body force may be an ode variable", "[unit]") {
-  SceneRun run(falling);
+  SceneRun run(accelerated);
   run.step(10);
   // g = 1 + 2 t, which the midpoint rule integrates exactly: v_y = -t - t^2; the solver leaves 1e-12.
   double worst = 0;
@@ -135,7 +127,7 @@ TEST_CASE("a body force may be an ode variable", "[unit]") {
 }
 
 TEST_CASE("a body force in space may use ode variables", "[unit]") {
-  SceneRun run(scene_run::with(falling, {R"(/body_force=["0*x", "-g"])"}));
+  SceneRun run(scene_run::with(accelerated, {R"(/body_force=["0*x", "-g"])"}));
   run.step(10);
   double worst = 0;
   for (const Vec<2>& v : run.world().column<particle::Velocity<2>>()) {
@@ -145,13 +137,14 @@ TEST_CASE("a body force in space may use ode variables", "[unit]") {
 }
 
 TEST_CASE("an initial velocity and a shape see the start of the ode variables", "[unit]") {
-  SceneRun run(scene_run::with(falling, {R"(/particles/0/shape={"where": "abs(x - g) < g/4 && abs(y - g) < g/4"})"}));
+  SceneRun run(
+      scene_run::with(accelerated, {R"(/particles/0/shape={"where": "abs(x - g) < g/4 && abs(y - g) < g/4"})"}));
   CHECK(run.world().rows<Particles>() == 64);
   CHECK(run.world().column<particle::Velocity<2>>()[0] == Vec<2>(3, 0));
 }
 
 TEST_CASE("a step from the CFL number sees the ode variables in the body force", "[unit]") {
-  const Json scene = scene_run::with(falling, {R"(/time={"end": 1, "cfl": 0.5})", "/particles/0/velocity=[0, 0]"});
+  const Json scene = scene_run::with(accelerated, {R"(/time={"end": 1, "cfl": 0.5})", "/particles/0/velocity=[0, 0]"});
   const Scene read = scene_run::read(scene);
   World world;
   seed_world<2>(read, "scene.json", world);
@@ -162,9 +155,9 @@ TEST_CASE("a step from the CFL number sees the ode variables in the body force",
 }
 
 TEST_CASE("a scene without ode block has neither its systems nor its components", "[unit]") {
-  Json scene = scene_run::with(falling, {"/body_force=[0, -1]", "/particles/0/velocity=[0, 0]"});
+  Json scene = scene_run::with(accelerated, {"/body_force=[0, -1]", "/particles/0/velocity=[0, 0]"});
   scene.erase("ode");
-  const auto names = step_names(scene);
+  const auto names = scene_run::step_names(scene);
   CHECK(std::none_of(names.begin(), names.end(), [](const std::string& n) { return n.ends_with("ode"); }));
   SceneRun run(scene);
   CHECK_FALSE(run.world().has<ode::Values>());
@@ -173,7 +166,7 @@ TEST_CASE("a scene without ode block has neither its systems nor its components"
 }
 
 TEST_CASE("the checkpoint has the ode variables", "[unit]") {
-  SceneRun run(falling);
+  SceneRun run(accelerated);
   run.step();
   const auto columns = scene_run::state(run.world());
   REQUIRE(columns.contains("ode.values"));

@@ -17,10 +17,10 @@ using namespace minamo;
 
 namespace {
 
-struct Rows {
+struct LongName {
   static constexpr std::string_view name = "a table with a name too long for a short string";
 };
-struct OtherRows {
+struct OtherLongName {
   static constexpr std::string_view name = "another table with a name too long for a short string";
 };
 struct Left {
@@ -50,10 +50,10 @@ struct CopyLeft {
   void operator()(Read<Left> l, Write<Right> r) const { r->value = l->value; }
 };
 struct ResizeBoth {
-  void operator()(Resize<Rows> rows) const { rows.resize(rows.rows() + 1); }
+  void operator()(Resize<LongName> rows) const { rows.resize(rows.rows() + 1); }
 };
 struct ResizeOther {
-  void operator()(Resize<OtherRows> rows) const { rows.resize(rows.rows() + 1); }
+  void operator()(Resize<OtherLongName> rows) const { rows.resize(rows.rows() + 1); }
 };
 
 const auto fails = [] { throw std::runtime_error("no"); };
@@ -125,8 +125,8 @@ TEST_CASE("different tables can be resized at the same time", "[unit][threads]")
   World world;
   Schedule schedule({make_system<ResizeBoth>("rows"), make_system<ResizeOther>("other")}, world);
   for (int step = 0; step < 100; ++step) schedule.run();
-  CHECK(world.rows<Rows>() == 100);
-  CHECK(world.rows<OtherRows>() == 100);
+  CHECK(world.rows<LongName>() == 100);
+  CHECK(world.rows<OtherLongName>() == 100);
 }
 
 TEST_CASE("a system can run a schedule of its own", "[unit][threads]") {

@@ -1,30 +1,18 @@
 #include "engine/schedule.hpp"
 
+#include "support/rows.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <initializer_list>
 #include <vector>
 
 using namespace minamo;
+using namespace minamo::rows;
 
 namespace {
 
-struct Rows {
-  static constexpr std::string_view name = "row";
-};
-struct OtherRows {
-  static constexpr std::string_view name = "other";
-};
-struct Height : Column<Rows, double> {
-  static constexpr ComponentInfo info{"row.height", "h", "m", Lifetime::state};
-};
-struct Slope : Column<Rows, double> {
-  static constexpr ComponentInfo info{"row.slope", "s", "1", Lifetime::scratch};
-};
-struct Depth : Column<OtherRows, double> {
-  static constexpr ComponentInfo info{"other.depth", "d", "m", Lifetime::scratch};
-};
-struct Total {
+struct Sum {
   double value = 0;
   static constexpr ComponentInfo info{"total", "T", "m", Lifetime::scratch};
 };
@@ -42,8 +30,8 @@ const Access writes_s = Write<Slope>::access();
 const Access updates_s = Update<Slope>::access();
 const Access writes_d = Write<Depth>::access();
 const Access reads_d = Read<Depth>::access();
-const Access reads_T = Read<Total>::access();
-const Access writes_T = Write<Total>::access();
+const Access reads_T = Read<Sum>::access();
+const Access writes_T = Write<Sum>::access();
 const Access resizes = Resize<Rows>::access();
 const Access resizes_other = Resize<OtherRows>::access();
 

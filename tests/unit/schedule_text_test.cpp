@@ -1,27 +1,21 @@
 #include "engine/schedule.hpp"
 
+#include "support/rows.hpp"
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 using namespace minamo;
+using namespace minamo::rows;
 
 namespace {
 
-struct Rows {
-  static constexpr std::string_view name = "row";
-};
-struct Height : Column<Rows, double> {
-  static constexpr ComponentInfo info{"row.height", "h", "m", Lifetime::state};
-};
-struct Slope : Column<Rows, double> {
-  static constexpr ComponentInfo info{"row.slope", "s", "1", Lifetime::scratch};
-};
 struct Scale {
   double value = 1;
   static constexpr ComponentInfo info{"scale", "k", "m", Lifetime::constant};
 };
 
-struct Grow {
+struct Lengthen {
   void operator()(Resize<Rows>) const {}
 };
 struct Differentiate {
@@ -32,7 +26,7 @@ struct Smooth {
 };
 
 std::vector<System> three_systems() {
-  return {make_system<Grow>("grow"), make_system<Differentiate>("differentiate"), make_system<Smooth>("smooth")};
+  return {make_system<Lengthen>("grow"), make_system<Differentiate>("differentiate"), make_system<Smooth>("smooth")};
 }
 
 nlohmann::json three_systems_as_json() { return nlohmann::json::parse(to_json(three_systems(), "three")); }
@@ -57,7 +51,7 @@ TEST_CASE("the dot text tells the lifetimes apart by colour", "[unit]") {
 }
 
 TEST_CASE("names with characters of the dot language are escaped", "[unit]") {
-  const std::string dot = to_dot(std::vector{make_system<Grow>("a<b>&\"c\"")}, "say \"three\"");
+  const std::string dot = to_dot(std::vector{make_system<Lengthen>("a<b>&\"c\"")}, "say \"three\"");
   CHECK_THAT(dot, Catch::Contains("<b>a&lt;b&gt;&amp;&quot;c&quot;</b>"));
   CHECK_THAT(dot, Catch::StartsWith("digraph \"say \\\"three\\\"\" {"));
 }

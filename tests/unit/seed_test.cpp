@@ -7,8 +7,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <numeric>
-
 using namespace minamo;
 using namespace minamo::scene_run;
 
@@ -26,11 +24,6 @@ Json box(const std::string& particles) {
 std::vector<Vec<2>> places(const Json& scene) {
   SceneRun run(scene);
   return by_id<particle::Position<2>>(run.world());
-}
-
-double total_mass(World& world) {
-  const auto m_p = world.column<particle::Mass>();
-  return std::accumulate(m_p.begin(), m_p.end(), 0.0);
 }
 
 std::uint8_t fixed_at(World& world, int i, int j) {

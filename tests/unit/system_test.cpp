@@ -1,4 +1,4 @@
-#include "engine/system.hpp"
+#include "support/rows.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -6,18 +6,10 @@
 #include <vector>
 
 using namespace minamo;
+using namespace minamo::rows;
 
 namespace {
 
-struct Rows {
-  static constexpr std::string_view name = "row";
-};
-struct Height : Column<Rows, double> {
-  static constexpr ComponentInfo info{"row.height", "h", "m", Lifetime::state};
-};
-struct Slope : Column<Rows, double> {
-  static constexpr ComponentInfo info{"row.slope", "s", "1", Lifetime::scratch};
-};
 struct Total {
   double value = 0;
   static constexpr ComponentInfo info{"total", "T", "m", Lifetime::state};
@@ -48,18 +40,6 @@ struct Reverse {
     rows.reorder(order);
   }
 };
-
-World world_with_heights(const std::vector<double>& heights) {
-  World world;
-  world.resize<Rows>(heights.size());
-  std::copy(heights.begin(), heights.end(), world.column<Height>().begin());
-  return world;
-}
-
-template <class Span>
-std::vector<double> values(const Span& span) {
-  return {span.begin(), span.end()};
-}
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #include "engine/world.hpp"
 
-#include "engine/system.hpp"
+#include "support/rows.hpp"
 
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
@@ -11,21 +11,10 @@
 #include <vector>
 
 using namespace minamo;
+using namespace minamo::rows;
 
 namespace {
 
-struct Rows {
-  static constexpr std::string_view name = "row";
-};
-struct OtherRows {
-  static constexpr std::string_view name = "other";
-};
-struct Height : Column<Rows, double> {
-  static constexpr ComponentInfo info{"row.height", "h", "m", Lifetime::state};
-};
-struct Slope : Column<Rows, double> {
-  static constexpr ComponentInfo info{"row.slope", "s", "1", Lifetime::scratch};
-};
 struct Stress : Column<Rows, Eigen::Matrix<double, 3, 3, Eigen::DontAlign>> {
   static constexpr ComponentInfo info{"row.stress", "σ", "Pa", Lifetime::state};
 };
@@ -35,34 +24,19 @@ struct Colour : Column<Rows, double> {
 struct Label : Column<Rows, std::string> {
   static constexpr ComponentInfo info{"row.label", "l", "1", Lifetime::state};
 };
-struct Depth : Column<OtherRows, double> {
-  static constexpr ComponentInfo info{"other.depth", "d", "m", Lifetime::state};
-};
-struct Total {
+struct Amount {
   double value = 3;
   static constexpr ComponentInfo info{"total", "T", "1", Lifetime::state};
 };
-struct SameNameAsTotal {
+struct SameNameAsAmount {
   int value = 0;
   static constexpr ComponentInfo info{"total", "T", "1", Lifetime::state};
 };
-
-World world_with_heights(const std::vector<double>& heights) {
-  World world;
-  world.resize<Rows>(heights.size());
-  std::copy(heights.begin(), heights.end(), world.column<Height>().begin());
-  return world;
-}
 
 /// As a system changes a value.
 void update(World& world, std::size_t row, double height) {
   const Update<Height> h(world);
   h[row] = height;
-}
-
-template <class Span>
-std::vector<double> values(const Span& span) {
-  return {span.begin(), span.end()};
 }
 
 }  // namespace
@@ -166,19 +140,19 @@ TEST_CASE("a renumbering leaves other tables alone", "[unit]") {
 
 TEST_CASE("a resource starts with its default", "[unit]") {
   World world;
-  CHECK(world.resource<Total>().value == 3);
+  CHECK(world.resource<Amount>().value == 3);
 }
 
 TEST_CASE("a resource keeps what was written to it", "[unit]") {
   World world;
-  world.resource<Total>().value = 7;
-  CHECK(world.resource<Total>().value == 7);
+  world.resource<Amount>().value = 7;
+  CHECK(world.resource<Amount>().value == 7);
 }
 
 TEST_CASE("two types with one component name are refused", "[unit][error]") {
   World world;
-  world.resource<Total>();
-  CHECK_THROWS_WITH(world.resource<SameNameAsTotal>(),
+  world.resource<Amount>();
+  CHECK_THROWS_WITH(world.resource<SameNameAsAmount>(),
                     Catch::StartsWith("component \"total\" is defined by two types"));
 }
 
@@ -192,7 +166,7 @@ TEST_CASE("a component exists from its first use on", "[unit]") {
 TEST_CASE("components are listed by name", "[unit]") {
   World world;
   world.column<Height>();
-  world.resource<Total>();
+  world.resource<Amount>();
   std::vector<std::string> names;
   for (const auto& [name, storage] : world.components()) names.push_back(name);
   CHECK(names == std::vector<std::string>{"row.height", "total"});
@@ -220,7 +194,7 @@ TEST_CASE("a value that owns memory has no bytes to store", "[unit]") {
 
 TEST_CASE("what systems change after a mark is taken back", "[unit]") {
   World world = world_with_heights({1, 2, 3});
-  world.resource<Total>().value = 7;
+  world.resource<Amount>().value = 7;
   world.mark();
   SECTION("a column that is updated") { update(world, 1, 5); }
   SECTION("a column that is written anew") {
@@ -241,14 +215,14 @@ TEST_CASE("what systems change after a mark is taken back", "[unit]") {
   }
   SECTION("the number of rows, where they stay") { Resize<Rows>(world).resize(5); }
   SECTION("a resource") {
-    const Update<Total> total(world);
+    const Update<Amount> total(world);
     total->value = 8;
   }
   SECTION("nothing") {}
   world.roll_back();
   CHECK(world.rows<Rows>() == 3);
   CHECK(values(world.column<Height>()) == std::vector<double>{1, 2, 3});
-  CHECK(world.resource<Total>().value == 7);
+  CHECK(world.resource<Amount>().value == 7);
 }
 
 TEST_CASE("columns that are scratch follow the rows that are taken back", "[unit]") {

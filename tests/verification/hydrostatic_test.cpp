@@ -9,8 +9,8 @@ using namespace minamo::scene_run;
 
 namespace {
 
-constexpr double depth = 0.5;  // [m]
-constexpr double g = 10;       // [m/s^2]
+constexpr double still_depth = 0.5;  // [m]
+constexpr double g = 10;             // [m/s^2]
 constexpr double density = 1000;
 
 /// A tank of 10 cells of 0.1 m, half full, at rest; the walls' side is `gravity`.
@@ -33,10 +33,10 @@ double pressure_error(World& world, double up_to) {
     for (int i = 0; i <= grid.cells[0]; ++i) {
       const Vec<2> x = grid.position({i, j});
       if (x[1] > up_to) continue;
-      worst = std::max(worst, std::abs(p_i[grid.row({i, j})] - density * g * (depth - x[1])));
+      worst = std::max(worst, std::abs(p_i[grid.row({i, j})] - density * g * (still_depth - x[1])));
     }
   }
-  return worst / (density * g * depth);
+  return worst / (density * g * still_depth);
 }
 
 double largest_speed(World& world) {

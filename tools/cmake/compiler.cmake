@@ -34,7 +34,9 @@ function(minamo_compile_options target)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
       $<$<BOOL:${MINAMO_DEVELOPER}>:-Werror>)
   else()
-    # No warnings here: the sanitizers' own code sets off false ones, and the ordinary build has looked already.
+    # No warnings here: the sanitizers' own code sets off false ones, sources compiled together others, and the ordinary
+    # build has looked already.
+    target_compile_options(${target} PRIVATE -w)
     if(MINAMO_SANITIZE STREQUAL "thread")
       set(sanitize -fsanitize=thread)
     else()

@@ -34,8 +34,8 @@ REASONS = [
            "around its level by a per cent and creeps for ever; without a trend.",
            lambda case, check, method: case.name == "column_of_a_million_steps" and check.name in ("energy", "drift", "level")),
     Reason("*Waves and noise that last.* Between slip walls a wave in water lives for hours: the first standing wave of "
-           "the tank, most of what TPIC still moves after a minute, loses 0.7 % of its energy in that time, and lifts the "
-           "potential energy by which the level is told. What FLIP moves besides is noise that its grid does not see.",
+           "the tank, most of what TPIC still moves after a minute, loses 0.7 % of its energy in that time. What FLIP moves besides "
+           "is noise that its grid does not see.",
            lambda case, check, method: case.name == "dam_break_60_s"),
     Reason("*Newmark's method after impacts.* With beta = 1/4 and gamma = 1/2 it carries the acceleration from step to step "
            "and never damps it. An impact, or a long step after a short one, leaves an oscillation that grows where the "
