@@ -12,7 +12,6 @@ namespace minamo {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr auto patience = std::chrono::seconds(60);
 constexpr auto glance = std::chrono::milliseconds(5);
 
@@ -54,10 +53,10 @@ Program::~Program() {
 void Program::send(int signal) const { kill(pid_, signal); }
 
 ProgramEnd Program::wait() {
-  const auto give_up = Clock::now() + patience;
+  const auto give_up = std::chrono::steady_clock::now() + patience;
   int status = 0;
   while (waitpid(pid_, &status, WNOHANG) == 0) {
-    if (Clock::now() > give_up) throw std::runtime_error("the program does not end");
+    if (std::chrono::steady_clock::now() > give_up) throw std::runtime_error("the program does not end");
     std::this_thread::sleep_for(glance);
   }
   pid_ = -1;
@@ -69,12 +68,12 @@ ProgramEnd run_program(const std::vector<std::string>& arguments) { return Progr
 std::string scene_path(const std::string& name) { return std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name; }
 
 void wait_for_file(const std::string& path, std::size_t bytes) {
-  const auto give_up = Clock::now() + patience;
+  const auto give_up = std::chrono::steady_clock::now() + patience;
   std::error_code missing;
   while (true) {
     const auto size = std::filesystem::file_size(path, missing);
     if (!missing && size > bytes) return;
-    if (Clock::now() > give_up) throw std::runtime_error(path + " does not grow");
+    if (std::chrono::steady_clock::now() > give_up) throw std::runtime_error(path + " does not grow");
     std::this_thread::sleep_for(glance);
   }
 }
