@@ -194,7 +194,7 @@ std::string last_words(const Loop& loop, std::string message) {
     loop.checkpoint();
   } catch (const std::exception& failure) {
     // The same disk may be full again.
-    if (message != message_of(failure)) message += "\n" + message_of(failure);
+    if (message != message_of(failure)) message.append("\n").append(message_of(failure));
   }
   return message;
 }

@@ -95,9 +95,10 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property
   const std::string stabilization = GENERATE("pspg", "oss", "vms");
   const std::string integrator = GENERATE("midpoint", "newmark");
   CAPTURE(viscosity, stabilization, integrator);
-  // In space, where a step costs fifty times as much, each viscosity with every stabilization, in turn with either.
+  // In space, where a step costs fifty times as much, every viscosity and every stabilization, in turn with either.
   const bool newmark_is_next = (viscosity > 2) == (stabilization == "oss");
   if (Dim == 3 && newmark_is_next != (integrator == "newmark")) return;
+  if (Dim == 3 && viscosity != 3 && stabilization != "pspg") return;
   const Json scene = with(lump_and_drop<Dim>(viscosity), {R"(/stabilization={"scheme": ")" + stabilization + "\"}",
                                                           R"(/integrator={"scheme": ")" + integrator + "\"}"});
   SceneRun block(
@@ -114,10 +115,10 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property
 TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK where iterations solve for stiff velocities",
                        "[property]", ((int Dim), Dim), 2, 3) {
   // Friction of once and seven times the inertia; more than 3000 velocities.
-  constexpr double viscosity = Dim == 2 ? 10 : 300;
+  constexpr double viscosity = Dim == 2 ? 10 : 450;
   constexpr int steps = Dim == 2 ? 2 : 1;  // UMFPACK takes seconds in space
   Json scene = lump_and_drop<Dim>(viscosity);
-  scene["grid"]["cells"] = Dim == 2 ? Json({100, 80}) : Json({25, 20, 10});
+  scene["grid"]["cells"] = Dim == 2 ? Json({100, 80}) : Json({20, 16, 8});
   scene["particles"].erase(1);
   scene["time"]["step"] = Dim == 2 ? 2e-3 : 5e-3;
   SceneRun block(with(scene, {R"(/solver={"scheme": "block", "tolerance": 1e-10})"}));
