@@ -63,14 +63,15 @@ void gather_node_volume(const Grid<Dim>& grid, EndSites<Dim>& rows, double densi
   constexpr std::size_t runs_per_task = 64;
   const auto add_up = [&](std::size_t r) {
     auto& run = rows.runs[r];
-    run.volume.fill(0);
+    std::array<double, support_size<Dim>> volume{};  // here, not there: sums in registers
     const std::size_t end = r + 1 < rows.runs.size() ? rows.runs[r + 1].begin : x_p.size();
     const SupportBox<Dim> support(grid, run.node);
     for (std::size_t p = run.begin; p < end; ++p) {
       const Weights<Dim> weights(support, in_cell<Dim>(grid, support.centre, x_p[p]));
       const double v = m_p[p] / density;
-      for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { run.volume[k] += weights(offset) * v; });
+      for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { volume[k] += weights(offset) * v; });
     }
+    run.volume = volume;
   };
   for_each_row(rows.runs.size(), add_up, runs_per_task);
   std::fill(v_i.begin(), v_i.end(), 0.0);

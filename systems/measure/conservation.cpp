@@ -66,10 +66,11 @@ Vec<Dim> centre_of_mass(std::span<const double> m_p, std::span<const Vec<Dim>> x
   return sum.first_moment / sum.mass;
 }
 
+/// Not a function: a loop over particles would call it.
 template <int Dim>
-measure::Momentum<Dim> add(const measure::Momentum<Dim>& a, const measure::Momentum<Dim>& b) {
-  return {a.linear + b.linear, a.angular + b.angular};
-}
+constexpr auto add = [](const measure::Momentum<Dim>& a, const measure::Momentum<Dim>& b) {
+  return measure::Momentum<Dim>{a.linear + b.linear, a.angular + b.angular};
+};
 
 }  // namespace
 

@@ -32,12 +32,15 @@ class CellPolynomial {
  public:
   /// at_node(row) is q_I.
   template <class AtNode>
-  CellPolynomial(const Support<Dim>& support, const AtNode& at_node)
-      : centre_(support.centre), per_spacing_(support.per_spacing) {
-    for (std::size_t k = 0; k < c_.size(); ++k) c_[k] = padded<Dim>(at_node(support.node[k]));
-    along_axis<0>(*support.basis[0]);
-    along_axis<1>(*support.basis[1]);
-    if constexpr (Dim == 3) along_axis<2>(*support.basis[2]);
+  CellPolynomial(const Support<Dim>& support, const AtNode& at_node) : CellPolynomial(support, support.node, at_node) {}
+  /// The same where `node` says in other words which nodes they are.
+  template <class Nodes, class AtNode>
+  CellPolynomial(const SupportBox<Dim>& box, const Nodes& node, const AtNode& at_node)
+      : centre_(box.centre), per_spacing_(box.per_spacing) {
+    for (std::size_t k = 0; k < c_.size(); ++k) c_[k] = padded<Dim>(at_node(node[k]));
+    along_axis<0>(*box.basis[0]);
+    along_axis<1>(*box.basis[1]);
+    if constexpr (Dim == 3) along_axis<2>(*box.basis[2]);
   }
 
   /// The point in units of h, from the cell's own node.

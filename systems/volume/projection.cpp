@@ -4,6 +4,7 @@
 #include "systems/grid/place.hpp"
 #include "systems/solve/equations.hpp"
 #include "systems/solve/stencil.hpp"
+#include "systems/transfer/cell_polynomial.hpp"
 #include "systems/volume/shift.hpp"
 
 namespace minamo {
@@ -87,17 +88,31 @@ void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates, 
   take_shift<Dim>(x, row.span(), d_i.span());
 }
 
+namespace {
+
+/// The shift within a dual cell; nodes that the step did not have shift nothing.
+template <int Dim>
+CellPolynomial<Dim> shift_within(const Grid<Dim>& grid, const WetSites<Dim>& rows, const Index<Dim>& own,
+                                 std::span<const Vec<Dim>> d_i) {
+  const Surroundings<Dim> around(grid, rows, own);
+  return {around.support, around.node, [&](std::optional<std::uint32_t> i) -> Vec<Dim> {
+            if (!i) return Vec<Dim>::Zero();
+            return d_i[*i];
+          }};
+}
+
+}  // namespace
+
 template <int Dim>
 void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Shift<Dim>> d_i,
                                      Update<particle::Position<Dim>> x_p) const {
   for_each_range(x_p.size(), [&](std::size_t begin, std::size_t end) {
-    PlaceFinder<Dim> places(*grid, *rows);
+    DualCellFinder<Dim> cell(*grid);
+    std::optional<CellPolynomial<Dim>> shift;
+    Vec<Dim> y;
     for (std::size_t p = begin; p < end; ++p) {
-      Vec<Dim> shift = Vec<Dim>::Zero();
-      places.visit(x_p[p], [&](const auto& place, const auto& weights) {
-        place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { shift += weights(offset) * d_i[i]; });
-      });
-      x_p[p] = shifted<Dim>(*grid, x_p[p], shift);
+      if (cell.finds_another(x_p[p], y)) shift.emplace(shift_within<Dim>(*grid, *rows, cell.own(), d_i.span()));
+      x_p[p] = shifted<Dim>(*grid, x_p[p], shift->at(shift->local(y)).value);
     }
   });
 }
