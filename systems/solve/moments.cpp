@@ -1,5 +1,7 @@
 #include "systems/solve/moments.hpp"
 
+#include "systems/grid/contract.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,24 +9,18 @@ namespace minamo {
 
 namespace {
 
-/// 1, xi, ..., xi^4.
-std::array<double, product_powers> powers(double xi) {
-  const double xi2 = xi * xi;
-  return {1, xi, xi2, xi2 * xi, xi2 * xi2};
-}
+/// 1, xi, ..., xi^4 along every axis.
+template <int Dim>
+using Powers = std::array<std::array<double, product_powers>, static_cast<std::size_t>(Dim)>;
 
-/// out[N g + q][r] = sum_k factor(q, k) in[g][k rest + r]: contracts the slowest direction of every group.
-template <std::size_t Rest, std::size_t N, std::size_t In = product_powers, class Factor>
-void contract(std::size_t groups, const Factor& factor, const double* in, double* out) {
-  for (std::size_t g = 0; g < groups; ++g, in += In * Rest) {
-    for (std::size_t q = 0; q < N; ++q, out += Rest) {
-      for (std::size_t r = 0; r < Rest; ++r) {
-        double sum = 0;
-        for (std::size_t k = 0; k < In; ++k) sum += factor(q, k) * in[k * Rest + r];
-        out[r] = sum;
-      }
-    }
+template <int Dim>
+Powers<Dim> powers(const Vec<Dim>& xi) {
+  Powers<Dim> of;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const double x = xi[static_cast<Eigen::Index>(d)];
+    of[d] = {1, x, x * x, x * x * x, x * x * (x * x)};
   }
+  return of;
 }
 
 using Pairs = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
@@ -60,38 +56,99 @@ void contract_plane(const AxisBasis::PairProducts& factor_x, const AxisBasis::Pa
 
 namespace {
 
-/// Adds V xi^a eta^b zeta^c.
-template <int Dim>
-[[gnu::always_inline]] inline void add_point(const Vec<Dim>& xi, double volume, CellMoments<Dim>& sum) {
-  const auto x = powers(xi[0]);
-  const auto y = powers(xi[1]);
-  std::array<double, 25> xy;
-  for (std::size_t b = 0; b < 5; ++b) {
-    for (std::size_t a = 0; a < 5; ++a) xy[5 * b + a] = volume * y[b] * x[a];
+/// A number for every power of x and y up to 4: four lanes of x, then what x^4 has.
+struct PlaneOfPowers {
+  using Lanes = Eigen::Array<double, 4, 1>;
+  std::array<Lanes, product_powers> by_y;  ///< of 1, x, x^2, x^3
+  Lanes last;                              ///< of x^4, by 1, y, y^2, y^3
+  double corner;                           ///< of x^4 y^4
+
+  static PlaneOfPowers zero() {
+    PlaneOfPowers sum;
+    sum.by_y.fill(Lanes::Zero());
+    sum.last.setZero();
+    sum.corner = 0;
+    return sum;
   }
-  if constexpr (Dim == 3) {
-    const auto z = powers(xi[2]);
-    for (std::size_t c = 0; c < 5; ++c) {
-      for (std::size_t ab = 0; ab < 25; ++ab) sum[25 * c + ab] += z[c] * xy[ab];
+  /// V x^a y^b.
+  static PlaneOfPowers of(double volume, const std::array<double, product_powers>& x,
+                          const std::array<double, product_powers>& y) {
+    PlaneOfPowers xy;
+    const Lanes low_x(x[0], x[1], x[2], x[3]);
+    for (std::size_t b = 0; b < product_powers; ++b) xy.by_y[b] = (volume * y[b]) * low_x;
+    xy.last = (volume * Lanes(y[0], y[1], y[2], y[3])) * x[4];
+    xy.corner = volume * y[4] * x[4];
+    return xy;
+  }
+  void add(double factor, const PlaneOfPowers& of) {
+    for (std::size_t b = 0; b < product_powers; ++b) by_y[b] += factor * of.by_y[b];
+    last += factor * of.last;
+    corner += factor * of.corner;
+  }
+  /// At [a + 5 b].
+  void write(double* to) const {
+    for (std::size_t b = 0; b < product_powers; ++b) {
+      Eigen::Map<Eigen::Array4d>{to + product_powers* b} = by_y[b];
+      to[product_powers * b + 4] = b < 4 ? last[static_cast<Eigen::Index>(b)] : corner;
     }
-  } else {
-    for (std::size_t ab = 0; ab < 25; ++ab) sum[ab] += xy[ab];
   }
-}
+};
+
+/// sum V xi^a eta^b zeta^c.
+template <int Dim>
+class MomentSum {
+ public:
+  MomentSum() { planes_.fill(PlaneOfPowers::zero()); }
+
+  [[gnu::always_inline]] void add(double volume, const Powers<Dim>& xi) {
+    const auto xy = PlaneOfPowers::of(volume, xi[0], xi[1]);
+    for (std::size_t c = 0; c < planes_.size(); ++c) planes_[c].add(Dim == 3 ? xi[Dim - 1][c] : 1.0, xy);
+  }
+  CellMoments<Dim> sum() const {
+    CellMoments<Dim> sum;
+    for (std::size_t c = 0; c < planes_.size(); ++c) planes_[c].write(sum.data() + stencil_size<2> * c);
+    return sum;
+  }
+
+ private:
+  std::array<PlaneOfPowers, power(product_powers, Dim - 2)> planes_;  ///< by power of zeta
+};
+
+/// theta = sum_J theta_J S_J within a dual cell, as a polynomial.
+template <int Dim>
+class FullnessWithin {
+ public:
+  FullnessWithin(const CellBasis<Dim>& basis, const std::array<double, support_size<Dim>>& theta)
+      : coefficient_(contract_axes<Dim, 3, weight_powers>(theta, [&](std::size_t d) {
+          return [&w = basis[d]->weight](std::size_t q, std::size_t k) { return w[k][q]; };
+        })) {}
+
+  double at(const Powers<Dim>& xi) const {
+    double sum = 0;
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& powers) {
+      double product = coefficient_[k];
+      for (std::size_t d = 0; d < Dim; ++d) product *= xi[d][static_cast<std::size_t>(powers[d])];
+      sum += product;
+    });
+    return sum;
+  }
+
+ private:
+  std::array<double, support_size<Dim>> coefficient_;
+};
 
 /// The part of (E68) that the particles of a cell bring.
 template <int Dim>
 CellMoments<Dim> sum_beside(const Support<Dim>& support, const std::array<double, support_size<Dim>>& theta,
                             const typename OccupiedCells<Dim>::Cell& cell, double per_density,
                             std::span<const Vec<Dim>> y_p, std::span<const double> m_p) {
-  CellMoments<Dim> sum{};
+  const FullnessWithin<Dim> fullness(support.basis, theta);
+  MomentSum<Dim> moments;
   for (std::size_t p = cell.begin; p < cell.end; ++p) {
-    const Weights<Dim> weights(support, y_p[p]);
-    double share = 1;
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { share -= theta[k] * weights(offset); });
-    add_point<Dim>((y_p[p] - support.centre) * support.per_spacing, share * m_p[p] * per_density, sum);
+    const Powers<Dim> xi = powers<Dim>((y_p[p] - support.centre) * support.per_spacing);
+    moments.add((1 - fullness.at(xi)) * m_p[p] * per_density, xi);
   }
-  return sum;
+  return moments.sum();
 }
 
 }  // namespace
@@ -105,11 +162,11 @@ void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim
   const double per_density = 1 / fluid->density;
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Vec<Dim> centre = grid->position(cell.node);
-    CellMoments<Dim> sum{};
+    MomentSum<Dim> sum;
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      add_point<Dim>((y_p[p] - centre) / grid->spacing, m_p[p] * per_density, sum);
+      sum.add(m_p[p] * per_density, powers<Dim>((y_p[p] - centre) / grid->spacing));
     }
-    moments->of_cell[c] = sum;
+    moments->of_cell[c] = sum.sum();
   });
 }
 
@@ -138,22 +195,9 @@ void GatherMomentsMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCell
 
 template <int Dim>
 CellMoments<Dim> integrate_theta(const CellBasis<Dim>& basis, const std::array<double, support_size<Dim>>& theta) {
-  const auto factor_of = [&](std::size_t d) {
+  return contract_axes<Dim, 3, product_powers>(theta, [&](std::size_t d) {
     return [&f = basis[d]->integral](std::size_t q, std::size_t k) { return f[k][q]; };
-  };
-  CellMoments<Dim> done;
-  if constexpr (Dim == 2) {
-    std::array<double, 5 * 3> y_done;
-    contract<3, 5, 3>(1, factor_of(1), theta.data(), y_done.data());
-    contract<1, 5, 3>(5, factor_of(0), y_done.data(), done.data());
-  } else {
-    std::array<double, 5 * 9> z_done;
-    std::array<double, 25 * 3> y_done;
-    contract<9, 5, 3>(1, factor_of(2), theta.data(), z_done.data());
-    contract<3, 5, 3>(5, factor_of(1), z_done.data(), y_done.data());
-    contract<1, 5, 3>(25, factor_of(0), y_done.data(), done.data());
-  }
-  return done;
+  });
 }
 
 template <int Dim>
@@ -163,7 +207,7 @@ void integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors,
   } else {
     constexpr std::size_t plane = stencil_size<2>;
     std::array<double, 9 * plane> z_done;
-    contract<plane, 9>(
+    contract<plane, product_powers, 9>(
         1, [&f = *factors[2]](std::size_t q, std::size_t k) { return f[k][q]; }, moments.data(), z_done.data());
     for (std::size_t z = 0; z < 9; ++z) {
       contract_plane(*factors[0], *factors[1], z_done.data() + plane * z, done.data() + 9 * padded_pairs * z);
@@ -173,22 +217,8 @@ void integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors,
 
 template <int Dim>
 CellVector<Dim> integrate(const CellMoments<Dim>& moments, const NodeFactors<Dim>& factors) {
-  const auto factor_of = [&](std::size_t d) {
-    return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[q][k]; };
-  };
-  CellVector<Dim> done;
-  if constexpr (Dim == 2) {
-    std::array<double, 3 * 5> y_done;
-    contract<5, 3>(1, factor_of(1), moments.data(), y_done.data());
-    contract<1, 3>(3, factor_of(0), y_done.data(), done.data());
-  } else {
-    std::array<double, 3 * 25> z_done;
-    std::array<double, 9 * 5> y_done;
-    contract<25, 3>(1, factor_of(2), moments.data(), z_done.data());
-    contract<5, 3>(3, factor_of(1), z_done.data(), y_done.data());
-    contract<1, 3>(9, factor_of(0), y_done.data(), done.data());
-  }
-  return done;
+  return contract_axes<Dim, product_powers, 3>(
+      moments, [&](std::size_t d) { return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[q][k]; }; });
 }
 
 template <int Dim>
