@@ -9,20 +9,6 @@ namespace minamo {
 
 namespace {
 
-/// 1, xi, ..., xi^4 along every axis.
-template <int Dim>
-using Powers = std::array<std::array<double, product_powers>, static_cast<std::size_t>(Dim)>;
-
-template <int Dim>
-Powers<Dim> powers(const Vec<Dim>& xi) {
-  Powers<Dim> of;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    const double x = xi[static_cast<Eigen::Index>(d)];
-    of[d] = {1, x, x * x, x * x * x, x * x * (x * x)};
-  }
-  return of;
-}
-
 using Pairs = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
 
 /// sum_k factor[k][q ... q + 3] in[k step]
@@ -56,62 +42,54 @@ void contract_plane(const AxisBasis::PairProducts& factor_x, const AxisBasis::Pa
 
 namespace {
 
-/// A number for every power of x and y up to 4: four lanes of x, then what x^4 has.
-struct PlaneOfPowers {
-  using Lanes = Eigen::Array<double, 4, 1>;
-  std::array<Lanes, product_powers> by_y;  ///< of 1, x, x^2, x^3
-  Lanes last;                              ///< of x^4, by 1, y, y^2, y^3
-  double corner;                           ///< of x^4 y^4
-
-  static PlaneOfPowers zero() {
-    PlaneOfPowers sum;
-    sum.by_y.fill(Lanes::Zero());
-    sum.last.setZero();
-    sum.corner = 0;
-    return sum;
-  }
-  /// V x^a y^b.
-  static PlaneOfPowers of(double volume, const std::array<double, product_powers>& x,
-                          const std::array<double, product_powers>& y) {
-    PlaneOfPowers xy;
-    const Lanes low_x(x[0], x[1], x[2], x[3]);
-    for (std::size_t b = 0; b < product_powers; ++b) xy.by_y[b] = (volume * y[b]) * low_x;
-    xy.last = (volume * Lanes(y[0], y[1], y[2], y[3])) * x[4];
-    xy.corner = volume * y[4] * x[4];
-    return xy;
-  }
-  void add(double factor, const PlaneOfPowers& of) {
-    for (std::size_t b = 0; b < product_powers; ++b) by_y[b] += factor * of.by_y[b];
-    last += factor * of.last;
-    corner += factor * of.corner;
-  }
-  /// At [a + 5 b].
-  void write(double* to) const {
-    for (std::size_t b = 0; b < product_powers; ++b) {
-      Eigen::Map<Eigen::Array4d>{to + product_powers* b} = by_y[b];
-      to[product_powers * b + 4] = b < 4 ? last[static_cast<Eigen::Index>(b)] : corner;
-    }
-  }
-};
-
-/// sum V xi^a eta^b zeta^c.
+/// sum V xi^a eta^b zeta^c, four powers of xi in the lanes of a vector: left to the compiler it takes twice as long.
 template <int Dim>
 class MomentSum {
  public:
-  MomentSum() { planes_.fill(PlaneOfPowers::zero()); }
-
-  [[gnu::always_inline]] void add(double volume, const Powers<Dim>& xi) {
-    const auto xy = PlaneOfPowers::of(volume, xi[0], xi[1]);
-    for (std::size_t c = 0; c < planes_.size(); ++c) planes_[c].add(Dim == 3 ? xi[Dim - 1][c] : 1.0, xy);
+  [[gnu::always_inline]] void add(double volume, const Vec<Dim>& xi) {
+    const double x2 = xi[0] * xi[0];
+    const double y2 = xi[1] * xi[1];
+    const Lanes x{1, xi[0], x2, x2 * xi[0]};
+    const Lanes y{1, xi[1], y2, y2 * xi[1]};
+    const Plane xy{{volume * x, (volume * xi[1]) * x, (volume * y2) * x, (volume * y[3]) * x, (volume * (y2 * y2)) * x},
+                   (volume * (x2 * x2)) * y,
+                   volume * (y2 * y2) * (x2 * x2)};
+    add_plane(1, xy, planes_[0]);
+    if constexpr (Dim == 3) {
+      const double z2 = xi[2] * xi[2];
+      add_plane(xi[2], xy, planes_[1]);
+      add_plane(z2, xy, planes_[2]);
+      add_plane(z2 * xi[2], xy, planes_[3]);
+      add_plane(z2 * z2, xy, planes_[4]);
+    }
   }
   CellMoments<Dim> sum() const {
     CellMoments<Dim> sum;
-    for (std::size_t c = 0; c < planes_.size(); ++c) planes_[c].write(sum.data() + stencil_size<2> * c);
+    double* to = sum.data();
+    for (const Plane& plane : planes_) {
+      for (std::size_t b = 0; b < product_powers; ++b, to += product_powers) {
+        for (std::size_t a = 0; a < 4; ++a) to[a] = plane.low[b][a];
+        to[4] = b < 4 ? plane.last[b] : plane.corner;
+      }
+    }
     return sum;
   }
 
  private:
-  std::array<PlaneOfPowers, power(product_powers, Dim - 2)> planes_;  ///< by power of zeta
+  // In one piece: what is stored number by number and loaded whole waits for the stores.
+  using Lanes [[gnu::vector_size(4 * sizeof(double))]] = double;
+  struct Plane {
+    std::array<Lanes, product_powers> low;  ///< of 1 ... xi^3, by power of eta
+    Lanes last;                             ///< of xi^4, by 1 ... eta^3
+    double corner;                          ///< of xi^4 eta^4
+  };
+  [[gnu::always_inline]] static void add_plane(double factor, const Plane& of, Plane& sum) {
+    for (std::size_t b = 0; b < product_powers; ++b) sum.low[b] += factor * of.low[b];
+    sum.last += factor * of.last;
+    sum.corner += factor * of.corner;
+  }
+
+  std::array<Plane, power(product_powers, Dim - 2)> planes_{};  ///< by power of zeta
 };
 
 /// theta = sum_J theta_J S_J within a dual cell, as a polynomial.
@@ -123,14 +101,16 @@ class FullnessWithin {
           return [&w = basis[d]->weight](std::size_t q, std::size_t k) { return w[k][q]; };
         })) {}
 
-  double at(const Powers<Dim>& xi) const {
-    double sum = 0;
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& powers) {
-      double product = coefficient_[k];
-      for (std::size_t d = 0; d < Dim; ++d) product *= xi[d][static_cast<std::size_t>(powers[d])];
-      sum += product;
-    });
-    return sum;
+  double at(const Vec<Dim>& xi) const {
+    const auto line = [&](std::size_t k) {
+      return coefficient_[k] + xi[0] * (coefficient_[k + 1] + xi[0] * coefficient_[k + 2]);
+    };
+    const auto plane = [&](std::size_t k) { return line(k) + xi[1] * (line(k + 3) + xi[1] * line(k + 6)); };
+    if constexpr (Dim == 2) {
+      return plane(0);
+    } else {
+      return plane(0) + xi[2] * (plane(9) + xi[2] * plane(18));
+    }
   }
 
  private:
@@ -145,7 +125,7 @@ CellMoments<Dim> sum_beside(const Support<Dim>& support, const std::array<double
   const FullnessWithin<Dim> fullness(support.basis, theta);
   MomentSum<Dim> moments;
   for (std::size_t p = cell.begin; p < cell.end; ++p) {
-    const Powers<Dim> xi = powers<Dim>((y_p[p] - support.centre) * support.per_spacing);
+    const Vec<Dim> xi = (y_p[p] - support.centre) * support.per_spacing;
     moments.add((1 - fullness.at(xi)) * m_p[p] * per_density, xi);
   }
   return moments.sum();
@@ -164,7 +144,7 @@ void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim
     const Vec<Dim> centre = grid->position(cell.node);
     MomentSum<Dim> sum;
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      sum.add(m_p[p] * per_density, powers<Dim>((y_p[p] - centre) / grid->spacing));
+      sum.add(m_p[p] * per_density, (y_p[p] - centre) / grid->spacing);
     }
     moments->of_cell[c] = sum.sum();
   });
