@@ -18,6 +18,10 @@ using Mat = Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign>;
 template <int Dim>
 using Index = std::array<int, static_cast<std::size_t>(Dim)>;
 
+/// The lanes of a register. Made in one piece: a vector that is stored number by number and loaded whole waits for the
+/// stores.
+using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
+
 /// base^exponent.
 constexpr std::size_t power(std::size_t base, int exponent) {
   return exponent == 0 ? 1 : base * power(base, exponent - 1);

@@ -49,8 +49,8 @@ class MomentSum {
   [[gnu::always_inline]] void add(double volume, const Vec<Dim>& xi) {
     const double x2 = xi[0] * xi[0];
     const double y2 = xi[1] * xi[1];
-    const Lanes x{1, xi[0], x2, x2 * xi[0]};
-    const Lanes y{1, xi[1], y2, y2 * xi[1]};
+    const Four x{1, xi[0], x2, x2 * xi[0]};
+    const Four y{1, xi[1], y2, y2 * xi[1]};
     const Plane xy{{volume * x, (volume * xi[1]) * x, (volume * y2) * x, (volume * y[3]) * x, (volume * (y2 * y2)) * x},
                    (volume * (x2 * x2)) * y,
                    volume * (y2 * y2) * (x2 * x2)};
@@ -76,12 +76,10 @@ class MomentSum {
   }
 
  private:
-  // In one piece: what is stored number by number and loaded whole waits for the stores.
-  using Lanes [[gnu::vector_size(4 * sizeof(double))]] = double;
   struct Plane {
-    std::array<Lanes, product_powers> low;  ///< of 1 ... xi^3, by power of eta
-    Lanes last;                             ///< of xi^4, by 1 ... eta^3
-    double corner;                          ///< of xi^4 eta^4
+    std::array<Four, product_powers> low;  ///< of 1 ... xi^3, by power of eta
+    Four last;                             ///< of xi^4, by 1 ... eta^3
+    double corner;                         ///< of xi^4 eta^4
   };
   [[gnu::always_inline]] static void add_plane(double factor, const Plane& of, Plane& sum) {
     for (std::size_t b = 0; b < product_powers; ++b) sum.low[b] += factor * of.low[b];

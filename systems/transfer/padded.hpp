@@ -15,8 +15,6 @@ using PaddedVec = Eigen::Matrix<double, Dim == 3 ? 4 : Dim, 1>;
 template <int Dim>
 inline PaddedVec<Dim> padded(const Vec<Dim>& v) {
   if constexpr (Dim == 3) {
-    // In one piece: a vector that is stored number by number and loaded whole waits for the stores.
-    using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
     const Four four{v[0], v[1], v[2], 0};
     PaddedVec<Dim> whole;
     std::memcpy(whole.data(), &four, sizeof four);
