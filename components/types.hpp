@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace minamo {
 
@@ -21,6 +22,15 @@ using Index = std::array<int, static_cast<std::size_t>(Dim)>;
 /// The lanes of a register. Made in one piece: a vector that is stored number by number and loaded whole waits for the
 /// stores.
 using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
+
+/// The same numbers as a vector of Eigen's.
+template <class Vector>
+inline Vector as_vector(const Four& four) {
+  static_assert(sizeof(Vector) == sizeof(Four));
+  Vector vector;
+  std::memcpy(vector.data(), &four, sizeof four);
+  return vector;
+}
 
 /// base^exponent.
 constexpr std::size_t power(std::size_t base, int exponent) {

@@ -38,10 +38,6 @@ void contract_plane(const AxisBasis::PairProducts& factor_x, const AxisBasis::Pa
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// sum V xi^a eta^b zeta^c, four powers of xi in the lanes of a vector: left to the compiler it takes twice as long.
 template <int Dim>
 class MomentSum {

@@ -14,7 +14,6 @@
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -26,10 +25,7 @@ inline Lanes load(const double* from) { return Eigen::Map<const Lanes>(from); }
 inline void store(const Lanes& value, double* to) { Eigen::Map<Lanes>{to} = value; }
 /// Entry i of four rows of a table.
 inline Lanes take(const std::array<const double*, 4>& rows, std::size_t i) {
-  const Four four{rows[0][i], rows[1][i], rows[2][i], rows[3][i]};
-  Lanes whole;
-  std::memcpy(whole.data(), &four, sizeof four);
-  return whole;
+  return as_vector<Lanes>(Four{rows[0][i], rows[1][i], rows[2][i], rows[3][i]});
 }
 /// A row for the places without one, as long as any.
 inline constexpr std::array<double, 4 * stencil_size<3>> no_row{};

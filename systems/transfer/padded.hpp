@@ -4,8 +4,6 @@
 
 #include "components/types.hpp"
 
-#include <cstring>
-
 namespace minamo {
 
 /// In space with a fourth number, zero.
@@ -15,10 +13,7 @@ using PaddedVec = Eigen::Matrix<double, Dim == 3 ? 4 : Dim, 1>;
 template <int Dim>
 inline PaddedVec<Dim> padded(const Vec<Dim>& v) {
   if constexpr (Dim == 3) {
-    const Four four{v[0], v[1], v[2], 0};
-    PaddedVec<Dim> whole;
-    std::memcpy(whole.data(), &four, sizeof four);
-    return whole;
+    return as_vector<PaddedVec<3>>(Four{v[0], v[1], v[2], 0});
   } else {
     return v;
   }

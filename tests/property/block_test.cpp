@@ -95,10 +95,9 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property
   const std::string stabilization = GENERATE("pspg", "oss", "vms");
   const std::string integrator = GENERATE("midpoint", "newmark");
   CAPTURE(viscosity, stabilization, integrator);
-  // In space, where a step costs fifty times as much, every viscosity and every stabilization, in turn with either.
+  // In space, where a step costs fifty times as much, each viscosity with every stabilization, in turn with either.
   const bool newmark_is_next = (viscosity > 2) == (stabilization == "oss");
   if (Dim == 3 && newmark_is_next != (integrator == "newmark")) return;
-  if (Dim == 3 && viscosity != 3 && stabilization != "pspg") return;
   const Json scene = with(lump_and_drop<Dim>(viscosity), {R"(/stabilization={"scheme": ")" + stabilization + "\"}",
                                                           R"(/integrator={"scheme": ")" + integrator + "\"}"});
   SceneRun block(

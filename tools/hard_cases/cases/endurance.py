@@ -20,6 +20,11 @@ def at_end(run: Run, column: str) -> np.ndarray:
     return run.history[column][run.history["time"] >= run.history["time"][-1] - LAST]
 
 
+def frames_at_end(run: Run) -> list[Frame]:
+    """Those of the last ten seconds."""
+    return [frame for frame in run.frames if frame.time >= run.frames[-1].time - LAST]
+
+
 def depth(run: Run) -> float:
     """That of the water once it lies still: volume over width."""
     return run.mass / run.scene["fluid"]["density"] / float(run.high[0] - run.low[0])
@@ -27,7 +32,7 @@ def depth(run: Run) -> float:
 
 def level_error(run: Run) -> float:
     """Of the mean height of the surface at the end, over the depth at rest."""
-    heights = [surface(run, frame) for frame in run.frames if frame.time >= run.frames[-1].time - LAST]
+    heights = [surface(run, frame) for frame in frames_at_end(run)]
     return abs(float(np.mean(heights)) / depth(run) - 1)
 
 
@@ -55,11 +60,12 @@ def unrest(run: Run) -> float:
 
 def unrest_of_cells(run: Run) -> float:
     """The same of the mean velocities of the cells, without what particles of a cell do against each other."""
-    speeds = [speed_of_cells(run, frame) for frame in run.frames if frame.time >= run.frames[-1].time - LAST]
+    speeds = [speed_of_cells(run, frame) for frame in frames_at_end(run)]
     return float(np.mean(speeds) / np.sqrt(-run.force[1] * depth(run)))
 
 
 def speed_of_cells(run: Run, frame: Frame) -> float:
+    """Root of the mean square over the water. [m/s]"""
     cell = ((frame.position - run.low) / run.spacing).astype(int) @ [int(run.cells[1]) + 1, 1]
     mass = np.bincount(cell, run.masses[frame.id])
     momentum = np.array([np.bincount(cell, run.masses[frame.id] * v) for v in frame.velocity.T])
