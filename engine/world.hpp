@@ -4,6 +4,7 @@
 /// Systems do not see it; they see what they declare (system.hpp).
 
 #include "engine/component.hpp"
+#include "engine/parallel.hpp"
 
 #include <map>
 #include <memory>
@@ -102,12 +103,12 @@ class ColumnStorage final : public Storage {
   }
   void reorder(std::span<const std::uint32_t> order) override {
     spare_.resize(order.size(), zero<T>());
-    for (std::size_t k = 0; k < order.size(); ++k) spare_[k] = values_[order[k]];
+    for_each_row(order.size(), [&](std::size_t k) { spare_[k] = values_[order[k]]; });
     take_spare();
   }
   void renumber(std::span<const std::optional<std::uint32_t>> from) override {
     spare_.resize(from.size(), zero<T>());
-    for (std::size_t k = 0; k < from.size(); ++k) spare_[k] = from[k] ? values_[*from[k]] : zero<T>();
+    for_each_row(from.size(), [&](std::size_t k) { spare_[k] = from[k] ? values_[*from[k]] : zero<T>(); });
     take_spare();
   }
   void mark() override { keeping_ = detail::Keeping::due; }
