@@ -13,6 +13,7 @@ namespace minamo {
 namespace {
 
 constexpr std::size_t blocks_per_task = 32;
+constexpr std::size_t lanes = RowBlocks<2>::width;
 
 /// A row is cut where at least so much of the volume around its node is filled. Fewer whole rows save less in the
 /// factorization than they cost in iterations.
@@ -29,21 +30,23 @@ constexpr std::size_t wider(std::size_t place) {
   return out;
 }
 
-/// sum[J - I] += weight[K - I] from[J - K] along x, for K and J up to two nodes from I and K; `from` belongs to the
-/// first K, entries for the next J are `step` further.
+/// sum[J - I] += weight[K - I] from[J - K] along x, for K and J up to two nodes from I and K.
+/// \param from     entry of the block of the K that has the x of I, those of the next J `step` further
+/// \param to_next  how far the blocks beside it are
 template <int Reach>
 [[gnu::always_inline]] inline void add_line(const std::array<Lanes, 5>& weight, const double* from, std::size_t step,
-                                            std::array<Lanes, 2 * Reach + 1>& sum) {
+                                            std::size_t to_next, std::array<Lanes, 2 * Reach + 1>& sum) {
   constexpr auto beside = static_cast<std::size_t>(4 - Reach);
-  const auto add = [&]<std::size_t Pair>() __attribute__((always_inline)) {
-    constexpr std::size_t k = Pair / 5;
-    constexpr std::size_t j = Pair % 5;
-    if constexpr (k + j >= beside && k + j <= 8 - beside) sum[k + j - beside] += weight[k] * load(from + k + j * step);
+  const auto add = [&]<std::size_t J>() __attribute__((always_inline)) {
+    const std::array<Lanes, 5> entry = around(from + J * step, to_next);
+    for (std::size_t k = 0; k < 5; ++k) {
+      if (k + J >= beside && k + J <= 8 - beside) sum[k + J - beside] += weight[k] * entry[k];
+    }
   };
-  [&]<std::size_t... Pair>(std::index_sequence<Pair...>) __attribute__((always_inline)) {
-    (add.template operator()<Pair>(), ...);
+  [&]<std::size_t... Before>(std::index_sequence<Before...>) __attribute__((always_inline)) {
+    (add.template operator()<4 - Before>(), ...);
   }
-  (std::make_index_sequence<25>());
+  (std::make_index_sequence<5>());
 }
 
 /// Where the line at J - I begins in a stencil of (2 Reach + 1)^d, from the lines at K - I and J - K; none if it is
@@ -112,7 +115,6 @@ auto CompactPressure<Dim>::surface_weights(const From& from, const Block& block,
     -> std::array<std::array<Lanes, 5>, Dim> {
   const BlockEntries<Dim>& push = from.schur.push_entries();
   const double* to_block = push.at(block.slot);
-  const std::size_t stride = push.stride(block.slot);
   const double* per_mass = per_mass_.data() + block.line(line);
   std::array<const double*, RowBlocks<Dim>::width> from_block;
   for (std::size_t lane = 0; lane < from_block.size(); ++lane) {
@@ -123,7 +125,7 @@ auto CompactPressure<Dim>::surface_weights(const From& from, const Block& block,
   for (std::size_t x = 0; x < 5; ++x) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::size_t entry = Dim * (5 * line + x) + d;
-      weight[d][x] = (load(to_block + entry * stride) + take(from_block, entry)) *
+      weight[d][x] = (load(to_block + entry * lanes) + take(from_block, entry)) *
                      load(per_mass + d * from.schur.blocks().slots() + x);
     }
   }
@@ -139,15 +141,14 @@ void CompactPressure<Dim>::add_surface(const From& from, const Block& block, Lan
     const std::uint32_t base = block.beside[line];
     if (RowBlocks<Dim>::is_beyond(base)) continue;
     const auto weight = surface_weights(from, block, line);
-    const std::size_t stride = push.stride(base);
-    const double* of_line = push.at(block.line(line), base);
+    const double* of_line = push.at(base);
     for (std::size_t on = 0; on < RowBlocks<Dim>::lines; ++on) {
       const auto begin = line_in<Dim, Reach>(line, on);
       if (!begin) continue;
       std::array<Lanes, 2 * Reach + 1> sum_of_line;
       sum_of_line.fill(Lanes::Zero());
       for (std::size_t d = 0; d < Dim; ++d) {
-        add_line<Reach>(weight[d], of_line + (5 * on * Dim + d) * stride, Dim * stride, sum_of_line);
+        add_line<Reach>(weight[d], of_line + (5 * on * Dim + d) * lanes, Dim * lanes, push.to_next(), sum_of_line);
       }
       for (std::size_t x = 0; x < sum_of_line.size(); ++x) sum[*begin + x] += sum_of_line[x];
     }
@@ -172,17 +173,16 @@ void CompactPressure<Dim>::fill_block(const From& from, const Block& block) {
     sum.fill(Lanes::Zero());
     add_surface<2>(from, block, sum.data());
   }
-  const std::size_t stride = entries_.stride(block.slot);
-  const double* pressure = from.schur.spread_entries().at(block.slot) + Dim * stride;
+  const double* pressure = from.schur.spread_entries().at(block.slot) + Dim * lanes;
   double* entry = entries_.at(block.slot);
   for (std::size_t k = 0; k < sum.size(); ++k) {
-    store(sum[k] + from.of_laplacian * load(pressure + (Dim + 1) * k * stride), entry + k * stride);
+    store(sum[k] + from.of_laplacian * load(pressure + (Dim + 1) * k * lanes), entry + k * lanes);
   }
   for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
     if (block.row[lane] < 0) continue;
     const std::size_t r = of_row(block.row[lane]);
-    entry[own * stride + lane] += (1 - from.of_laplacian) * t.pressure_per_mass * t.m_i[t.node[r]];
-    scale_[r] = 1 / std::sqrt(std::max(entry[own * stride + lane], pressure[(Dim + 1) * own * stride + lane]));
+    entry[own * lanes + lane] += (1 - from.of_laplacian) * t.pressure_per_mass * t.m_i[t.node[r]];
+    scale_[r] = 1 / std::sqrt(std::max(entry[own * lanes + lane], pressure[(Dim + 1) * own * lanes + lane]));
   }
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t blocks_per_task = 32;
 
+constexpr std::size_t lanes = RowBlocks<2>::width;
+
 /// Rows of liquid that fills its cells are sums of the same numbers, in orders of their own: what they may differ by,
 /// of the largest entry of their kind.
 constexpr double roundings = 1e-14;
@@ -18,8 +20,7 @@ constexpr double roundings = 1e-14;
 /// Entries of a block in memory, and those that are alike in all rows of a kind.
 struct Stored {
   const double* first;
-  std::size_t stride;
-  Lanes operator()(std::size_t entry) const { return load(first + entry * stride); }
+  Lanes operator()(std::size_t entry) const { return load(first + entry * lanes); }
 };
 struct Alike {
   const double* entries;
@@ -87,11 +88,9 @@ auto PressureSchur<Dim>::entries(const EquationTerms<Dim>& t, const Block& block
 /// Whether the rows of a block have all their neighbours and are alike. If so, inner_ becomes what they have.
 template <int Dim>
 bool PressureSchur<Dim>::take_inner(const EquationTerms<Dim>& t, const Block& block) {
+  if (!blocks_.is_whole(block)) return false;
   inner_.push_tolerance.fill(0);
   inner_.spread_tolerance.fill(0);
-  for (const std::int32_t row : block.row) {
-    if (row < 0) return false;
-  }
   const auto first = static_cast<std::size_t>(block.row[0]);
   for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -104,9 +103,6 @@ bool PressureSchur<Dim>::take_inner(const EquationTerms<Dim>& t, const Block& bl
         std::max(inner_.spread_tolerance[Dim], roundings * std::abs(t.stabilization[first][(Dim + 1) * k + Dim]));
   }
   for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
-    for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
-      if (blocks_.row(block.at(k) + lane) < 0) return false;
-    }
     const Entries found = entries(t, block, k);
     for (std::size_t d = 0; d < Dim; ++d) inner_.push[Dim * k + d] = found.push[d][0];
     for (std::size_t d = 0; d <= Dim; ++d) inner_.spread[(Dim + 1) * k + d] = found.spread[d][0];
@@ -126,16 +122,15 @@ void PressureSchur<Dim>::fill_block(const EquationTerms<Dim>& t, std::size_t b) 
   const Block& block = blocks_.blocks()[b];
   double* push = push_.at(block.slot);
   double* spread = spread_.at(block.slot);
-  const std::size_t stride = push_.stride(block.slot);
   bool inner = has_inner_;
   for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
     const Entries found = entries(t, block, k);
-    for (std::size_t d = 0; d < Dim; ++d) store(found.push[d], push + (Dim * k + d) * stride);
-    for (std::size_t d = 0; d <= Dim; ++d) store(found.spread[d], spread + ((Dim + 1) * k + d) * stride);
+    for (std::size_t d = 0; d < Dim; ++d) store(found.push[d], push + (Dim * k + d) * lanes);
+    for (std::size_t d = 0; d <= Dim; ++d) store(found.spread[d], spread + ((Dim + 1) * k + d) * lanes);
     inner = inner && is_inner(found, k);
   }
   is_inner_[b] = inner;
-  double* own = spread + own_pressure * stride;
+  double* own = spread + own_pressure * lanes;
   for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
     if (block.row[lane] < 0) continue;
     own[lane] += t.pressure_per_mass * t.m_i[t.node[static_cast<std::size_t>(block.row[lane])]];
@@ -146,11 +141,11 @@ template <int Dim>
 void PressureSchur<Dim>::fill_margins() {
   constexpr std::size_t entries = Dim * stencil_size<Dim>;
   blocks_.for_each_margin([&](std::uint32_t slot) {
-    for (std::size_t e = 0; e < entries; ++e) store(Lanes::Zero(), push_.at(slot) + e * push_.stride(slot));
+    for (std::size_t e = 0; e < entries; ++e) store(Lanes::Zero(), push_.at(slot) + e * lanes);
   });
   blocks_.for_each_image([&](std::uint32_t from, std::uint32_t to) {
     for (std::size_t e = 0; e < entries; ++e) {
-      push_.at(to)[e * push_.stride(to)] = push_.at(from)[e * push_.stride(from)];
+      push_.at(to)[e * lanes] = push_.at(from)[e * lanes];
     }
   });
 }
@@ -198,7 +193,7 @@ template <int Dim>
 auto PressureSchur<Dim>::push_block(std::size_t b) const -> std::array<Lanes, Dim> {
   const Block& block = blocks_.blocks()[b];
   if (is_inner_[b]) return push_lines(block, Alike{inner_.push.data()});
-  return push_lines(block, Stored{push_.at(block.slot), push_.stride(block.slot)});
+  return push_lines(block, Stored{push_.at(block.slot)});
 }
 
 template <int Dim>
@@ -219,7 +214,7 @@ Lanes PressureSchur<Dim>::spread_lines(const Block& block, const Source& entries
 template <int Dim>
 Lanes PressureSchur<Dim>::spread_block(std::size_t b) const {
   const Block& block = blocks_.blocks()[b];
-  const Stored stored{spread_.at(block.slot), spread_.stride(block.slot)};
+  const Stored stored{spread_.at(block.slot)};
   if (!is_inner_[b]) return spread_lines(block, stored);
   // e goes with the mass of a node, which is its own.
   const Lanes e = stored(own_pressure) - inner_.spread[own_pressure];

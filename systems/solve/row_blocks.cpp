@@ -134,6 +134,18 @@ void RowBlocks<Dim>::find_blocks(const Grid<Dim>& grid) {
 }
 
 template <int Dim>
+bool RowBlocks<Dim>::is_whole(const Block& block) const {
+  if (std::any_of(block.row.begin(), block.row.end(), [](std::int32_t row) { return row < 0; })) return false;
+  for (const std::uint32_t beside : block.beside) {
+    if (is_beyond(beside)) return false;
+    for (std::size_t x = 0; x < width + 4; ++x) {
+      if (row_[beside - 2 + x] < 0) return false;
+    }
+  }
+  return true;
+}
+
+template <int Dim>
 void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> site,
                            std::span<const std::uint32_t> node) {
   find_runs(grid, site, node);
@@ -146,9 +158,6 @@ void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> si
   blocks_.clear();
   margins_.clear();
   for (std::uint32_t at = 0; at < 3 * width; at += width) margins_.push_back(at);
-  run_of_block_.clear();
-  for (std::uint32_t r = 0; r < runs_.size(); ++r)
-    run_of_block_.insert(run_of_block_.end(), runs_[r].length / width, r);
   const int nodes = grid.nodes(0);
   for (std::size_t l = 0; l + 1 < lines_.size(); ++l) {
     const auto slot_at = [&](int x) {

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -45,12 +46,6 @@ class RowBlocks {
     }
     std::size_t line(std::size_t number) const { return beside[number] - 2; }  ///< where the five of a line begin
   };
-  /// Slots of one line that follow one another.
-  struct Run {
-    std::uint32_t begin;
-    std::uint32_t length;
-  };
-
   /// \param site  of every node
   /// \param node  of every row, in the order of their sites
   void build(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node);
@@ -62,7 +57,6 @@ class RowBlocks {
   /// The row of a slot, of an image too; -1 if there is none.
   std::int32_t row(std::size_t slot) const { return row_[slot]; }
   const Block& block(std::size_t row) const { return blocks_[block_of_row_[row]]; }
-  const Run& run(std::size_t slot) const { return runs_[run_of_block_[slot / width]]; }
   /// Calls body(place in the stencil, row) for the neighbours of a row that have one.
   template <class Body>
   void for_each_neighbour(std::size_t row, const Body& body) const {
@@ -76,6 +70,8 @@ class RowBlocks {
       }
     }
   }
+  /// Whether a block has all rows and they all their neighbours.
+  bool is_whole(const Block& block) const;
   /// Gives images what their nodes have.
   void fill_images(double* of_slot) const {
     for_each_image([&](std::uint32_t from, std::uint32_t to) { of_slot[to] = of_slot[from]; });
@@ -99,6 +95,11 @@ class RowBlocks {
     std::uint32_t first_row;
     std::uint32_t first_run;
   };
+  /// Slots of one line that follow one another.
+  struct Run {
+    std::uint32_t begin;
+    std::uint32_t length;
+  };
   void find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node);
   void find_blocks(const Grid<Dim>& grid);
   void cover(int block);
@@ -112,48 +113,59 @@ class RowBlocks {
   std::vector<std::uint32_t> slot_;
   std::vector<std::uint32_t> block_of_row_;
   std::vector<std::int32_t> row_;
-  std::vector<std::uint32_t> run_of_block_;
   std::vector<std::uint32_t> margins_;
   std::vector<std::array<std::uint32_t, 2>> images_;
 };
 
-/// `entries` numbers per slot. Those of a run lie together, so that a product streams through memory.
+/// `entries` numbers per slot. Those of a block lie together, its four slots side by side: a product streams through
+/// memory.
 template <int Dim>
 class BlockEntries {
  public:
+  static constexpr std::size_t width = RowBlocks<Dim>::width;
+
   void resize(const RowBlocks<Dim>& blocks, std::size_t entries) {
     blocks_ = &blocks;
     entries_ = entries;
     values_.resize(entries * blocks.slots());
   }
-  /// Entry 0 of a slot; entry e stands e * stride(slot) further. Good also for the slots up to two beside its block.
-  double* at(std::size_t slot, std::size_t base) { return values_.data() + place(slot, base); }
-  const double* at(std::size_t slot, std::size_t base) const { return values_.data() + place(slot, base); }
-  std::size_t stride(std::size_t base) const { return blocks_->run(base).length; }
-  double* at(std::size_t slot) { return at(slot, slot); }
-  const double* at(std::size_t slot) const { return at(slot, slot); }
-  double of(std::size_t row, std::size_t entry) const {
-    const std::size_t slot = blocks_->slot(row);
-    return at(slot)[entry * stride(slot)];
-  }
+  /// Entry 0 of a slot; entry e stands e * width further, those of the blocks beside it to_next() further or before.
+  double* at(std::size_t slot) { return values_.data() + place(slot); }
+  const double* at(std::size_t slot) const { return values_.data() + place(slot); }
+  std::size_t to_next() const { return width * entries_; }
+  double of(std::size_t row, std::size_t entry) const { return at(blocks_->slot(row))[entry * width]; }
   /// Calls body(place in the stencil, row of the neighbour, entry) for the neighbours of a row, whose entries are every
   /// `step`-th from the first.
   template <class Body>
   void for_each_neighbour(std::size_t row, std::size_t first, std::size_t step, const Body& body) const {
-    const std::size_t slot = blocks_->slot(row);
-    const double* entry = at(slot) + first * stride(slot);
-    const std::size_t next = step * stride(slot);
-    blocks_->for_each_neighbour(row, [&](std::size_t k, std::size_t other) { body(k, other, entry[k * next]); });
+    const double* entry = at(blocks_->slot(row)) + first * width;
+    blocks_->for_each_neighbour(row,
+                                [&](std::size_t k, std::size_t other) { body(k, other, entry[k * step * width]); });
   }
 
  private:
-  std::size_t place(std::size_t slot, std::size_t base) const {
-    const auto& run = blocks_->run(base);
-    return entries_ * run.begin + slot - run.begin;
-  }
+  std::size_t place(std::size_t slot) const { return slot / width * to_next() + slot % width; }
   const RowBlocks<Dim>* blocks_ = nullptr;
   std::size_t entries_ = 0;
   Values values_;
 };
+
+/// An entry of the slots from two before a block to two behind it, four side by side.
+/// \param entry    of the block
+/// \param to_next  BlockEntries::to_next()
+inline std::array<Lanes, 5> around(const double* entry, std::size_t to_next) {
+  const auto four = [](const double* from) {
+    Four value;
+    std::memcpy(&value, from, sizeof value);
+    return value;
+  };
+  const Four before = four(entry - to_next);
+  const Four own = four(entry);
+  const Four behind = four(entry + to_next);
+  return {as_vector<Lanes>(__builtin_shufflevector(before, own, 2, 3, 4, 5)),
+          as_vector<Lanes>(__builtin_shufflevector(before, own, 3, 4, 5, 6)), as_vector<Lanes>(own),
+          as_vector<Lanes>(__builtin_shufflevector(own, behind, 1, 2, 3, 4)),
+          as_vector<Lanes>(__builtin_shufflevector(own, behind, 2, 3, 4, 5))};
+}
 
 }  // namespace minamo
