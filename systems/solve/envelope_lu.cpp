@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <limits>
 
 namespace minamo {
 
@@ -20,7 +21,7 @@ inline auto pairwise_sum(std::size_t first, const Term& term) {
 
 }  // namespace
 
-double envelope_cost(const std::vector<std::uint32_t>& first) {
+double envelope_cost(std::span<const std::uint32_t> first) {
   double sum = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     const auto below = static_cast<double>(i - first[i]);
@@ -30,25 +31,40 @@ double envelope_cost(const std::vector<std::uint32_t>& first) {
 }
 
 template <class Scalar>
-void EnvelopeLu<Scalar>::start(const std::vector<std::uint32_t>& first) {
+void EnvelopeLu<Scalar>::start(std::span<const std::uint32_t> first, std::size_t kept) {
   rows_ = first.size();
-  const std::size_t tiles = (rows_ + width - 1) / width;
+  eliminated_ = rows_ - kept;
+  eliminated_tiles_ = (eliminated_ + width - 1) / width;
+  padding_ = width * eliminated_tiles_ - eliminated_;
+  const std::size_t tiles = eliminated_tiles_ + (kept + width - 1) / width;
   first_.resize(tiles);
   start_.resize(tiles);
+  place_tiles(first);
+  inverse_lower_.resize(eliminated_tiles_);
+  inverse_upper_.resize(eliminated_tiles_);
+  least_pivot_.assign(eliminated_tiles_, Lanes::Zero());
+  x_.assign(tiles, Lanes::Zero());
+  for (std::size_t i = eliminated_; i < width * eliminated_tiles_; ++i) {
+    const auto k = static_cast<Eigen::Index>(i % width);
+    upper_[start_[i / width] + i / width - first_[i / width]](k, k) = 1;
+  }
+}
+
+template <class Scalar>
+void EnvelopeLu<Scalar>::place_tiles(std::span<const std::uint32_t> first) {
+  std::fill(first_.begin(), first_.end(), std::numeric_limits<std::uint32_t>::max());
+  for (std::size_t i = 0; i < rows_; ++i) {
+    std::uint32_t& of_tile = first_[place(i).tile];
+    of_tile = std::min(of_tile, first[i]);
+  }
+  for (std::uint32_t& of_tile : first_) of_tile = static_cast<std::uint32_t>(place(of_tile).tile);
   std::size_t size = 0;
-  for (std::size_t j = 0; j < tiles; ++j) {
-    const auto begin = first.begin() + static_cast<std::ptrdiff_t>(width * j);
-    const auto end = first.begin() + static_cast<std::ptrdiff_t>(std::min(width * (j + 1), rows_));
-    first_[j] = *std::min_element(begin, end) / static_cast<std::uint32_t>(width);
+  for (std::size_t j = 0; j < first_.size(); ++j) {
     start_[j] = size;
     size += j - first_[j] + 1;
   }
   lower_.assign(size, Tile::Zero());
   upper_.assign(size, Tile::Zero());
-  inverse_lower_.resize(tiles);
-  inverse_upper_.resize(tiles);
-  x_.resize(tiles);
-  for (std::size_t i = rows_; i < width * tiles; ++i) at(i, i) = 1;
 }
 
 template <class Scalar>
@@ -81,27 +97,22 @@ inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Tile& b) -> Tile {
   return out;
 }
 
-/// from - sum_k lower_k upper_k
+/// from -= sum_k lower_k upper_k
 template <class Scalar>
-inline auto EnvelopeLu<Scalar>::eliminated(const Tile& from, const Tile* lower, const Tile* upper, std::size_t count)
-    -> Tile {
+inline void EnvelopeLu<Scalar>::subtract_products(const Tile* lower, const Tile* upper, std::size_t count, Tile& from) {
   Columns sum;
   sum.fill(Lanes::Zero());
   for (std::size_t k = 0; k < count; ++k) add_product(lower[k], upper[k], sum);
-  Tile out;
-  for (std::size_t j = 0; j < width; ++j) {
-    out.col(static_cast<Eigen::Index>(j)) = (column_of(from, j) - sum[j]).matrix();
-  }
-  return out;
+  for (std::size_t j = 0; j < width; ++j) from.col(static_cast<Eigen::Index>(j)).array() -= sum[j];
 }
 
 template <class Scalar>
-bool EnvelopeLu<Scalar>::invert_diagonal(std::size_t j, const std::array<Scalar, width>& least) {
+bool EnvelopeLu<Scalar>::invert_diagonal(std::size_t j) {
   Tile& tile = upper_[start_[j] + j - first_[j]];
   constexpr auto size = static_cast<Eigen::Index>(width);
   for (Eigen::Index k = 0; k < size; ++k) {
     const Scalar pivot = tile(k, k);
-    if (!(std::abs(pivot) > least[static_cast<std::size_t>(k)]) || !std::isfinite(pivot)) return false;
+    if (!(std::abs(pivot) > least_pivot_[j][k]) || !std::isfinite(pivot)) return false;
     for (Eigen::Index i = k + 1; i < size; ++i) {
       tile(i, k) /= pivot;
       for (Eigen::Index l = k + 1; l < size; ++l) tile(i, l) -= tile(i, k) * tile(k, l);
@@ -127,49 +138,61 @@ bool EnvelopeLu<Scalar>::invert_diagonal(std::size_t j, const std::array<Scalar,
 }
 
 template <class Scalar>
-bool EnvelopeLu<Scalar>::factorize(double least) {
+void EnvelopeLu<Scalar>::expect_pivots(double least) {
+  for (std::size_t j = 0; j < eliminated_tiles_; ++j) {
+    least_pivot_[j] = static_cast<Scalar>(least) * upper_[start_[j] + j - first_[j]].diagonal().array().abs();
+  }
+}
+
+/// What the columns and rows before tile j of the diagonal leave of its row and column.
+template <class Scalar>
+void EnvelopeLu<Scalar>::eliminate_from(std::size_t j) {
+  Tile* row_j = lower_.data() + start_[j];
+  Tile* column_j = upper_.data() + start_[j];
+  for (std::size_t i = first_[j]; i <= j; ++i) {
+    const std::size_t common = std::max(first_[i], first_[j]);
+    const std::size_t count = std::max(common, std::min(i, eliminated_tiles_)) - common;
+    const Tile* row_i = lower_.data() + start_[i] + (common - first_[i]);
+    const Tile* column_i = upper_.data() + start_[i] + (common - first_[i]);
+    const std::size_t from = common - first_[j];
+    const std::size_t at = i - first_[j];
+    subtract_products(row_i, column_j + from, count, column_j[at]);
+    if (i == j) return;
+    subtract_products(row_j + from, column_i, count, row_j[at]);
+    if (i >= eliminated_tiles_) continue;
+    column_j[at] = product(inverse_lower_[i], column_j[at]);
+    row_j[at] = product(row_j[at], inverse_upper_[i]);
+  }
+}
+
+template <class Scalar>
+bool EnvelopeLu<Scalar>::factorize() {
   for (std::size_t j = 0; j < first_.size(); ++j) {
-    Tile* row_j = lower_.data() + start_[j];
-    Tile* column_j = upper_.data() + start_[j];
-    for (std::size_t i = first_[j]; i < j; ++i) {
-      const std::size_t common = std::max(first_[i], first_[j]);
-      const Tile* row_i = lower_.data() + start_[i] + (common - first_[i]);
-      const Tile* column_i = upper_.data() + start_[i] + (common - first_[i]);
-      const std::size_t from = common - first_[j];
-      const std::size_t at = i - first_[j];
-      column_j[at] = product(inverse_lower_[i], eliminated(column_j[at], row_i, column_j + from, i - common));
-      row_j[at] = product(eliminated(row_j[at], row_j + from, column_i, i - common), inverse_upper_[i]);
-    }
-    Tile& diagonal = column_j[j - first_[j]];
-    std::array<Scalar, width> least_pivot;
-    for (std::size_t k = 0; k < width; ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      least_pivot[k] = static_cast<Scalar>(least) * std::abs(diagonal(i, i));
-    }
-    diagonal = eliminated(diagonal, row_j, column_j, j - first_[j]);
-    if (!invert_diagonal(j, least_pivot)) return false;
+    eliminate_from(j);
+    if (j < eliminated_tiles_ && !invert_diagonal(j)) return false;
   }
   return true;
 }
 
 template <class Scalar>
-void EnvelopeLu<Scalar>::solve(Values& b) {
-  const std::size_t tiles = first_.size();
-  x_.back().setZero();
-  for (std::size_t i = 0; i < rows_; ++i)
-    x_[i / width][static_cast<Eigen::Index>(i % width)] = static_cast<Scalar>(b[i]);
-  for (std::size_t j = 0; j < tiles; ++j) {
+void EnvelopeLu<Scalar>::eliminate() {
+  for (std::size_t j = 0; j < first_.size(); ++j) {
     const Tile* row = lower_.data() + start_[j];
     Lanes sum = x_[j];
-    for (std::size_t i = first_[j]; i < j; ++i) sum -= product(row[i - first_[j]], x_[i]);
-    x_[j] = product(inverse_lower_[j], sum);
+    for (std::size_t i = first_[j]; i < std::min(j, eliminated_tiles_); ++i) sum -= product(row[i - first_[j]], x_[i]);
+    x_[j] = j < eliminated_tiles_ ? product(inverse_lower_[j], sum) : sum;
   }
-  for (std::size_t j = tiles; j-- > 0;) {
+}
+
+template <class Scalar>
+void EnvelopeLu<Scalar>::substitute() {
+  for (std::size_t j = first_.size(); j-- > 0;) {
     const Tile* column = upper_.data() + start_[j];
-    x_[j] = product(inverse_upper_[j], x_[j]);
-    for (std::size_t i = first_[j]; i < j; ++i) x_[i] -= product(column[i - first_[j]], x_[j]);
+    if (j < eliminated_tiles_) x_[j] = product(inverse_upper_[j], x_[j]);
+    for (std::size_t i = first_[j]; i < std::min(j, eliminated_tiles_); ++i) {
+      x_[i] -= product(column[i - first_[j]], x_[j]);
+    }
   }
-  for (std::size_t i = 0; i < rows_; ++i) b[i] = x_[i / width][static_cast<Eigen::Index>(i % width)];
 }
 
 template class EnvelopeLu<float>;

@@ -5,10 +5,14 @@
 /// streams through memory, so that it beats sparse factorizations as long as the envelope is narrow; in single
 /// precision in half the time. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems,
 /// Prentice-Hall 1981, ch. 4.
+///
+/// The last rows can be kept: what the elimination of the others makes of them is then for others to solve.
 
 #include "systems/solve/gmres.hpp"
 
 #include <Eigen/Core>
+
+#include <span>
 
 namespace minamo {
 
@@ -16,44 +20,66 @@ namespace minamo {
 template <class Scalar>
 class EnvelopeLu {
  public:
-  /// \param first  column of the first entry of every row, at most the row itself
-  void start(const std::vector<std::uint32_t>& first);
+  /// \param first  column of the first entry of every row, at most the row itself; of kept ones at most the first kept
+  /// \param kept   rows at the end that are not eliminated
+  void start(std::span<const std::uint32_t> first, std::size_t kept = 0);
   std::size_t rows() const { return rows_; }
-  /// Entry of the lower or upper part; \pre within the envelope.
+  /// Entry of the lower or upper part; \pre within the envelope. What is left of kept rows after factorize().
   Scalar& at(std::size_t row, std::size_t column) {
-    const std::size_t j = row / width;
-    const std::size_t i = column / width;
+    const auto [j, of_row] = place(row);
+    const auto [i, of_column] = place(column);
     Tile& tile = i < j ? lower_[start_[j] + i - first_[j]] : upper_[start_[i] + j - first_[i]];
-    return tile(static_cast<Eigen::Index>(row % width), static_cast<Eigen::Index>(column % width));
+    return tile(of_row, of_column);
   }
-  /// False if a pivot is not finite, or not larger than `least` times what the diagonal was.
-  bool factorize(double least);
-  /// Overwrites b with the solution.
-  void solve(Values& b);
+  /// The pivots that factorize() is to find: more than `least` times what the diagonal is now.
+  void expect_pivots(double least);
+  /// False if a pivot is not finite, or not as large as expected.
+  bool factorize();
+  /// Right-hand side, what is left of it, or solution of a row.
+  Scalar& x(std::size_t row) {
+    const auto [j, of_row] = place(row);
+    return x_[j][of_row];
+  }
+  void eliminate();   ///< L^-1 x; subtracts from kept rows what falls on them
+  void substitute();  ///< U^-1 x from the x of kept rows
 
  private:
   static constexpr std::size_t width = 32 / sizeof(Scalar);
   using Tile = Eigen::Matrix<Scalar, width, width>;
   using Lanes = Eigen::Array<Scalar, width, 1>;
   using Columns = std::array<Lanes, width>;
+  struct Place {
+    std::size_t tile;
+    Eigen::Index within;
+  };
+  Place place(std::size_t row) const {
+    const std::size_t padded = row < eliminated_ ? row : row + padding_;
+    return {padded / width, static_cast<Eigen::Index>(padded % width)};
+  }
+  void place_tiles(std::span<const std::uint32_t> first);
   static Lanes column_of(const Tile& tile, std::size_t j);
   static void add_product(const Tile& a, const Tile& b, Columns& c);
   static Tile product(const Tile& a, const Tile& b);
   static Lanes product(const Tile& a, const Lanes& x);
-  static Tile eliminated(const Tile& from, const Tile* lower, const Tile* upper, std::size_t count);
-  bool invert_diagonal(std::size_t j, const std::array<Scalar, width>& least);
+  static void subtract_products(const Tile* lower, const Tile* upper, std::size_t count, Tile& from);
+  void eliminate_from(std::size_t j);
+  bool invert_diagonal(std::size_t j);
 
   std::size_t rows_ = 0;
+  std::size_t eliminated_ = 0;        ///< rows
+  std::size_t padding_ = 0;           ///< rows between those and the kept ones, which begin with a tile of their own
+  std::size_t eliminated_tiles_ = 0;  ///< along the diagonal
   std::vector<std::uint32_t> first_;  ///< tile of every row of tiles
   std::vector<std::size_t> start_;    ///< of row j of the lower and column j of the upper part
   std::vector<Tile> lower_;           ///< row by row, up to and with an unused diagonal
   std::vector<Tile> upper_;           ///< column by column, up to and with the diagonal
   std::vector<Tile> inverse_lower_;   ///< of the diagonal tiles' factors
   std::vector<Tile> inverse_upper_;
+  std::vector<Lanes> least_pivot_;
   std::vector<Lanes> x_;
 };
 
 /// About the multiplications of EnvelopeLu::factorize().
-double envelope_cost(const std::vector<std::uint32_t>& first);
+double envelope_cost(std::span<const std::uint32_t> first);
 
 }  // namespace minamo

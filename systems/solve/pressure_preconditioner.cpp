@@ -28,6 +28,8 @@ constexpr int steps_with_whole_factors = 16;
 /// Rows from which on, in 3-D, the fill of a complete factorization costs more than the iterations that it saves.
 constexpr std::size_t most_complete = 20000;
 
+constexpr std::size_t rows_per_task = 512;
+
 /// The value of an entry in a list, 0 if it is not there.
 template <class Entries>
 double value_of(const Entries& entries, std::size_t row) {
@@ -95,38 +97,83 @@ void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
   for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
 }
 
+/// The first and the last of the neighbours of every row.
 template <int Dim>
-void PressurePreconditioner<Dim>::find_envelope(const CompactPressure<Dim>& compact) {
-  first_.resize(order_.size());
-  std::iota(first_.begin(), first_.end(), 0U);
+void PressurePreconditioner<Dim>::find_neighbours(const RowBlocks<Dim>& blocks) {
+  constexpr std::size_t width = RowBlocks<Dim>::width;
+  first_in_slot_.resize(blocks.slots());
+  last_in_slot_.resize(blocks.slots());
+  for (std::size_t slot = 0; slot < blocks.slots(); ++slot) {
+    const std::int32_t row = blocks.row(slot);
+    first_in_slot_[slot] = row < 0 ? std::numeric_limits<std::uint32_t>::max() : place_[static_cast<std::size_t>(row)];
+    last_in_slot_[slot] = row < 0 ? 0 : place_[static_cast<std::size_t>(row)];
+  }
+  const auto find = [&](const typename RowBlocks<Dim>::Block& block) {
+    std::array<std::uint32_t, width> first, last;
+    first.fill(std::numeric_limits<std::uint32_t>::max());
+    last.fill(0);
+    for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line) {
+      if (RowBlocks<Dim>::is_beyond(block.beside[line])) continue;
+      const std::uint32_t* first_of_line = first_in_slot_.data() + block.line(line);
+      const std::uint32_t* last_of_line = last_in_slot_.data() + block.line(line);
+      for (std::size_t x = 0; x < 5; ++x) {
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          first[lane] = std::min(first[lane], first_of_line[x + lane]);
+          last[lane] = std::max(last[lane], last_of_line[x + lane]);
+        }
+      }
+    }
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      if (block.row[lane] < 0) continue;
+      const std::uint32_t place = place_[static_cast<std::size_t>(block.row[lane])];
+      envelope_.first[place] = first[lane];
+      envelope_.last[place] = last[lane];
+    }
+  };
+  for_each_row(
+      blocks.blocks().size(), [&](std::size_t b) { find(blocks.blocks()[b]); }, rows_per_task);
+}
+
+template <int Dim>
+void PressurePreconditioner<Dim>::find_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks) {
+  auto& [first, last] = envelope_;
+  first.resize(order_.size());
+  last.resize(order_.size());
+  find_neighbours(blocks);
+  // Entries beyond the stencil may have none across from them.
+  const auto include = [&](std::uint32_t row, std::uint32_t column) {
+    first[row] = std::min(first[row], column);
+    last[row] = std::max(last[row], column);
+  };
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    const auto include = [&](std::size_t r_j, double) {
-      const auto [low, high] = std::minmax(place_[r], place_[r_j]);
-      first_[high] = std::min(first_[high], low);
-    };
-    compact.for_each_near(r, include);
-    for (const auto& entry : compact.beyond(r)) include(entry.row, entry.value);
+    for (const auto& entry : compact.beyond(r)) {
+      include(place_[r], place_[entry.row]);
+      include(place_[entry.row], place_[r]);
+    }
   }
 }
 
 template <int Dim>
 template <class Scalar>
 bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>& compact, double least,
-                                                     EnvelopeLu<Scalar>& envelope) {
-  envelope.start(first_);
-  for (std::size_t r = 0; r < order_.size(); ++r) {
-    const auto add = [&](std::size_t r_j, double value) {
-      envelope.at(place_[r], place_[r_j]) += static_cast<Scalar>(value);
-    };
-    compact.for_each_near(r, add);
-    for (const auto& entry : compact.beyond(r)) add(entry.row, entry.value);
-  }
-  return envelope.factorize(least);
+                                                     TwoEndedLu<Scalar>& factors) {
+  factors.start(envelope_);
+  for_each_row(
+      order_.size(),
+      [&](std::size_t r) {
+        const auto add = [&](std::size_t r_j, double value) {
+          factors.at(place_[r], place_[r_j]) += static_cast<Scalar>(value);
+        };
+        compact.for_each_near(r, add);
+        for (const auto& entry : compact.beyond(r)) add(entry.row, entry.value);
+      },
+      rows_per_task);
+  return factors.factorize(least);
 }
 
 template <int Dim>
 bool PressurePreconditioner<Dim>::factorize_narrow(const CompactPressure<Dim>& compact, WholeFactors& whole) {
-  const double cost = envelope_cost(first_);
+  const double cost = envelope_cost(envelope_.first);
   if (whole.steps == 0 && cost > narrowest_single && cost < widest_single) {
     kind_ = Kind::single_envelope;
     if (factorize_envelope(compact, least_pivot, single_)) return true;
@@ -198,7 +245,7 @@ template <int Dim>
 void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur,
                                           const EquationTerms<Dim>& terms, double viscous_part, WholeFactors& whole) {
   find_order(terms);
-  find_envelope(compact);
+  find_envelope(compact, schur.blocks());
   ordered_.resize(order_.size());
   const bool has_whole = whole.steps > 0;
   const bool is_narrow = factorize_narrow(compact, whole);

@@ -9,7 +9,7 @@
 #include "components/step.hpp"
 #include "systems/solve/cholesky.hpp"
 #include "systems/solve/compact_pressure.hpp"
-#include "systems/solve/envelope_lu.hpp"
+#include "systems/solve/two_ended_lu.hpp"
 
 namespace minamo {
 
@@ -38,9 +38,10 @@ class PressurePreconditioner {
  private:
   void find_order(const EquationTerms<Dim>& terms);
   void sort_along(std::size_t axis, const std::array<int, 2>& range);
-  void find_envelope(const CompactPressure<Dim>& compact);
+  void find_neighbours(const RowBlocks<Dim>& blocks);
+  void find_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks);
   template <class Scalar>
-  bool factorize_envelope(const CompactPressure<Dim>& compact, double least_pivot, EnvelopeLu<Scalar>& envelope);
+  bool factorize_envelope(const CompactPressure<Dim>& compact, double least_pivot, TwoEndedLu<Scalar>& factors);
   bool factorize_narrow(const CompactPressure<Dim>& compact, WholeFactors& whole);
   void find_one_sided(const CompactPressure<Dim>& compact);
   void factorize_sparse(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
@@ -50,14 +51,15 @@ class PressurePreconditioner {
   std::vector<Index<Dim>> site_;      ///< of the rows
   std::vector<std::uint32_t> order_;  ///< the rows, as the envelope has them
   std::vector<std::uint32_t> place_;  ///< where the envelope has a row
-  std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> count_;  ///< work space
+  Envelope envelope_;
+  // Work space.
+  std::vector<std::uint32_t> count_, first_in_slot_, last_in_slot_;
   Values ordered_;
   Values of_mass_;  ///< b/V_I; empty if not viscous
   enum class Kind { single_envelope, double_envelope, complete, incomplete };
   Kind kind_ = Kind::complete;
-  EnvelopeLu<float> single_;
-  EnvelopeLu<double> double_;
+  TwoEndedLu<float> single_;
+  TwoEndedLu<double> double_;
   SparseCholesky sparse_;
   struct OneSided {
     std::size_t row, column;

@@ -9,8 +9,8 @@
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
 #include "systems/solve/cholesky.hpp"
-#include "systems/solve/envelope_lu.hpp"
 #include "systems/solve/gmres.hpp"
+#include "systems/solve/two_ended_lu.hpp"
 
 #include <Eigen/Dense>
 
@@ -225,40 +225,84 @@ TEST_CASE("the block solver takes few iterations, whatever the resolution", "[pr
   CHECK(run.world().resource<SolveReport>().iterations <= 8);  // 3 to 5 were measured
 }
 
-TEMPLATE_TEST_CASE("LU within an envelope solves what dense LU solves", "[property]", float, double) {
-  const Eigen::MatrixXd a = random_band(60, 9, 0.7);
-  std::vector<std::uint32_t> first(60);
-  for (std::uint32_t i = 0; i < 60; ++i) first[i] = i < 9 ? 0 : i - 9;
-  EnvelopeLu<TestType> lu;
-  lu.start(first);
-  for (std::uint32_t i = 0; i < 60; ++i) {
-    for (std::uint32_t j = first[i]; j <= i; ++j) {
-      lu.at(i, j) = static_cast<TestType>(a(i, j));
-      lu.at(j, i) = static_cast<TestType>(a(j, i));
+Envelope envelope_of(const Eigen::MatrixXd& a) {
+  Envelope envelope;
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    Eigen::Index first = i;
+    Eigen::Index last = i;
+    for (Eigen::Index j = 0; j < a.cols(); ++j) {
+      if (a(i, j) == 0) continue;
+      first = std::min(first, j);
+      last = std::max(last, j);
+    }
+    envelope.first.push_back(static_cast<std::uint32_t>(first));
+    envelope.last.push_back(static_cast<std::uint32_t>(last));
+  }
+  return envelope;
+}
+
+template <class Scalar>
+void fill(TwoEndedLu<Scalar>& lu, const Eigen::MatrixXd& a) {
+  lu.start(envelope_of(a));
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    for (Eigen::Index j = 0; j < a.cols(); ++j) {
+      if (a(i, j) == 0) continue;
+      lu.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) = static_cast<Scalar>(a(i, j));
     }
   }
+}
+
+TEMPLATE_TEST_CASE("LU within an envelope solves what dense LU solves", "[property]", float, double) {
+  // Too little work for a cut, with one, and as wide as long.
+  const auto [rows, half_width, cut] =
+      GENERATE(std::tuple(60, 9, false), std::tuple(611, 45, true), std::tuple(150, 149, false));
+  CAPTURE(rows, half_width);
+  const Eigen::MatrixXd a = random_band(rows, half_width, 0.7);
+  TwoEndedLu<TestType> lu;
+  fill(lu, a);
+  REQUIRE(lu.is_cut() == cut);
   REQUIRE(lu.factorize(0));
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(60, -1, 3);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(rows, -1, 3);
   Values x = as_values(b);
   lu.solve(x);
   // A few times the last digit.
   CHECK(difference(x, a.partialPivLu().solve(b)) < 500 * static_cast<double>(std::numeric_limits<TestType>::epsilon()));
 }
 
+TEST_CASE("LU within an envelope is cut in the middle of the work, through rows that reach far", "[property]") {
+  // A wide body of water, and a thin long arm.
+  Eigen::MatrixXd a = random_band(1600, 4, 0.7);
+  a.topLeftCorner(800, 800) += random_band(800, 60, 0.7);
+  for (const Eigen::Index row : {300, 451, 452, 470, 790}) {
+    a(row, row - 150) = 0.5;
+    a(row - 150, row) = -0.25;
+  }
+  TwoEndedLu<double> lu;
+  fill(lu, a);
+  REQUIRE(lu.is_cut());
+  REQUIRE(lu.factorize(0));
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(1600, -1, 3);
+  Values x = as_values(b);
+  lu.solve(x);
+  CHECK(difference(x, a.partialPivLu().solve(b)) < 1e-12);
+}
+
 TEMPLATE_TEST_CASE("LU within an envelope tells a singular matrix", "[property]", float, double) {
-  EnvelopeLu<TestType> lu;
-  lu.start({0, 0});
-  lu.at(0, 0) = lu.at(0, 1) = lu.at(1, 0) = lu.at(1, 1) = 1;
+  TwoEndedLu<TestType> lu;
+  fill(lu, Eigen::MatrixXd::Constant(2, 2, 1));
   CHECK_FALSE(lu.factorize(0));
 }
 
 TEST_CASE("LU within an envelope tells a pivot that has lost its digits", "[property]") {
   const double left = GENERATE(1e-2, 1e-4);
-  CAPTURE(left);
-  EnvelopeLu<float> lu;
-  lu.start({0, 0});
-  lu.at(0, 0) = lu.at(0, 1) = lu.at(1, 0) = 2;
-  lu.at(1, 1) = static_cast<float>(2 + 2 * left);
+  // Where there is no cut, before one, in it and behind it.
+  const auto [rows, row] = GENERATE(std::pair(2, 1), std::pair(611, 1), std::pair(611, 310), std::pair(611, 600));
+  CAPTURE(left, rows, row);
+  Eigen::MatrixXd a = random_band(rows, std::min(45, rows), 0.7);
+  a(row - 1, row - 1) = a(row - 1, row) = a(row, row - 1) = 1e3;
+  a(row, row) = 1e3 * (1 + left);
+  TwoEndedLu<float> lu;
+  fill(lu, a);
   CHECK(lu.factorize(1e-3) == (left > 1e-3));
 }
 
