@@ -189,9 +189,8 @@ void EnvelopeLu<Scalar>::substitute() {
   for (std::size_t j = first_.size(); j-- > 0;) {
     const Tile* column = upper_.data() + start_[j];
     if (j < eliminated_tiles_) x_[j] = product(inverse_upper_[j], x_[j]);
-    for (std::size_t i = first_[j]; i < std::min(j, eliminated_tiles_); ++i) {
-      x_[i] -= product(column[i - first_[j]], x_[j]);
-    }
+    const Lanes x = x_[j];
+    for (std::size_t i = std::min(j, eliminated_tiles_); i-- > first_[j];) x_[i] -= product(column[i - first_[j]], x);
   }
 }
 
