@@ -158,6 +158,7 @@ void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> si
   blocks_.clear();
   margins_.clear();
   for (std::uint32_t at = 0; at < 3 * width; at += width) margins_.push_back(at);
+  margins_.push_back(static_cast<std::uint32_t>(slots - width));
   const int nodes = grid.nodes(0);
   for (std::size_t l = 0; l + 1 < lines_.size(); ++l) {
     const auto slot_at = [&](int x) {
