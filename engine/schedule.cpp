@@ -38,9 +38,23 @@ void make_stale(WrittenComponents& components, std::string_view table, std::stri
   }
 }
 
+bool is_written(std::span<const System> systems, std::string_view component) {
+  return std::any_of(systems.begin(), systems.end(), [component](const System& system) {
+    return std::any_of(system.access.begin(), system.access.end(), [component](const Access& access) {
+      return access.mode == Mode::write && access.component == component;
+    });
+  });
+}
+
+bool is_absent(std::span<const System> systems, const Access& access) {
+  return access.optional && access.info->lifetime == Lifetime::scratch && !is_written(systems, access.component);
+}
+
 std::string unwritten_line(const System& system, const Access& access, const std::optional<Written>& written) {
   std::string line = "system \"" + system.name + "\" " + (access.mode == Mode::read ? "reads " : "updates ") +
-                     std::string(access.component) + ", which no earlier system of the step writes";
+                     std::string(access.component) +
+                     (access.optional && !written ? ", which only a later system of the step writes"
+                                                  : ", which no earlier system of the step writes");
   if (written) {
     line += " after \"" + std::string(*written->resized_by) + "\" resizes " + std::string(access.table);
   }
@@ -80,7 +94,7 @@ std::vector<std::string> unwritten_reads(std::span<const System> systems) {
       if (access.mode == Mode::resize) make_stale(written, access.table, system.name);
     }
     for (const Access& access : system.access) {
-      if (!reads(access.mode) || access.info->lifetime != Lifetime::scratch) continue;
+      if (!reads(access.mode) || access.info->lifetime != Lifetime::scratch || is_absent(systems, access)) continue;
       const auto found = written.find(access.component);
       if (found == written.end()) {
         lines.push_back(unwritten_line(system, access, std::nullopt));
@@ -94,6 +108,19 @@ std::vector<std::string> unwritten_reads(std::span<const System> systems) {
     }
   }
   return lines;
+}
+
+std::vector<System> without_absent(std::vector<System> systems) {
+  std::vector<Absent> absent(systems.size());
+  for (std::size_t place = 0; place < systems.size(); ++place) {
+    for (const Access& access : systems[place].access) {
+      if (is_absent(systems, access)) absent[place].push_back(access.component);
+    }
+  }
+  for (std::size_t place = 0; place < systems.size(); ++place) {
+    if (!absent[place].empty()) systems[place] = systems[place].without(absent[place]);
+  }
+  return systems;
 }
 
 std::vector<std::string> repeated_accesses(std::span<const System> systems) {
@@ -132,6 +159,8 @@ struct Schedule::Impl {
   void build_graph();
   void run_graph();
   void run_system(std::size_t place);
+  void run_timed(const System& system, std::size_t row);
+  void run_loop(std::size_t place);
   void run_in_graph(std::size_t place);
   void note_failure(std::size_t place);
 
@@ -141,7 +170,7 @@ struct Schedule::Impl {
  private:
   World* world_;
   Profiler* profiler_;
-  std::vector<std::size_t> rows_;     // of the profiler, by place
+  std::vector<std::size_t> rows_;     // of the profiler, by place; those of a loop's body come after its own
   std::unique_ptr<Graph> graph_;      // null for Execution::list
   std::atomic<std::size_t> end_ = 0;  // systems from this place on do not begin: a failed one's, or the list's end
   std::mutex failure_mutex_;
@@ -149,7 +178,7 @@ struct Schedule::Impl {
 };
 
 Schedule::Impl::Impl(std::vector<System> list, World& world_of_run, Profiler* profiler_of_run, Execution execution)
-    : systems(std::move(list)), world_(&world_of_run), profiler_(profiler_of_run) {
+    : systems(without_absent(std::move(list))), world_(&world_of_run), profiler_(profiler_of_run) {
   std::string problems;
   for (const auto& lines : {repeated_accesses(systems), unwritten_reads(systems)}) {
     for (const std::string& line : lines) problems += (problems.empty() ? "" : "\n") + line;
@@ -157,7 +186,10 @@ Schedule::Impl::Impl(std::vector<System> list, World& world_of_run, Profiler* pr
   if (!problems.empty()) throw ScheduleError(problems);
   for (const System& system : systems) system.prepare(*world_);
   if (profiler_) {
-    for (const System& system : systems) rows_.push_back(profiler_->add_row(system.name));
+    for (const System& system : systems) {
+      rows_.push_back(profiler_->add_row(system.name));
+      for (const System& inner : system.body) profiler_->add_row(system.name + " / " + inner.name);
+    }
   }
   if (execution == Execution::graph) build_graph();
 }
@@ -196,10 +228,26 @@ void Schedule::Impl::run_graph() {
 void Schedule::Impl::run_system(std::size_t place) {
   // Isolated, so that a thread waiting here does not run another system inside this one's time.
   tbb::this_task_arena::isolate([this, place] {
-    std::optional<ScopedTimer> timer;
-    if (profiler_) timer.emplace(*profiler_, rows_[place]);
-    systems[place].run(*world_);
+    if (systems[place].again) {
+      run_loop(place);
+    } else {
+      run_timed(systems[place], profiler_ ? rows_[place] : 0);
+    }
   });
+}
+
+void Schedule::Impl::run_timed(const System& system, std::size_t row) {
+  std::optional<ScopedTimer> timer;
+  if (profiler_) timer.emplace(*profiler_, row);
+  system.run(*world_);
+}
+
+/// Only the rows of the body take its time, so that shares add up.
+void Schedule::Impl::run_loop(std::size_t place) {
+  const System& loop = systems[place];
+  for (int pass = 0; loop.again(*world_, pass); ++pass) {
+    for (std::size_t k = 0; k < loop.body.size(); ++k) run_timed(loop.body[k], profiler_ ? rows_[place] + 1 + k : 0);
+  }
 }
 
 void Schedule::Impl::run_in_graph(std::size_t place) {

@@ -31,7 +31,11 @@ std::vector<Edge> derive_edges(std::span<const System> systems);
 /// One line for every read of scratch that no earlier system of the list has written since its table was resized:
 /// `system "smooth" reads row.slope, which no earlier system of the step writes`. Empty if all is well.
 /// A system that resizes a table resizes it before it touches the columns. An update reads, and makes nothing fresh.
+/// An optional read of what no system of the list writes is no problem, of what only a later one writes it is.
 std::vector<std::string> unwritten_reads(std::span<const System> systems);
+
+/// The list without the optional reads of scratch that no system of it writes.
+std::vector<System> without_absent(std::vector<System> systems);
 
 /// One line for every component (or table to resize) that a system declares more than once:
 /// `system "smooth" names row.height twice`. Empty if all is well.
@@ -82,7 +86,8 @@ std::string to_dot(std::span<const System> systems, std::string_view title);
 
 /// The same as JSON text: {"title", "systems": [{"name", "access": [{"mode", "component", "table", "unit",
 /// "lifetime"}]}], "edges": [{"from", "to", "components"}]}. "from" and "to" are places in "systems"; a table's name
-/// among the "components" means its rows; what an access does not have (the table of a resource) is null.
+/// among the "components" means its rows; the mode is "read", "optional read", "write", "update" or "resize"; what an
+/// access does not have (the table of a resource) is null.
 std::string to_json(std::span<const System> systems, std::string_view title);
 
 }  // namespace minamo

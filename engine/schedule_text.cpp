@@ -38,6 +38,8 @@ std::string_view name_of(Mode mode) {
   return {};
 }
 
+std::string_view mode_of(const Access& access) { return access.optional ? "optional read" : name_of(access.mode); }
+
 std::string_view colour_of(Lifetime lifetime) {
   switch (lifetime) {
   case Lifetime::constant:
@@ -116,7 +118,7 @@ std::string box(std::string_view heading, const std::vector<std::string>& lines)
 std::string box_of(const System& system) {
   std::vector<std::string> lines;
   for (const Access& access : system.access) {
-    lines.push_back(std::string(name_of(access.mode)) + " " +
+    lines.push_back(std::string(mode_of(access)) + " " +
                     (access.info ? coloured(access.info->lifetime, access.component) : html(access.table)));
   }
   return box(system.name, lines);
@@ -130,11 +132,8 @@ std::string legend() {
 }
 
 Json json_of(const Access& access) {
-  Json json = {{"mode", name_of(access.mode)},
-               {"component", nullptr},
-               {"table", nullptr},
-               {"unit", nullptr},
-               {"lifetime", nullptr}};
+  Json json = {
+      {"mode", mode_of(access)}, {"component", nullptr}, {"table", nullptr}, {"unit", nullptr}, {"lifetime", nullptr}};
   if (!access.table.empty()) json["table"] = access.table;
   if (access.info) {
     json["component"] = access.component;

@@ -1,11 +1,15 @@
 #pragma once
 /// \file
-/// A system is a struct whose `operator()` parameters are its declaration: `Read<C>`, `Write<C>`, `Update<C>`,
-/// `Resize<Table>`. make_system() turns it into what the schedule runs. It cannot touch what it did not declare.
+/// A system is a struct whose `operator()` parameters are its declaration: `Read<C>`, `Optional<Read<C>>`, `Write<C>`,
+/// `Update<C>`, `Resize<Table>`. make_system() turns it into what the schedule runs. It cannot touch what it did not
+/// declare.
 
 #include "engine/world.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace minamo {
@@ -23,7 +27,11 @@ struct Access {
   std::string_view component;  ///< empty for Mode::resize
   std::string_view table;      ///< empty for a resource
   const ComponentInfo* info;   ///< null for Mode::resize
+  bool optional = false;       ///< a read of what need not be there
 };
+
+/// Names of optional components that no system of a list writes.
+using Absent = std::vector<std::string_view>;
 
 namespace detail {
 
@@ -95,6 +103,35 @@ struct Update : detail::View<C, Mode::update>::type {
   explicit Update(World& world) : detail::View<C, Mode::update>::type(world) {}
 };
 
+/// Reads a component that exists only if the scene has it: a scratch component is there if an earlier system of the
+/// list writes it, any other if the world has it. It is not created for the sake of a reader.
+template <class Reader>
+class Optional;
+
+template <Described C>
+class Optional<Read<C>> {
+ public:
+  Optional(World& world, const Absent& absent) {
+    const bool is_absent = std::find(absent.begin(), absent.end(), C::info.name) != absent.end();
+    if (!is_absent && world.has<C>()) view_.emplace(world);
+  }
+  static constexpr Access access() {
+    Access access = Read<C>::access();
+    access.optional = true;
+    return access;
+  }
+  explicit operator bool() const { return view_.has_value(); }
+  /// \pre it is there.
+  decltype(auto) operator*() const requires(!ColumnComponent<C>) { return **view_; }
+  auto operator->() const requires(!ColumnComponent<C>) { return view_->operator->(); }
+  decltype(auto) operator[](std::size_t row) const requires ColumnComponent<C> { return (*view_)[row]; }
+  /// Empty where the component is not there.
+  auto span() const requires ColumnComponent<C> { return view_ ? view_->span() : decltype(view_->span()){}; }
+
+ private:
+  std::optional<Read<C>> view_;
+};
+
 /// The right to change the rows of a table.
 /// Views of its columns follow; spans taken from them before do not.
 template <class Table>
@@ -119,22 +156,50 @@ struct System {
   std::vector<Access> access;
   std::function<void(World&)> prepare;  ///< creates the components; called once, before anything runs
   std::function<void(World&)> run;
+  std::function<System(const Absent&)> without = {};  ///< the same where optional components are absent
+  std::vector<System> body = {};                      ///< of a loop (loop.hpp)
+  std::function<bool(World&, int pass)> again = {};  ///< of a loop: whether its body is to run for this pass, 0, 1, ...
 };
 
 namespace detail {
-template <class Kernel, class... Args>
-System make_system(std::string name, Kernel kernel, void (Kernel::*)(Args...) const) {
-  return {std::move(name),
-          {Args::access()...},
-          [](World& world) { ((void)Args(world), ...); },
-          [kernel = std::move(kernel)](World& world) { kernel(Args(world)...); }};
+
+template <class Arg>
+Arg view(World& world, const Absent& absent) {
+  if constexpr (std::is_constructible_v<Arg, World&, const Absent&>) {
+    return Arg(world, absent);
+  } else {
+    return Arg(world);
+  }
 }
+
+template <class Arg>
+void create(World& world) {
+  if constexpr (!std::is_constructible_v<Arg, World&, const Absent&>) (void)Arg(world);
+}
+
+template <class Kernel, class... Args>
+System make_system(const std::string& name, const Kernel& kernel, void (Kernel::*)(Args...) const) {
+  const auto run_without = [kernel](const Absent& absent) {
+    return [kernel, absent](World& world) { kernel(view<Args>(world, absent)...); };
+  };
+  System system{name, {Args::access()...}, [](World& world) { (create<Args>(world), ...); }, run_without({})};
+  system.without = [run_without, rest = system](const Absent& absent) {
+    System less = rest;
+    less.run = run_without(absent);
+    std::erase_if(less.access, [&](const Access& access) {
+      return access.optional && std::find(absent.begin(), absent.end(), access.component) != absent.end();
+    });
+    return less;
+  };
+  return system;
+}
+
 }  // namespace detail
 
-/// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Write, Update or Resize.
+/// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Optional, Write, Update or Resize.
 template <class Kernel>
 System make_system(std::string name, Kernel kernel = {}) {
-  return detail::make_system(std::move(name), std::move(kernel), &Kernel::operator());
+  return detail::make_system(name, kernel, &Kernel::operator());
 }
 
 }  // namespace minamo

@@ -31,7 +31,8 @@ int show_graph(const std::string& scene, const std::string& format, const System
   const SceneFile file = load_scene(scene, {}, registry);
   const Pipeline pipeline = make_pipeline(file.scene, registry);
   const std::string title = file.scene.title.empty() ? scene : file.scene.title;
-  std::cout << (format == "dot" ? to_dot(pipeline.step, title) : to_json(pipeline.step, title)) << '\n';
+  const std::vector<System> step = without_absent(pipeline.step);
+  std::cout << (format == "dot" ? to_dot(step, title) : to_json(step, title)) << '\n';
   return exit_done;
 }
 
@@ -46,6 +47,7 @@ std::string accesses(const System& system, bool writes) {
     if (writes ? !is_write : !is_read) continue;
     if (!names.empty()) names += ", ";
     names += access.mode == Mode::resize ? fmt::format("rows of {}", access.table) : std::string(access.component);
+    if (access.optional) names += " (if there is one)";
   }
   return names;
 }
