@@ -6,6 +6,7 @@
 #include "engine/component.hpp"
 #include "engine/expression.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace minamo {
@@ -19,6 +20,16 @@ struct Fluid {
 /// Body force per unit mass b, one expression in x, y, z, t per direction. [m/s^2]
 struct BodyForce {
   std::vector<Expression> of_place_and_time;
+
+  bool is_zero() const {
+    return std::all_of(of_place_and_time.begin(), of_place_and_time.end(),
+                       [](const Expression& b) { return b.is_constant() && b({}) == 0; });
+  }
+  /// Whether it is the same everywhere in space.
+  bool is_uniform() const {
+    return std::none_of(of_place_and_time.begin(), of_place_and_time.end(),
+                        [](const Expression& b) { return b.uses("x") || b.uses("y") || b.uses("z"); });
+  }
   static constexpr ComponentInfo info{"body_force", "b", "m/s^2", Lifetime::constant};
 };
 

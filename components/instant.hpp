@@ -47,7 +47,13 @@ struct AtBalances : Instant {
 /// `ode` block the clock and the rates tell; otherwise the ode components do.
 inline Instant instant_of(const Clock& clock) { return {.time = clock.end_of_step, .ode = {}, .ode_count = 0}; }
 inline Instant instant_of(const Rates& rates) { return {.time = rates.time, .ode = {}, .ode_count = 0}; }
-inline const Instant& instant_of(const Instant& instant) { return instant; }
+
+/// That of an optional ode component where there is one, of the clock or the rates where there is none.
+template <class Ode, class Otherwise>
+Instant instant_of(const Ode& ode, const Otherwise& otherwise) {
+  if (ode) return *ode;
+  return instant_of(*otherwise);
+}
 
 /// The values of x, y, z, t and the ode variables, in the order of scene_scope(), at places of one instant.
 class Arguments {

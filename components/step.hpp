@@ -23,18 +23,6 @@ struct NewmarkParameters {
   static constexpr ComponentInfo info{"newmark", "beta, gamma", "1", Lifetime::constant};
 };
 
-/// Share alpha of FLIP in the blend of FLIP and PIC. [1]
-struct FlipBlend {
-  double alpha = 1;
-  static constexpr ComponentInfo info{"flip_blend", "alpha", "1", Lifetime::constant};
-};
-
-/// Order of XPIC(m) and FMPM(k). [1]
-struct FilterOrder {
-  int m = 2;
-  static constexpr ComponentInfo info{"filter.order", "m", "1", Lifetime::constant};
-};
-
 /// Share of the volume excess that is corrected in a step. [1]
 struct VolumeRate {
   double rate = 0.15;

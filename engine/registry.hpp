@@ -38,17 +38,22 @@ class SystemRegistry {
   /// \throws std::logic_error if another one of this type has the name.
   template <class Choice>
   void add(Choice choice) {
-    std::any& all = choices_.try_emplace(typeid(Choice), Named<Choice>()).first->second;
-    const auto [position, is_new] = std::any_cast<Named<Choice>&>(all).try_emplace(choice.name, std::move(choice));
+    std::any& all = choices_.try_emplace(typeid(Choice), Registered<Choice>()).first->second;
+    auto& [named, in_order] = std::any_cast<Registered<Choice>&>(all);
+    const auto [position, is_new] = named.try_emplace(choice.name, choice);
     if (!is_new) throw std::logic_error("\"" + position->first + "\" is registered twice");
+    in_order.push_back(std::move(choice));
   }
   template <class Choice>
   using Named = std::map<std::string, Choice, std::less<>>;
   template <class Choice>
   const Named<Choice>& choices() const {
-    static const Named<Choice> none;
-    const auto found = choices_.find(typeid(Choice));
-    return found == choices_.end() ? none : std::any_cast<const Named<Choice>&>(found->second);
+    return registered<Choice>().named;
+  }
+  /// As they were added.
+  template <class Choice>
+  const std::vector<Choice>& in_order() const {
+    return registered<Choice>().in_order;
   }
 
   bool contains(std::string_view name) const { return entries_.contains(name); }
@@ -61,6 +66,18 @@ class SystemRegistry {
   const std::map<std::string, Entry, std::less<>>& entries() const { return entries_; }
 
  private:
+  template <class Choice>
+  struct Registered {
+    Named<Choice> named;
+    std::vector<Choice> in_order;
+  };
+  template <class Choice>
+  const Registered<Choice>& registered() const {
+    static const Registered<Choice> none;
+    const auto found = choices_.find(typeid(Choice));
+    return found == choices_.end() ? none : std::any_cast<const Registered<Choice>&>(found->second);
+  }
+
   template <class Kernel>
   static System instance(const std::string& name, Input* options) {
     if constexpr (std::is_constructible_v<Kernel, Input&>) {
@@ -72,7 +89,7 @@ class SystemRegistry {
   void insert(Entry entry);
 
   std::map<std::string, Entry, std::less<>> entries_;
-  std::map<std::type_index, std::any> choices_;  ///< Named<Choice> per type
+  std::map<std::type_index, std::any> choices_;  ///< Registered<Choice> per type
 };
 
 }  // namespace minamo

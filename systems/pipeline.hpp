@@ -1,13 +1,10 @@
 #pragma once
 /// \file
-/// The systems that a scene needs, in the order that is the meaning of a step.
+/// From what the parts of a scene have added to the lists that are the meaning of a run.
 
 #include "systems/setup/scene.hpp"
 
 namespace minamo {
-
-/// Slots of a step, in order. A scene's extra systems name one of them.
-const std::vector<std::string>& slot_names();
 
 struct Pipeline {
   std::vector<System> start;   ///< once, before the first step
@@ -15,7 +12,7 @@ struct Pipeline {
   std::vector<System> output;  ///< at every output time
 };
 
-/// \pre the scene was read without problems with the same registry.
-Pipeline make_pipeline(const Scene& scene, const SystemRegistry& registry);
+/// \pre the scene was read without problems.
+Pipeline make_pipeline(const Scene& scene);
 
 }  // namespace minamo

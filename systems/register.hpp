@@ -6,6 +6,6 @@
 
 namespace minamo {
 
-void register_systems(SystemRegistry& registry);
+void register_parts(SystemRegistry& registry);
 
 }  // namespace minamo

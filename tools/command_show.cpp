@@ -14,7 +14,7 @@ int check_scenes(const std::vector<std::string>& scenes, const SystemRegistry& r
   for (const std::string& path : scenes) {
     try {
       const SceneFile file = load_scene(path, {}, registry);
-      const std::size_t particles = rehearse(file.scene, path, registry);
+      const std::size_t particles = rehearse(file.scene, path);
       std::cout << path << ": valid, " << particles << " particles\n";
     } catch (const InputError& error) {
       std::cerr << error.what() << '\n';
@@ -29,7 +29,7 @@ int check_scenes(const std::vector<std::string>& scenes, const SystemRegistry& r
 
 int show_graph(const std::string& scene, const std::string& format, const SystemRegistry& registry) {
   const SceneFile file = load_scene(scene, {}, registry);
-  const Pipeline pipeline = make_pipeline(file.scene, registry);
+  const Pipeline pipeline = make_pipeline(file.scene);
   const std::string title = file.scene.title.empty() ? scene : file.scene.title;
   const std::vector<System> step = without_absent(pipeline.step);
   std::cout << (format == "dot" ? to_dot(step, title) : to_json(step, title)) << '\n';

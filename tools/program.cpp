@@ -150,7 +150,7 @@ int run(int argc, const char* const* argv, const std::function<void(SystemRegist
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     SystemRegistry registry;
-    register_systems(registry);
+    register_parts(registry);
     if (add) add(registry);
     const int code = dispatch(argc, argv, registry);
     if (!std::cout.flush()) throw std::runtime_error("stdout: cannot be written");

@@ -4,6 +4,7 @@
 #include "engine/schedule.hpp"
 #include "systems/setup/memory.hpp"
 #include "systems/setup/scene_systems.hpp"
+#include "systems/setup/schemes.hpp"
 #include "systems/setup/seed.hpp"
 #include "tools/available_memory.hpp"
 #include "tools/machine.hpp"
@@ -36,7 +37,8 @@ void require_memory(const Scene& scene, const std::string& file) {
   const AvailableMemory available = available_memory();
   if (has_blas && needed <= available.bytes) return;
   std::string what = "does not fit into memory; larger cells or fewer particles per cell need less";
-  if (scene.solver == "umfpack") what += ", as does the solver \"block\"";
+  const std::string& leaner = scene.facts.get<LinearSolver>().leaner;
+  if (!leaner.empty()) what += fmt::format(", as does the solver \"{}\"", leaner);
   throw InputError({{file,
                      {},
                      what,
@@ -111,7 +113,7 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
   SceneFile file{read_scene(document.root(), registry), {}};
   document.finish();
   problems.insert(problems.end(), document.problems().begin(), document.problems().end());
-  if (problems.empty()) problems = misplaced_systems(file.scene, registry, path);
+  if (problems.empty()) problems = misplaced_systems(file.scene, path);
   if (!problems.empty()) throw InputError(std::move(problems));
   file.as_run = document.echo();
   return file;
@@ -119,17 +121,13 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
 
 void seed(const Scene& scene, const std::string& file, World& world) {
   require_memory(scene, file);
-  if (scene.dimension == 2) {
-    seed_world<2>(scene, file, world);
-  } else {
-    seed_world<3>(scene, file, world);
-  }
+  seed_world(scene, file, world);
 }
 
-std::size_t rehearse(const Scene& scene, const std::string& file, const SystemRegistry& registry) {
+std::size_t rehearse(const Scene& scene, const std::string& file) {
   World world;
   seed(scene, file, world);
-  const Schedule step(make_pipeline(scene, registry).step, world);
+  const Schedule step(make_pipeline(scene).step, world);
   return world.rows<Particles>();
 }
 

@@ -30,11 +30,11 @@ SceneFile load_scene(const std::string& path, const std::vector<std::string>& ov
 SceneFile understand_scene(const Json& json, const std::string& path, const SystemRegistry& registry,
                            std::vector<Problem> problems = {});
 
-/// seed_world() for the dimension of the scene, if a run of it fits into memory. \throws InputError
+/// seed_world(), if a run of it fits into memory. \throws InputError
 void seed(const Scene& scene, const std::string& file, World& world);
 
 /// Makes ready what a run would start with, and lets it go. \return the number of particles.
 /// \throws InputError, ScheduleError
-std::size_t rehearse(const Scene& scene, const std::string& file, const SystemRegistry& registry);
+std::size_t rehearse(const Scene& scene, const std::string& file);
 
 }  // namespace minamo

@@ -125,7 +125,7 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const Syst
   const Scene& scene = file.scene;
   World world;
   seed(scene, plan.scene, world);
-  Pipeline pipeline = make_pipeline(scene, registry);
+  Pipeline pipeline = make_pipeline(scene);
   Schedule start(std::move(pipeline.start), world);
   Schedule step(std::move(pipeline.step), world, &profiler);
   Schedule frame(std::move(pipeline.output), world, &profiler);

@@ -1,6 +1,8 @@
 #include "tools/study_error.hpp"
 
 #include "components/particle.hpp"
+#include "systems/measure/exact_part.hpp"
+#include "systems/measure/probes_part.hpp"
 #include "systems/output/history.hpp"
 #include "tools/history_reader.hpp"
 
@@ -32,12 +34,13 @@ ErrorOfHistory read_history(Input& in) {
 /// The columns that the history of a scene has; those of its extra systems are known when it runs.
 std::vector<std::string> columns_of(const Scene& scene) {
   measure::Columns further;
-  for (const ProbeScene& probe : scene.probes) {
+  for (const ProbeScene& probe : scene.facts.get<ProbeScenes>()) {
     further.set(probe.name + "_pressure", 0);
     for (int d = 0; d < scene.dimension; ++d) further.set(fmt::format("{}_velocity_{}", probe.name, "xyz"[d]), 0);
   }
-  if (!scene.exact.velocity.empty()) further.set("error_velocity", 0);
-  if (scene.exact.pressure) further.set("error_pressure", 0);
+  const auto& exact = scene.facts.get<ExactScene>();
+  if (!exact.velocity.empty()) further.set("error_velocity", 0);
+  if (exact.pressure) further.set("error_pressure", 0);
   std::istringstream header(scene.dimension == 2 ? history_header<2>(further) : history_header<3>(further));
   std::vector<std::string> columns;
   for (std::string name; std::getline(header, name, ',');) columns.push_back(name);
@@ -66,7 +69,8 @@ std::vector<Problem> missing_columns(const ErrorOfHistory& error, const Scene& s
 }
 
 std::vector<Problem> missing_exact(const std::string& field, const Scene& scene, const std::string& file) {
-  const bool has = field == "velocity" ? !scene.exact.velocity.empty() : scene.exact.pressure.has_value();
+  const auto& exact = scene.facts.get<ExactScene>();
+  const bool has = field == "velocity" ? !exact.velocity.empty() : exact.pressure.has_value();
   if (has || field == "overlap") return {};
   return {{file, "/error", "the scene has no exact " + field, "a scene with /exact/" + field, shown(Json(field)), {}}};
 }

@@ -227,7 +227,7 @@ std::vector<Variant> make_variants(const Study& study, const SystemRegistry& reg
   for (const Variant& variant : variants) {
     const std::string file = file_of(study, variant.name);
     try {
-      rehearse(variant.scene.scene, file, registry);
+      rehearse(variant.scene.scene, file);
     } catch (const InputError& error) {
       problems.add(error, file);
     }

@@ -18,25 +18,27 @@ namespace {
 
 }  // namespace
 
-template <int Dim, class When>
-void UniformBodyForceAt<Dim, When>::operator()(Read<BodyForce> b, Read<When> when, Read<node::Mass> m_i,
-                                               Write<node::BodyForce<Dim>> b_i) const {
-  Arguments arguments(instant_of(*when));
+template <int Dim>
+void UniformBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+                                       Read<node::Mass> m_i, Write<node::BodyForce<Dim>> b_i) const {
+  const Instant now = instant_of(ode, rates);
+  Arguments arguments(now);
   const Vec<Dim> everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
-  if (!everywhere.allFinite()) refuse(instant_of(*when), "");
+  if (!everywhere.allFinite()) refuse(now, "");
   for_each_row(b_i.size(), [&](std::size_t i) { b_i[i] = m_i[i] > 0 ? everywhere : Vec<Dim>(Vec<Dim>::Zero()); });
 }
 
-template <int Dim, class When>
-void SampleBodyForceAt<Dim, When>::operator()(Read<BodyForce> b, Read<When> when,
-                                              Read<particle::Configuration<Dim>> y_p,
-                                              Write<particle::BodyForce<Dim>> b_p) const {
-  Arguments arguments(instant_of(*when));
+template <int Dim>
+void SampleBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+                                      Read<particle::Configuration<Dim>> y_p,
+                                      Write<particle::BodyForce<Dim>> b_p) const {
+  const Instant now = instant_of(ode, rates);
+  Arguments arguments(now);
   // One after the other: an expression keeps its variables inside.
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     b_p[p] = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(y_p[p]));
     if (b_p[p].allFinite()) continue;
-    refuse(instant_of(*when), fmt::format(" at ({:.6g}) m", fmt::join(y_p[p].begin(), y_p[p].end(), ", ")));
+    refuse(now, fmt::format(" at ({:.6g}) m", fmt::join(y_p[p].begin(), y_p[p].end(), ", ")));
   }
 }
 
@@ -60,14 +62,10 @@ void FreeFlight<Dim>::operator()(Read<node::Row> row, Read<node::Fixed> fixed, R
   });
 }
 
-template struct UniformBodyForceAt<2, Rates>;
-template struct UniformBodyForceAt<3, Rates>;
-template struct UniformBodyForceAt<2, ode::AtBalances>;
-template struct UniformBodyForceAt<3, ode::AtBalances>;
-template struct SampleBodyForceAt<2, Rates>;
-template struct SampleBodyForceAt<3, Rates>;
-template struct SampleBodyForceAt<2, ode::AtBalances>;
-template struct SampleBodyForceAt<3, ode::AtBalances>;
+template struct UniformBodyForce<2>;
+template struct UniformBodyForce<3>;
+template struct SampleBodyForce<2>;
+template struct SampleBodyForce<3>;
 template struct P2GBodyForce<2>;
 template struct P2GBodyForce<3>;
 template struct FreeFlight<2>;

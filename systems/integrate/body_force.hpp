@@ -13,28 +13,21 @@
 
 namespace minamo {
 
-/// (E14)  b_I = b(t), the same everywhere. `When` tells the instant of the balances (instant.hpp).
-template <int Dim, class When>
-struct UniformBodyForceAt {
+/// (E14)  b_I = b(t), the same everywhere.
+template <int Dim>
+struct UniformBodyForce {
   static constexpr std::string_view doc = "(E14) b_I, uniform";
-  void operator()(Read<BodyForce> b, Read<When> when, Read<node::Mass> m_i, Write<node::BodyForce<Dim>> b_i) const;
+  void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode, Read<node::Mass> m_i,
+                  Write<node::BodyForce<Dim>> b_i) const;
 };
-template <int Dim>
-using UniformBodyForce = UniformBodyForceAt<Dim, Rates>;
-template <int Dim>
-using UniformBodyForceOde = UniformBodyForceAt<Dim, ode::AtBalances>;
 
 /// b_p = b(y_p, t).
-template <int Dim, class When>
-struct SampleBodyForceAt {
+template <int Dim>
+struct SampleBodyForce {
   static constexpr std::string_view doc = "b_p at the particles";
-  void operator()(Read<BodyForce> b, Read<When> when, Read<particle::Configuration<Dim>> y_p,
-                  Write<particle::BodyForce<Dim>> b_p) const;
+  void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+                  Read<particle::Configuration<Dim>> y_p, Write<particle::BodyForce<Dim>> b_p) const;
 };
-template <int Dim>
-using SampleBodyForce = SampleBodyForceAt<Dim, Rates>;
-template <int Dim>
-using SampleBodyForceOde = SampleBodyForceAt<Dim, ode::AtBalances>;
 
 /// (E14)  b_I = sum_p S_Ip m_p b_p / m_I.
 template <int Dim>

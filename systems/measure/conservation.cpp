@@ -98,28 +98,18 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
 }
 
 template <int Dim>
-void MeasureMomentum<Dim>::operator()(Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
-                                      Read<particle::Velocity<Dim>> v_p, Write<measure::Momentum<Dim>> momentum) const {
+void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p,
+                                      Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                                      Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                                      Write<measure::Momentum<Dim>> momentum) const {
   const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span());
+  const auto gradient = grad_v_p.span();
   *momentum = reduce_rows(
       m_p.size(), measure::Momentum<Dim>{},
       [&](std::size_t p) {
-        return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * cross<Dim>(x_p[p] - centre, v_p[p])};
-      },
-      add<Dim>);
-}
-
-template <int Dim>
-void MeasureMomentumAffine<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p,
-                                            Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                                            Read<particle::VelocityGradient<Dim>> grad_v_p,
-                                            Write<measure::Momentum<Dim>> momentum) const {
-  const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span());
-  *momentum = reduce_rows(
-      m_p.size(), measure::Momentum<Dim>{},
-      [&](std::size_t p) {
-        const Rotation<Dim> spin = affine_spin<Dim>(support_spread<Dim>(*grid, x_p[p]), grad_v_p[p]);
-        return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * (cross<Dim>(x_p[p] - centre, v_p[p]) + spin)};
+        Rotation<Dim> spin = cross<Dim>(x_p[p] - centre, v_p[p]);
+        if (!gradient.empty()) spin += affine_spin<Dim>(support_spread<Dim>(*grid, x_p[p]), gradient[p]);
+        return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * spin};
       },
       add<Dim>);
 }
@@ -137,8 +127,6 @@ template struct MeasureEnergy<2>;
 template struct MeasureEnergy<3>;
 template struct MeasureMomentum<2>;
 template struct MeasureMomentum<3>;
-template struct MeasureMomentumAffine<2>;
-template struct MeasureMomentumAffine<3>;
 template struct MeasureMaxSpeed<2>;
 template struct MeasureMaxSpeed<3>;
 

@@ -25,20 +25,13 @@ struct MeasureEnergy {
 };
 
 /// (E29)  P = sum m_p v_p;  L = sum m_p (x_p - x_c) x v_p.
+/// (E30)  Where particles carry velocity gradients L has more: sum m_p (D_11 dv/dx - D_22 du/dy) in the plane, its
+/// cyclic kin in space, with D_p = sum_I S_I(x_p) (x_I - x_p) (x) (x_I - x_p), which is diagonal.
 template <int Dim>
 struct MeasureMomentum {
-  static constexpr std::string_view doc = "(E29) momentum and angular momentum";
-  void operator()(Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                  Write<measure::Momentum<Dim>> momentum) const;
-};
-
-/// (E30)  L of (E29) plus sum m_p (D_11 dv/dx - D_22 du/dy) in the plane, its cyclic kin in space, with
-/// D_p = sum_I S_I(x_p) (x_I - x_p) (x) (x_I - x_p), which is diagonal.
-template <int Dim>
-struct MeasureMomentumAffine {
-  static constexpr std::string_view doc = "(E30) momentum and angular momentum with velocity gradients";
+  static constexpr std::string_view doc = "(E29) (E30) momentum and angular momentum";
   void operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> grad_v_p,
+                  Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                   Write<measure::Momentum<Dim>> momentum) const;
 };
 

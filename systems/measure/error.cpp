@@ -67,29 +67,31 @@ void require_finite(double sum_of_squares, const char* name, const Instant& inst
 
 // The density is the same everywhere, so that masses weigh like volumes.
 
-template <int Dim, class When>
-void MeasureErrorVelocityAt<Dim, When>::operator()(Read<exact::Velocity> exact, Read<When> when,
-                                                   Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+template <int Dim>
+void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clock> clock,
+                                           Optional<Read<ode::Values>> ode, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
                                                    Read<particle::Velocity<Dim>> v_p,
                                                    Update<measure::Columns> columns) const {
-  if (instant_of(*when).time > exact->until) return columns->set("error_velocity", not_known);
-  const Arguments start(instant_of(*when));
+  const Instant now = instant_of(ode, clock);
+  if (now.time > exact->until) return columns->set("error_velocity", not_known);
+  const Arguments start(now);
   const auto sum = sum_of_parts<VelocitySum>(x_p.size(), [&](VelocitySum& part_sum, std::size_t part, std::size_t p) {
     Arguments arguments = start;
     const Vec<Dim> v = vector_at<Dim>(exact->of_part[part], arguments.at<Dim>(x_p[p]));
     part_sum.join({m_p[p], m_p[p] * (v_p[p] - v).squaredNorm(), m_p[p] * v.squaredNorm()});
   });
-  require_finite(sum.exact, "velocity", instant_of(*when));
+  require_finite(sum.exact, "velocity", now);
   columns->set("error_velocity", relative(sum.difference, sum.exact, sum.weight));
 }
 
-template <int Dim, class When>
-void MeasureErrorPressureAt<Dim, When>::operator()(Read<exact::Pressure> exact, Read<When> when,
-                                                   Read<particle::Mass> m_p, Read<particle::Configuration<Dim>> y_p,
+template <int Dim>
+void MeasureErrorPressure<Dim>::operator()(Read<exact::Pressure> exact, Read<Rates> rates,
+                                           Optional<Read<ode::AtBalances>> ode, Read<particle::Mass> m_p, Read<particle::Configuration<Dim>> y_p,
                                                    Read<particle::Pressure> p_p,
                                                    Update<measure::Columns> columns) const {
-  if (instant_of(*when).time > exact->until) return columns->set("error_pressure", not_known);
-  const Arguments start(instant_of(*when));
+  const Instant now = instant_of(ode, rates);
+  if (now.time > exact->until) return columns->set("error_pressure", not_known);
+  const Arguments start(now);
   const auto sum = sum_of_parts<PressureSum>(y_p.size(), [&](PressureSum& part_sum, std::size_t part, std::size_t p) {
     Arguments arguments = start;
     const double pressure = exact->of_part[part](arguments.at<Dim>(y_p[p]));
@@ -97,17 +99,14 @@ void MeasureErrorPressureAt<Dim, When>::operator()(Read<exact::Pressure> exact, 
     part_sum.exact.add(m_p[p], pressure);
   });
   const auto squares = [&](const WeightedMean& q) { return exact->is_free ? q.scatter : q.squares(); };
-  require_finite(sum.exact.squares(), "pressure", instant_of(*when));
+  require_finite(sum.exact.squares(), "pressure", now);
   columns->set("error_pressure", relative(squares(sum.difference), squares(sum.exact), sum.exact.weight));
 }
 
-template struct MeasureErrorVelocityAt<2, Clock>;
-template struct MeasureErrorVelocityAt<3, Clock>;
-template struct MeasureErrorVelocityAt<2, ode::Values>;
-template struct MeasureErrorVelocityAt<3, ode::Values>;
-template struct MeasureErrorPressureAt<2, Rates>;
-template struct MeasureErrorPressureAt<3, Rates>;
-template struct MeasureErrorPressureAt<2, ode::AtBalances>;
-template struct MeasureErrorPressureAt<3, ode::AtBalances>;
+
+template struct MeasureErrorVelocity<2>;
+template struct MeasureErrorVelocity<3>;
+template struct MeasureErrorPressure<2>;
+template struct MeasureErrorPressure<3>;
 
 }  // namespace minamo

@@ -17,6 +17,18 @@ std::span<const double> numbers(std::span<const Vec<Size>> values) {
   return {reinterpret_cast<const double*>(values.data()), values.size() * Size};
 }
 
+template <int Dim>
+std::vector<double> row_by_row(std::span<const Mat<Dim>> values) {
+  std::vector<double> numbers;
+  numbers.reserve(values.size() * Dim * Dim);
+  for (const Mat<Dim>& value : values) {
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j) numbers.push_back(value(i, j));
+    }
+  }
+  return numbers;
+}
+
 std::string group(std::size_t frame) { return fmt::format("/particles/{}", frame); }
 
 /// A dataset of fields.h5 as an XDMF data item.
@@ -79,6 +91,7 @@ void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> r
 template <int Dim>
 void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
+                                 Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                  Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
   const std::string name = group(fields->frames.size());
@@ -88,25 +101,12 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
   fields->frames.back().extents = {file.write(name + "/position", numbers<Dim>(x_p.span()), Dim),
                                    file.write(name + "/velocity", numbers<Dim>(v_p.span()), Dim),
                                    file.write(name + "/pressure", p_p.span()), file.write(name + "/id", id.span())};
-  file.set_attribute(name, "time", clock->time);
-  file.close();
-}
-
-template <int Dim>
-void WriteVelocityGradient<Dim>::operator()(Read<particle::VelocityGradient<Dim>> grad_v_p,
-                                            Update<FieldsFile> fields) const {
-  if (fields->folder.empty()) return;
-  std::vector<double> rows;
-  rows.reserve(grad_v_p.size() * Dim * Dim);
-  for (const Mat<Dim>& gradient : grad_v_p) {
-    for (int i = 0; i < Dim; ++i) {
-      for (int j = 0; j < Dim; ++j) rows.push_back(gradient(i, j));
-    }
+  if (grad_v_p) {
+    FieldsFile::Frame& frame = fields->frames.back();
+    frame.extents.push_back(file.write(name + "/velocity_gradient", row_by_row<Dim>(grad_v_p.span()), Dim * Dim));
+    frame.extra_fields.emplace_back("velocity_gradient");
   }
-  Hdf5File file(fields->path(), Hdf5File::Access::extend);
-  FieldsFile::Frame& frame = fields->frames.back();
-  frame.extents.push_back(file.write(group(fields->frames.size() - 1) + "/velocity_gradient", rows, Dim * Dim));
-  frame.extra_fields.emplace_back("velocity_gradient");
+  file.set_attribute(name, "time", clock->time);
   file.close();
 }
 
@@ -132,8 +132,6 @@ template struct SamplePressure<2>;
 template struct SamplePressure<3>;
 template struct WriteFrame<2>;
 template struct WriteFrame<3>;
-template struct WriteVelocityGradient<2>;
-template struct WriteVelocityGradient<3>;
 template struct WriteXdmf<2>;
 template struct WriteXdmf<3>;
 

@@ -21,20 +21,14 @@ struct SamplePressure {
                   Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const;
 };
 
-/// Adds a frame to fields.h5. The frame is finished by write_xdmf; until then take_back_frame() undoes it.
+/// Adds a frame to fields.h5; a velocity gradient in rows of d x d numbers, row by row. The frame is finished by write_xdmf; until then take_back_frame() undoes it.
 /// \throws std::runtime_error if the file cannot be written.
 template <int Dim>
 struct WriteFrame {
   static constexpr std::string_view doc = "a frame of fields.h5";
   void operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p, Update<FieldsFile> fields) const;
-};
-
-/// Adds the velocity gradient to the last frame, rows of d x d numbers, row by row.
-template <int Dim>
-struct WriteVelocityGradient {
-  static constexpr std::string_view doc = "the velocity gradient of a frame of fields.h5";
-  void operator()(Read<particle::VelocityGradient<Dim>> grad_v_p, Update<FieldsFile> fields) const;
+                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Update<FieldsFile> fields) const;
 };
 
 /// Rewrites fields.xdmf, the index that ParaView opens.

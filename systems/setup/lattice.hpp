@@ -8,6 +8,9 @@
 
 namespace minamo {
 
+/// Where in its part of a cell a particle of a lattice lies: next to walls nearer to them, (E70), or in the middle.
+enum class LatticePlaces { nearer_to_walls, middle_of_parts };
+
 /// The cell (not dual cell) of a point inside the box, by its lowest node.
 template <int Dim>
 Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x);

@@ -12,4 +12,7 @@ namespace minamo {
 /// times), 1.3 to 3.3 times with UMFPACK. [byte]
 double memory_of(const Scene& scene, const SceneSize& size);
 
+/// Particles per cell and direction of the thinnest region. [1]
+int fewest_per_cell(const Scene& scene);
+
 }  // namespace minamo

@@ -1,7 +1,6 @@
 #include "systems/setup/scene_size.hpp"
 
 #include "systems/setup/lattice.hpp"
-#include "systems/setup/seed_measure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +70,7 @@ SceneSize size_where(const Scene& scene, const ParticleScene& region) {
   sampled.per_cell = 1;
   // At random, so that a layer that is thinner than the stride has its share.
   if (stride > 1) sampled.jitter = 1;
-  const auto inside = static_cast<double>(lattice<Dim>(sampled, grid, start_of(scene)).size());
+  const auto inside = static_cast<double>(lattice<Dim>(sampled, grid, scene.start).size());
   const double particles = std::min(places, inside * std::pow(stride, Dim));
   const double side = std::pow(particles, 1.0 / Dim) / region.per_cell;  // of a box as large
   return {places, particles, std::pow(side + 2, Dim), 0};

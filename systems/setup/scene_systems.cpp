@@ -13,8 +13,8 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-Lines complaints(const Scene& scene, const SystemRegistry& registry) {
-  return unwritten_reads(make_pipeline(scene, registry).step);
+Lines complaints(const Scene& scene) {
+  return unwritten_reads(make_pipeline(scene).step);
 }
 
 /// What the step lacks with the extra system and does not lack without it.
@@ -27,13 +27,13 @@ Lines due_to(const Lines& with, const Lines& without) {
 }
 
 /// The problem of extra system `i`.
-Problem problem(const Scene& scene, const SystemRegistry& registry, std::size_t i, const Lines& due,
+Problem problem(const Scene& scene, std::size_t i, const Lines& due,
                 const Lines& without) {
   std::vector<std::string> fitting;
   Scene moved = scene;
-  for (const std::string& slot : slot_names()) {
-    moved.systems[i].after = slot;
-    if (due_to(complaints(moved, registry), without).empty()) fitting.push_back(slot);
+  for (const Slot& slot : slots()) {
+    moved.systems[i].after = slot.name;
+    if (due_to(complaints(moved), without).empty()) fitting.emplace_back(slot.name);
   }
   const ExtraSystem& extra = scene.systems[i];
   const std::string what = due.size() == 1 ? due[0] : fmt::format("{}; {} more like this", due[0], due.size() - 1);
@@ -50,16 +50,16 @@ Problem problem(const Scene& scene, const SystemRegistry& registry, std::size_t 
 
 }  // namespace
 
-std::vector<Problem> misplaced_systems(const Scene& scene, const SystemRegistry& registry, const std::string& file) {
+std::vector<Problem> misplaced_systems(const Scene& scene, const std::string& file) {
   std::vector<Problem> problems;
-  const Lines with = complaints(scene, registry);
+  const Lines with = complaints(scene);
   for (std::size_t i = 0; i < scene.systems.size() && !with.empty(); ++i) {
     Scene others = scene;
     others.systems.erase(others.systems.begin() + static_cast<std::ptrdiff_t>(i));
-    const Lines without = complaints(others, registry);
+    const Lines without = complaints(others);
     const Lines due = due_to(with, without);
     if (due.empty()) continue;
-    problems.push_back(problem(scene, registry, i, due, without));
+    problems.push_back(problem(scene, i, due, without));
     problems.back().file = file;
   }
   return problems;

@@ -1,5 +1,6 @@
 #include "systems/setup/time_plan.hpp"
 
+#include "components/fluid.hpp"
 #include "components/instant.hpp"
 #include "components/particle.hpp"
 
@@ -22,14 +23,14 @@ double largest_speed(World& world) {
 
 /// The largest |b_p|, now.
 template <int Dim>
-double largest_force(const Scene& scene, World& world) {
+double largest_force(const BodyForce& force, World& world) {
   Instant now{.time = world.resource<Clock>().time, .ode = {}, .ode_count = 0};
-  if (!scene.ode.empty()) now = world.resource<ode::Values>();
+  if (world.has<ode::Values>()) now = world.resource<ode::Values>();
   Arguments arguments(now);
-  const bool is_uniform = has_uniform_force(scene);
+  const bool is_uniform = force.is_uniform();
   double squared = 0;
   for (const Vec<Dim>& x : world.column<particle::Position<Dim>>()) {
-    const double of_particle = vector_at<Dim>(scene.body_force, arguments.at<Dim>(x)).squaredNorm();
+    const double of_particle = vector_at<Dim>(force.of_place_and_time, arguments.at<Dim>(x)).squaredNorm();
     if (!std::isfinite(of_particle)) {
       throw std::runtime_error(
           fmt::format("time: no step can be chosen, body_force is not finite at ({:.6g}) m, t = {:.6g} s",
@@ -53,6 +54,15 @@ double step_of_cfl(const Scene& scene, double largest_speed, double largest_forc
   return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every});
 }
 
+double longest_step(const Scene& scene) {
+  if (scene.time.step) return *scene.time.step;
+  double squared = 0;
+  for (const Expression& force : scene.facts.get<BodyForce>().of_place_and_time) {
+    squared += force.is_constant() ? std::pow(force({}), 2) : 0;
+  }
+  return step_of_cfl(scene, 0, std::sqrt(squared));
+}
+
 TimePlan make_time_plan(const Scene& scene) {
   TimePlan plan{.end = scene.time.end,
                 .step = scene.time.step,
@@ -63,7 +73,8 @@ TimePlan make_time_plan(const Scene& scene) {
   if (plan.step) return plan;
   plan.choose_step = [scene](World& world) {
     const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);
-    const double b = scene.dimension == 2 ? largest_force<2>(scene, world) : largest_force<3>(scene, world);
+    const auto& force = scene.facts.get<BodyForce>();
+    const double b = scene.dimension == 2 ? largest_force<2>(force, world) : largest_force<3>(force, world);
     return step_of_cfl(scene, v, b);
   };
   return plan;

@@ -11,6 +11,9 @@ namespace minamo {
 /// (max |v_p| + |b| dt) dt = cfl h, at most `max_step` and the time between two frames. [s]
 double step_of_cfl(const Scene& scene, double largest_speed, double largest_force);
 
+/// The longest step that a run can take: where the CFL number chooses it, one from rest. [s]
+double longest_step(const Scene& scene);
+
 TimePlan make_time_plan(const Scene& scene);
 
 }  // namespace minamo

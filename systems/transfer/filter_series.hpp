@@ -3,6 +3,7 @@
 /// The series that XPIC(m) and FMPM(k) filter a nodal velocity with: k terms of that of the inverse of the full mass
 /// matrix times the lumped one.
 
+#include "engine/input.hpp"
 #include "systems/transfer/scatter.hpp"
 
 namespace minamo {
@@ -15,5 +16,11 @@ template <int Dim>
 void filter_series(const ScatterSource<Dim>& source, std::span<const std::uint8_t> fixed, int order,
                    std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
                    std::span<Vec<Dim>> filtered);
+
+/// The option `order` of the schemes that filter. [1]
+inline int filter_order(Input& input) {
+  return static_cast<int>(
+      input.integer("order", {.doc = "order; 1 is PIC", .fallback = 2, .at_least = 1, .at_most = 20}));
+}
 
 }  // namespace minamo

@@ -29,11 +29,15 @@ void G2PVelocityPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Di
 }
 
 template <int Dim>
+G2PVelocityFlip<Dim>::G2PVelocityFlip(Input& input)
+    : blend(input.number("blend",
+                         {.doc = "share of FLIP, the rest is PIC", .fallback = 0.99, .at_least = 0, .at_most = 1})) {}
+
+template <int Dim>
 void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::Configuration<Dim>> y_p, Read<FlipBlend> blend,
-                                      Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
+                                      Read<particle::Configuration<Dim>> y_p, Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
                                       Update<particle::Velocity<Dim>> v_p) const {
-  const double alpha = blend->alpha;
+  const double alpha = blend;
   // alpha (v_p + S (v_new - v_old)) + (1 - alpha) S v_new = alpha v_p + S (v_new - alpha v_old).
   const auto increment = [&](std::size_t i) -> Vec<Dim> { return v_new[i] - alpha * v_old[i]; };
   gather<Dim>(*grid, *cells, y_p.span(), increment,

@@ -8,6 +8,7 @@
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
+#include "engine/input.hpp"
 #include "engine/system.hpp"
 
 namespace minamo {
@@ -42,9 +43,13 @@ struct G2PVelocityPic {
 template <int Dim>
 struct G2PVelocityFlip {
   static constexpr std::string_view doc = "(E16) v_p, FLIP blended with PIC";
+  double blend = 0.99;  ///< alpha [1]
+
+  G2PVelocityFlip() = default;
+  explicit G2PVelocityFlip(double blend_of_flip) : blend(blend_of_flip) {}
+  explicit G2PVelocityFlip(Input& input);
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
-                  Read<FlipBlend> blend, Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
-                  Update<particle::Velocity<Dim>> v_p) const;
+                  Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new, Update<particle::Velocity<Dim>> v_p) const;
 };
 
 /// (E17) for the acceleration.

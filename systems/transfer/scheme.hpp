@@ -2,6 +2,8 @@
 /// \file
 /// A transfer scheme is a name for the systems that go into the slots `p2g` and `g2p`.
 
+#include "engine/system.hpp"
+
 #include <string>
 #include <vector>
 
@@ -19,6 +21,12 @@ struct TransferScheme {
   bool carries_gradient =
       false;  ///< in particle.velocity_gradient, and with p2g_acceleration_tpic that of acceleration
   bool reads_liquid_share = false;  ///< liquid or spray, (E61)
+};
+
+/// The systems of the chosen scheme for accelerations, for integrators that carry them.
+struct AccelerationTransfer {
+  std::vector<System> p2g;
+  std::vector<System> g2p;
 };
 
 std::vector<TransferScheme> built_in_transfer_schemes();

@@ -11,6 +11,7 @@
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/system.hpp"
+#include "systems/transfer/filter_series.hpp"
 
 namespace minamo {
 
@@ -18,8 +19,13 @@ namespace minamo {
 template <int Dim>
 struct FilterVelocityXpic {
   static constexpr std::string_view doc = "(E46) v*_I, XPIC";
+  int order = 2;  ///< [1]
+
+  FilterVelocityXpic() = default;
+  explicit FilterVelocityXpic(int order_of_filter) : order(order_of_filter) {}
+  explicit FilterVelocityXpic(Input& input) : order(filter_order(input)) {}
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<FilterOrder> order, Read<node::Mass> m_i, Read<node::Fixed> fixed,
+                  Read<particle::Mass> m_p, Read<node::Mass> m_i, Read<node::Fixed> fixed,
                   Read<node::Velocity<Dim>> v_i, Write<node::Residue<Dim>> residue, Write<node::Smoothed<Dim>> smoothed,
                   Write<node::FilteredVelocity<Dim>> v_filtered) const;
 };

@@ -55,7 +55,7 @@ Counts count_allocations(const Json& json, Execution execution = Execution::list
   World world;
   seed(scene, "scene.json", world);
   world.resource<HistoryFile>().file.open(folder / "history.csv");
-  Pipeline pipeline = make_pipeline(scene, scene_run::registry());
+  Pipeline pipeline = make_pipeline(scene);
   Counts counts;
   std::vector<System> systems;
   for (System& system : pipeline.step) {

@@ -20,7 +20,7 @@ namespace {
 const SystemRegistry& registry() {
   static const SystemRegistry systems = [] {
     SystemRegistry made;
-    register_systems(made);
+    register_parts(made);
     return made;
   }();
   return systems;
@@ -66,11 +66,11 @@ void refuse_or(const Reading& reading) {
 void rehearse_if_small(const SceneFile& file) {
   constexpr double most = 1e4;
   const SceneSize size = size_of(file.scene);
-  if (size.particles < most && size.places < 10 * most) rehearse(file.scene, "scene.json", registry());
+  if (size.particles < most && size.places < 10 * most) rehearse(file.scene, "scene.json");
 }
 
 void read_as_scene(const Json& json) {
-  const SceneFile file = understand_scene(json, "scene.json", registry());
+  const SceneFile file = understand_scene(json, "scene.json");
   try {
     if (understand_scene(file.as_run, "again.json", registry()).as_run != file.as_run) fail("reads again as another");
   } catch (const InputError& error) {

@@ -42,7 +42,7 @@ double particle_angular_momentum(World& world) {
   const auto y_p = world.column<particle::Configuration<2>>();
   const auto x_p = world.column<particle::Position<2>>();
   std::copy(y_p.begin(), y_p.end(), x_p.begin());
-  run<MeasureMomentumAffine<2>>(world);
+  run<MeasureMomentum<2>>(world);
   const auto m_p = world.column<particle::Mass>();
   double mass = 0;
   Vec<2> centre = Vec<2>::Zero();
@@ -215,12 +215,11 @@ TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velo
 TEMPLATE_TEST_CASE_SIG("XPIC of order 1 is PIC", "[property]", ((int Dim), Dim), 2, 3) {
   World world;
   fill<Dim>(world, 300, 15);
-  world.resource<FilterOrder>().m = 1;
   Random random(16);
   for (Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) v = random.vector<Dim>(-1, 1);
   run<P2GVelocityPic<Dim>>(world);
   set_new_velocity<Dim>(world, 17);
-  run<FilterVelocityXpic<Dim>>(world);
+  run(world, FilterVelocityXpic<Dim>(1));
   run<G2PVelocityXpic<Dim>>(world);
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const std::vector<Vec<Dim>> xpic(v_p.begin(), v_p.end());
@@ -242,8 +241,7 @@ TEMPLATE_TEST_CASE_SIG("FMPM of order 1 is PIC, and of high order gives back a v
     return worst;
   };
   const auto fmpm = [&](int order) {
-    world.resource<FilterOrder>().m = order;
-    run<FilterVelocityFmpm<Dim>>(world);
+    run(world, FilterVelocityFmpm<Dim>(order));
     run<G2PVelocityFmpm<Dim>>(world);
     return std::vector<Vec<Dim>>(v_p.begin(), v_p.end());
   };

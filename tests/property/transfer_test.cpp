@@ -324,8 +324,7 @@ TEMPLATE_TEST_CASE_SIG("FLIP G2P blends its formula with PIC", "[property]", ((i
   for (Vec<Dim>& v : v_new) v = random.vector<Dim>(-1, 1);
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const std::vector<Vec<Dim>> before(v_p.begin(), v_p.end());
-  world.resource<FlipBlend>().alpha = alpha;
-  run<G2PVelocityFlip<Dim>>(world);
+  run(world, G2PVelocityFlip<Dim>(alpha));
   const auto y_p = world.column<particle::Configuration<Dim>>();
   double worst = 0;
   for (std::size_t p = 0; p < y_p.size(); ++p) {

@@ -45,7 +45,7 @@ std::vector<std::string> not_finite(World& world) {
 /// Names of the components that the step of a scene names.
 std::vector<std::string> named(const Json& scene) {
   std::vector<std::string> names;
-  for (const System& system : make_pipeline(read(scene), registry()).step) {
+  for (const System& system : make_pipeline(read(scene)).step) {
     for (const Access& access : system.access) names.emplace_back(access.component);
   }
   return names;

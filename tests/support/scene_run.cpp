@@ -18,7 +18,7 @@ Json with(Json scene, const std::vector<std::string>& overrides) {
 const SystemRegistry& registry() {
   static const SystemRegistry systems = [] {
     SystemRegistry made;
-    register_systems(made);
+    register_parts(made);
     return made;
   }();
   return systems;
@@ -34,7 +34,7 @@ Scene read(const Json& json) {
 
 std::vector<std::string> step_names(const Json& scene) {
   std::vector<std::string> names;
-  for (const System& system : make_pipeline(read(scene), registry()).step) names.push_back(system.name);
+  for (const System& system : make_pipeline(read(scene)).step) names.push_back(system.name);
   return names;
 }
 
@@ -55,8 +55,8 @@ World& seeded(const Scene& scene, World& world) {
 
 SceneRun::SceneRun(const Json& json, Execution execution)
     : scene_(read(json)),
-      start_(make_pipeline(scene_, registry()).start, seeded(scene_, world_), nullptr, execution),
-      step_(make_pipeline(scene_, registry()).step, world_, nullptr, execution) {}
+      start_(make_pipeline(scene_).start, seeded(scene_, world_), nullptr, execution),
+      step_(make_pipeline(scene_).step, world_, nullptr, execution) {}
 
 void SceneRun::start() {
   if (started_) return;

@@ -66,7 +66,7 @@ TEST_CASE("a velocity gradient adds the spin of its support", "[unit]") {
   const double without = world.resource<measure::Momentum<2>>().angular[0];
   // Both particles sit on inner nodes, where D = h^2/4; a rotation rate of 2 has dv/dx - du/dy = 4.
   for (Mat<2>& grad_v : world.column<particle::VelocityGradient<2>>()) grad_v << 0, -2, 2, 0;
-  run<MeasureMomentumAffine<2>>(world);
+  run<MeasureMomentum<2>>(world);
   const double spin = world.resource<measure::Momentum<2>>().angular[0] - without;
   CHECK(spin == Approx((1 + 3) * 0.25 / 4 * 4).epsilon(1e-14));  // a few roundings
 }

@@ -15,7 +15,7 @@ namespace {
 
 Input::Document described() {
   SystemRegistry registry;
-  register_systems(registry);
+  register_parts(registry);
   Input::Document document = Input::Document::describe();
   describe_scene(document.root(), registry);
   return document;

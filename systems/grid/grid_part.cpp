@@ -1,0 +1,63 @@
+#include "components/grid.hpp"
+#include "systems/grid/activate.hpp"
+#include "systems/grid/bin.hpp"
+#include "systems/grid/number_nodes.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/scene.hpp"
+#include "systems/setup/scene_checks.hpp"
+#include "systems/solve/neighbours.hpp"
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+Grid<Dim> make_grid(const GridScene& scene) {
+  Grid<Dim> grid;
+  grid.spacing = scene.spacing;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    grid.low[axis] = scene.low[d];
+    grid.high[axis] = scene.high[d];
+    grid.cells[d] = scene.cells[d];
+    grid.periodic[d] = scene.periodic[d];
+  }
+  return grid;
+}
+
+void read_box(Input& in, std::size_t dimension, GridScene& grid) {
+  grid.low = in.numbers("low", dimension, {.unit = "m", .doc = "corner of the box"});
+  grid.high = in.numbers("high", dimension, {.unit = "m", .doc = "opposite corner of the box"});
+  for (const auto count : in.integers(
+           "cells", dimension,
+           {.doc = "cells per direction; the spacing must come out equal", .at_least = 3, .at_most = 1'000'000})) {
+    grid.cells.push_back(static_cast<int>(count));
+  }
+  if (in.sound("low") && in.sound("high") && in.sound("cells")) check_grid(in, grid);
+}
+
+Contribution read_grid(Input& input, Scene& scene) {
+  const auto dimension = static_cast<std::size_t>(scene.dimension);
+  scene.grid.periodic.assign(dimension, false);
+  input.object("grid", "the box and its cells", Input::Presence::required,
+               [&](Input& in) { read_box(in, dimension, scene.grid); });
+  return [](const Scene& scene, Recipe& recipe) {
+    recipe.add("sort", "bin");
+    recipe.add("sort", "number_nodes");
+    recipe.add("boundaries", "activate");
+    recipe.add("boundaries", "find_neighbours");
+    with_dimension(scene.dimension, [&](auto dim) { recipe.constant(make_grid<dim()>(scene.grid)); });
+  };
+}
+
+}  // namespace
+
+void add_grid(SystemRegistry& registry) {
+  registry.add<Bin>("bin");
+  registry.add<NumberNodes>("number_nodes");
+  registry.add<Activate>("activate");
+  registry.add<FindNeighbours>("find_neighbours");
+  registry.add(Part{"grid", "the box and its cells", read_grid});
+}
+
+}  // namespace minamo

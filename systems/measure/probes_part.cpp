@@ -1,0 +1,77 @@
+#include "systems/measure/probes_part.hpp"
+
+#include "components/measure.hpp"
+#include "systems/measure/probes.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/scene.hpp"
+#include "systems/setup/scene_checks.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+/// Whether a history can have columns that begin with the name.
+bool can_name_columns(const std::string& name) {
+  return !name.empty() && name != "error" && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+void check_name(Input& input, const std::string& name, const ProbeScenes& earlier) {
+  const bool is_twin =
+      std::any_of(earlier.begin(), earlier.end(), [&](const auto& other) { return other.name == name; });
+  if (is_twin) {
+    input.problem("name", "name is taken by an earlier probe", "a name for each probe", shown(Json(name)));
+  } else if (!can_name_columns(name)) {
+    input.problem("name", "cannot name columns of the history", "letters, digits and _, and not \"error\"",
+                  shown(Json(name)));
+  }
+}
+
+template <int Dim>
+measure::Probes<Dim> make_probes(const ProbeScenes& scene) {
+  measure::Probes<Dim> probes;
+  for (const ProbeScene& probe : scene) {
+    typename measure::Probes<Dim>::Probe made;
+    made.pressure = probe.name + "_pressure";
+    for (std::size_t d = 0; d < Dim; ++d) {
+      made.at[static_cast<Eigen::Index>(d)] = probe.at[d];
+      made.velocity[d] = fmt::format("{}_velocity_{}", probe.name, "xyz"[d]);
+    }
+    probes.probes.push_back(std::move(made));
+  }
+  return probes;
+}
+
+Contribution read_probes(Input& input, Scene& scene) {
+  ProbeScenes probes;
+  input.list("probes", "points whose pressure and velocity go into the history", 0, [&](Input& in, std::size_t) {
+    ProbeScene probe;
+    probe.name = in.text("name", {.doc = "its columns are NAME_pressure, NAME_velocity_x, ..."});
+    probe.at = in.numbers("at", static_cast<std::size_t>(scene.dimension), {.unit = "m", .doc = "place"});
+    if (in.sound("name") && !in.describing()) check_name(in, probe.name, probes);
+    if (in.sound("at")) check_probe(in, probe.at, scene.grid);
+    probes.push_back(std::move(probe));
+  });
+  scene.facts.set(probes);
+  if (probes.empty()) return {};
+  return [probes](const Scene& of, Recipe& recipe) {
+    recipe.add("measure", "measure_probes", When::step);
+    recipe.add("measure", "measure_probes_at_start", When::standing);
+    with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_probes<dim()>(probes)); });
+  };
+}
+
+}  // namespace
+
+void add_probes(SystemRegistry& registry) {
+  registry.add<MeasureProbes>("measure_probes");
+  registry.add<MeasureProbesAtStart>("measure_probes_at_start");
+  registry.add(Part{"probes", "points whose pressure and velocity go into the history", read_probes});
+}
+
+}  // namespace minamo

@@ -1,0 +1,47 @@
+#include "systems/measure/acceptance.hpp"
+#include "systems/output/fields.hpp"
+#include "systems/output/history.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/scene.hpp"
+
+namespace minamo {
+
+namespace {
+
+OutputScene read_times(Input& input, double end) {
+  Number every{.unit = "s", .doc = "simulated time between frames; by default end/50", .above = 0};
+  OutputScene output;
+  if (input.describing()) {
+    input.optional_number("every", every);  // its default is not one number
+  } else {
+    every.fallback = end / 50;
+    output.every = input.number("every", every);
+  }
+  output.checkpoint = input.optional_number(
+      "checkpoint",
+      {.unit = "s", .doc = "simulated time between checkpoints; by default at start and end alone", .above = 0});
+  return output;
+}
+
+Contribution read_output(Input& input, Scene& scene) {
+  input.object("output", "what is written when", Input::Presence::optional,
+               [&](Input& in) { scene.output = read_times(in, scene.time.end); });
+  return [](const Scene&, Recipe& recipe) {
+    recipe.add("record", "accept_step", When::step);
+    recipe.add("record", "write_history");
+    for (const char* system : {"sample_pressure", "write_frame", "write_xdmf"}) recipe.add_output(system);
+  };
+}
+
+}  // namespace
+
+void add_output(SystemRegistry& registry) {
+  registry.add<AcceptStep>("accept_step");
+  registry.add<WriteHistory>("write_history");
+  registry.add<SamplePressure>("sample_pressure");
+  registry.add<WriteFrame>("write_frame");
+  registry.add<WriteXdmf>("write_xdmf");
+  registry.add(Part{"output", "what is written when", read_output});
+}
+
+}  // namespace minamo

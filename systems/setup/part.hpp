@@ -1,0 +1,159 @@
+#pragma once
+/// \file
+/// A part is the unit in which minamo grows: one feature, or one choice among registered schemes. It reads its key of
+/// the scene, so that checks, schema and documentation come by themselves, and then adds what the run needs of it: its
+/// systems to the slots of the step, and what it seeds. systems/register.cpp lists the built-in parts; a program that
+/// links minamo registers its own in the same way.
+
+#include "engine/registry.hpp"
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace minamo {
+
+struct Scene;
+
+/// Where problems of seeding are noted: what can only be seen once there are particles.
+struct SeedProblems {
+  std::string file;
+  std::vector<Problem> problems;
+  void note(std::string pointer, std::string what, std::string expected, std::string got) {
+    problems.push_back({file, std::move(pointer), std::move(what), std::move(expected), std::move(got), {}});
+  }
+};
+
+/// Fills constants and state of a world before the run.
+using Seed = std::function<void(const Scene&, World&, SeedProblems&)>;
+
+/// In which lists a system runs: in every step, in the standing steps before the first one, or in both. A standing step
+/// is a backward Euler step that leaves the particles where they are; it gives the first pressure and acceleration.
+enum class When { always, step, standing };
+
+/// A slot of the step, in the order of the step.
+struct Slot {
+  std::string_view name;
+  std::string_view doc;
+};
+const std::vector<Slot>& slots();
+
+/// What a run is made of.
+class Recipe {
+ public:
+  struct Placed {
+    std::string_view slot;
+    When when;
+    System system;
+  };
+  /// A standing step: `configure`, the slots up to `solve`, and then `after`.
+  struct StandingStep {
+    System configure;
+    std::vector<System> after;
+  };
+
+  Recipe(const SystemRegistry& registry, int dimension) : registry_(&registry), dimension_(dimension) {}
+
+  /// Adds a registered system at the end of a slot, unless the slot has it already: parts may need the same one.
+  /// \throws std::logic_error for an unknown slot, std::out_of_range for an unknown system.
+  void add(std::string_view slot, const std::string& system, When when = When::always);
+  /// The same for a system with options.
+  void add(std::string_view slot, System system, When when = When::always);
+  /// A system that runs once, before all others.
+  void begin_with(const std::string& system) { first_.push_back(make(system)); }
+  void add_standing_step(const std::string& configure, std::vector<System> after);
+  /// A system that runs at every output time.
+  void add_output(const std::string& system) { output_.push_back(make(system)); }
+
+  void seed(Seed seed) { seeds_.push_back(std::move(seed)); }
+  /// Seeds a resource.
+  template <ResourceComponent C>
+  void constant(C value) {
+    seed([value = std::move(value)](const Scene&, World& world, SeedProblems&) { world.resource<C>() = value; });
+  }
+
+  System make(const std::string& system) const { return registry_->make(system, dimension_); }
+  std::vector<System> make(const std::vector<std::string>& systems) const;
+  const SystemRegistry& registry() const { return *registry_; }
+
+  const std::vector<Placed>& placed() const { return placed_; }
+  const std::vector<System>& first() const { return first_; }
+  const std::vector<StandingStep>& standing_steps() const { return standing_; }
+  const std::vector<System>& output() const { return output_; }
+  const std::vector<Seed>& seeds() const { return seeds_; }
+
+ private:
+  const SystemRegistry* registry_;
+  int dimension_;
+  std::vector<Placed> placed_;
+  std::vector<System> first_;
+  std::vector<StandingStep> standing_;
+  std::vector<System> output_;
+  std::vector<Seed> seeds_;
+};
+
+/// What a part does once all parts have read their keys, in the order of the parts.
+using Contribution = std::function<void(const Scene&, Recipe&)>;
+
+struct Part {
+  std::string name = {};  ///< its key in the scene
+  std::string doc = {};   ///< one line
+  /// Reads its key and leaves in the scene what other parts ask for (Scene::facts). \return what it adds; may be empty
+  std::function<Contribution(Input&, Scene&)> read = {};
+  std::function<std::vector<std::pair<std::string, std::string>>(const SystemRegistry&)> schemes =
+      {};  ///< name and doc of what can be chosen; empty where there is no choice
+};
+
+/// One way to do what a part does, chosen by its name. Every choice derives a type of its own from it.
+struct Scheme {
+  std::string name;
+  std::string doc;  ///< one line
+  /// Reads its options beside `scheme`. May be empty: no options, and nothing to add.
+  std::function<Contribution(Input&, Scene&)> read;
+};
+
+/// Name and doc of all registered schemes of a type.
+template <class SchemeType>
+std::vector<std::pair<std::string, std::string>> schemes_of(const SystemRegistry& registry) {
+  std::vector<std::pair<std::string, std::string>> schemes;
+  for (const auto& [name, scheme] : registry.choices<SchemeType>()) schemes.emplace_back(name, scheme.doc);
+  return schemes;
+}
+
+/// A part whose key holds `scheme`, the name of a registered scheme, and its options.
+/// \param read  of a scheme
+template <class SchemeType>
+Part choice(const std::string& key, const std::string& doc, const std::string& fallback,
+            const std::function<Contribution(const SchemeType&, Input&, Scene&)>& read);
+
+/// The same for schemes that read themselves.
+template <class SchemeType>
+Part choice(const std::string& key, const std::string& doc, const std::string& fallback) {
+  return choice<SchemeType>(key, doc, fallback, [](const SchemeType& scheme, Input& input, Scene& scene) {
+    return scheme.read ? scheme.read(input, scene) : Contribution{};
+  });
+}
+
+/// A contribution that adds the named systems to a slot.
+Contribution adds(std::string_view slot, std::vector<std::string> systems);
+
+const SystemRegistry& registry_of(const Scene& scene);
+
+template <class SchemeType>
+Part choice(const std::string& key, const std::string& doc, const std::string& fallback,
+            const std::function<Contribution(const SchemeType&, Input&, Scene&)>& read) {
+  const auto read_part = [key, doc, fallback, read](Input& input, Scene& scene) {
+    Contribution contribution;
+    Input::Variants variants;
+    for (const auto& [name, scheme] : registry_of(scene).template choices<SchemeType>()) {
+      variants.emplace_back(name, [&, &scheme = scheme](Input& in) { contribution = read(scheme, in, scene); });
+    }
+    input.object(key, doc, Input::Presence::optional,
+                 [&](Input& in) { in.variant("scheme", doc, fallback, variants); });
+    return contribution;
+  };
+  return {key, doc, read_part, schemes_of<SchemeType>};
+}
+
+}  // namespace minamo

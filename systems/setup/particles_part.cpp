@@ -1,0 +1,187 @@
+#include "components/fluid.hpp"
+#include "components/grid.hpp"
+#include "components/particle.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/lattice.hpp"
+#include "systems/setup/scene_checks.hpp"
+#include "systems/setup/seed_text.hpp"
+#include "systems/transfer/scheme.hpp"
+
+#include <cmath>
+#include <unordered_map>
+
+namespace minamo {
+
+namespace {
+
+std::variant<Box, Ball, Where> read_shape(Input& shape, const Scene& scene) {
+  const auto dimension = static_cast<std::size_t>(scene.dimension);
+  std::variant<Box, Ball, Where> read;
+  shape.one_of("a box, a ball, or an expression",
+               {{"box",
+                 [&](Input& in) {
+                   in.object("box", "box with sides along the axes", Input::Presence::required, [&](Input& box) {
+                     read = Box{box.numbers("low", dimension, {.unit = "m", .doc = "corner"}),
+                                box.numbers("high", dimension, {.unit = "m", .doc = "opposite corner"})};
+                   });
+                 }},
+                {"ball",
+                 [&](Input& in) {
+                   in.object("ball", "disc or ball", Input::Presence::required, [&](Input& ball) {
+                     read = Ball{ball.numbers("center", dimension, {.unit = "m", .doc = "center"}),
+                                 ball.number("radius", {.unit = "m", .doc = "radius", .above = 0})};
+                   });
+                 }},
+                {"where", [&](Input& in) {
+                   read = Where{in.expression("where", scene.scope,
+                                              {.doc = "particles wherever this is true"})};
+                   check_coordinates(in, "where", std::get<Where>(read).inside, scene.dimension);
+                 }}});
+  return read;
+}
+
+ParticleScene read_particles(Input& input, const Scene& scene) {
+  ParticleScene particles;
+  input.object("shape", "the region that is filled", Input::Presence::required, [&](Input& shape) {
+    particles.shape = read_shape(shape, scene);
+    check_shape(shape, particles.shape, scene.grid);
+  });
+  particles.per_cell = static_cast<int>(input.integer(
+      "per_cell", {.doc = "particles per cell and direction", .fallback = 2, .at_least = 1, .at_most = 16}));
+  if (input.sound("shape") && input.sound("per_cell")) check_particle_count(input, particles, scene.grid);
+  input.variant("arrangement", "where in a cell the particles start", "lattice",
+                {{"lattice", [](Input&) {}},
+                 {"jittered", [&](Input& in) {
+                    particles.jitter = static_cast<std::uint64_t>(
+                        in.integer("seed", {.doc = "of the random numbers", .fallback = 1, .at_least = 0}));
+                  }}});
+  particles.velocity = read_vector(input, "velocity", scene, {.unit = "m/s", .doc = "initial velocity", .fallback = 0});
+  return particles;
+}
+
+/// A vector of expressions at a place, at t = 0.
+template <int Dim>
+Vec<Dim> value_at(const std::vector<Expression>& expressions, const Vec<Dim>& x, const Instant& start) {
+  Arguments arguments(start);
+  return vector_at<Dim>(expressions, arguments.at<Dim>(x));
+}
+
+/// Central differences.
+template <int Dim>
+Mat<Dim> velocity_gradient_at(const std::vector<Expression>& velocity, const Vec<Dim>& x, const Instant& start,
+                              double spacing) {
+  const double step = 1e-3 * spacing;
+  Mat<Dim> gradient;
+  for (int d = 0; d < Dim; ++d) {
+    const Vec<Dim> aside = step * Vec<Dim>::Unit(d);
+    gradient.col(d) =
+        (value_at<Dim>(velocity, x + aside, start) - value_at<Dim>(velocity, x - aside, start)) / (2 * step);
+  }
+  return gradient;
+}
+
+/// Positions, and the region that each comes from.
+template <int Dim>
+struct Seeds {
+  std::vector<Vec<Dim>> position;
+  std::vector<std::size_t> region;
+};
+
+template <int Dim>
+Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& problems) {
+  Seeds<Dim> seeds;
+  std::unordered_map<std::size_t, double> filled;
+  for (std::size_t r = 0; r < scene.particles.size(); ++r) {
+    const ParticleScene& region = scene.particles[r];
+    const bool moves = scene.facts.get<LatticePlaces>() == LatticePlaces::nearer_to_walls && !region.jitter;
+    const auto positions = lattice<Dim>(region, grid, scene.start);
+    const std::string pointer = fmt::format("/particles/{}", r);
+    if (positions.empty()) {
+      problems.note(pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
+                          fmt::format("none at {} per cell and direction", region.per_cell));
+    }
+    const double share = std::pow(region.per_cell, -Dim);
+    const Vec<Dim>* overlap = nullptr;
+    for (const Vec<Dim>& x : positions) {
+      double& cell = filled[grid.row(cell_of<Dim>(grid, x))];
+      cell += share;
+      if (cell > 1 + 1e-9 && !overlap) overlap = &x;
+      seeds.position.push_back(moves ? nearer_to_walls<Dim>(grid, region.per_cell, x) : x);
+      seeds.region.push_back(r);
+    }
+    if (overlap) {
+      problems.note(pointer + "/shape", "overlaps an earlier one", "no cell more than full",
+                          "more than a full cell at " + place_text<Dim>(*overlap));
+    }
+  }
+  return seeds;
+}
+
+/// (E6)  m_p = rho (h/n)^d for n per cell and direction, v_p = v(x_p), grad v_p by central differences.
+template <int Dim>
+void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& seeds, World& world,
+                   SeedProblems& problems) {
+  world.resize<Particles>(seeds.position.size());
+  const bool with_gradient = scene.facts.get<TransferScheme>().carries_gradient;
+  const auto x_p = world.column<particle::Position<Dim>>();
+  const auto v_p = world.column<particle::Velocity<Dim>>();
+  const auto m_p = world.column<particle::Mass>();
+  const auto id = world.column<particle::Id>();
+  const auto grad_v_p = with_gradient ? world.column<particle::VelocityGradient<Dim>>() : std::span<Mat<Dim>>{};
+  const Instant start = scene.start;
+  const double density = scene.facts.get<Fluid>().density;
+  std::vector<bool> reported(scene.particles.size(), false);
+  for (std::size_t p = 0; p < x_p.size(); ++p) {
+    const std::size_t r = seeds.region[p];
+    const ParticleScene& region = scene.particles[r];
+    x_p[p] = seeds.position[p];
+    id[p] = static_cast<std::int64_t>(p);
+    m_p[p] = density * std::pow(grid.spacing / region.per_cell, Dim);
+    v_p[p] = value_at<Dim>(region.velocity, x_p[p], start);
+    if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], start, grid.spacing);
+    const bool finite = v_p[p].allFinite() && (!with_gradient || grad_v_p[p].allFinite());
+    if (finite || reported[r]) continue;
+    reported[r] = true;
+    problems.note(fmt::format("/particles/{}/velocity", r), "not finite", "a finite velocity [m/s]",
+                        fmt::format("{} at {}", v_p[p].allFinite() ? "no finite gradient" : vector_text<Dim>(v_p[p]),
+                                    place_text<Dim>(x_p[p])));
+  }
+}
+
+/// Of every region a particle must weigh something, and not infinitely much.
+template <int Dim>
+void check_mass(const Scene& scene, const Grid<Dim>& grid, SeedProblems& problems) {
+  const double density = scene.facts.get<Fluid>().density;
+  for (const ParticleScene& region : scene.particles) {
+    const double mass = density * std::pow(grid.spacing / region.per_cell, Dim);
+    if (std::isnormal(mass)) continue;
+    problems.note("/fluid/density", "particles without a mass", "a density with which they have one",
+                        fmt::format("{} kg/m^3, particles of {} kg", density, mass));
+    return;
+  }
+}
+
+template <int Dim>
+void seed_particles(const Scene& scene, World& world, SeedProblems& problems) {
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  check_mass<Dim>(scene, grid, problems);
+  set_particles<Dim>(scene, grid, lay_out<Dim>(scene, grid, problems), world, problems);
+}
+
+Contribution read_regions(Input& input, Scene& scene) {
+  input.list("particles", "regions filled with liquid", 1,
+             [&](Input& in, std::size_t) { scene.particles.push_back(read_particles(in, scene)); });
+  return [](const Scene&, Recipe& recipe) {
+    recipe.seed([](const Scene& of, World& world, SeedProblems& problems) {
+      with_dimension(of.dimension, [&](auto dim) { seed_particles<dim()>(of, world, problems); });
+    });
+  };
+}
+
+}  // namespace
+
+void add_particles(SystemRegistry& registry) {
+  registry.add(Part{"particles", "regions filled with liquid", read_regions});
+}
+
+}  // namespace minamo

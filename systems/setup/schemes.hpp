@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// The choices of a scene beside the transfer scheme. Every type is registered by name, `registry.add(Stabilization{{...}})`,
+/// by the built-in parts and by programs that link minamo alike.
+
+#include "systems/setup/part.hpp"
+
+#include <cstdint>
+
+namespace minamo {
+
+/// How velocity and acceleration follow from the displacement. Sets IntegratorNeeds.
+struct Integrator : Scheme {};
+/// Where the integrals of the balances are taken.
+struct Quadrature : Scheme {};
+/// What makes pressures of equal order with the displacement stable.
+struct Stabilization : Scheme {};
+/// What keeps the particles apart.
+struct VolumeCorrection : Scheme {};
+
+/// What a side of the box does to the liquid.
+struct WallCondition {
+  std::string name;
+  std::string doc;
+  /// The directions that a wall of the axis holds, bit d for direction d.
+  std::function<std::uint8_t(int dimension, int axis)> held;
+};
+
+/// A linear solver: three lists of systems. `prepare` makes factors of the operators, `solve` gives displacement and
+/// pressure, `solve_volume` solves for another right-hand side, that of the volume projection, with the same factors.
+struct LinearSolver {
+  std::string name;
+  std::string doc;
+  std::vector<std::string> prepare;
+  std::vector<std::string> solve;
+  std::vector<std::string> solve_volume;
+  std::function<Contribution(Input&, Scene&)> read = {};  ///< its options; may be empty
+  /// Largest memory that matrices and factors take per node with a row. [byte]
+  std::function<double(const Scene&, double nodes)> bytes_per_node;
+  std::string leaner = {};  ///< name of a solver that needs less memory
+};
+
+/// What an integrator asks of the start and of the transfer.
+struct IntegratorNeeds {
+  /// The system that configures standing steps for what particles carry of the step before.
+  std::string configure_beside;
+  /// Whether velocity gradients move on with their particles, (E62): not where the weights lag behind by a step.
+  bool gradients_move = true;
+};
+
+}  // namespace minamo

@@ -1,0 +1,86 @@
+#include "components/step.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/memory.hpp"
+#include "systems/setup/scene.hpp"
+#include "systems/setup/schemes.hpp"
+#include "systems/setup/time_plan.hpp"
+#include "systems/solve/block.hpp"
+#include "systems/solve/monolithic.hpp"
+#include "systems/solve/umfpack.hpp"
+#include "systems/solve/velocity_block.hpp"
+#include "systems/volume/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Whether friction couples the velocities of a step so much that the block solver may factorize them (E60).
+bool is_stiff(const Scene& scene) {
+  const double h = scene.grid.spacing;
+  return scene.facts.get<Fluid>().viscosity * longest_step(scene) > 0.1 * scene.facts.get<Fluid>().density * h * h;
+}
+
+/// The block solver's: whole factors, of the velocities in stiff liquids, of the pressure where few particles have many
+/// nodes, have more in a node the more nodes there are. In space those of the velocities end at a number of nodes.
+double block_bytes_per_node(const Scene& scene, double nodes) {
+  if (scene.dimension == 2) return 8e3 + (is_stiff(scene) ? 900 * std::log2(nodes) : 0);
+  const double factorized = std::min(nodes, most_factorized_in_space / 3.0);
+  const double of_velocity = is_stiff(scene) ? 6e3 * std::cbrt(factorized) * factorized / nodes : 0;
+  const double of_pressure = fewest_per_cell(scene) == 1 ? 1.3e3 * std::cbrt(nodes) : 0;
+  return 45e3 + of_velocity + of_pressure;
+}
+
+/// A node of UMFPACK's factors has more the more nodes there are.
+double umfpack_bytes_per_node(const Scene& scene, double nodes) {
+  // Without viscosity the directions are not coupled directly.
+  const double coupled = scene.facts.get<Fluid>().viscosity > 0 ? 1 : 0.5;
+  return scene.dimension == 2 ? 2e3 + coupled * 4e3 * std::log2(nodes) : 45e3 + coupled * 20e3 * std::cbrt(nodes);
+}
+
+Contribution read_tolerance(Input& input, Scene&) {
+  const SolverTolerance tolerance{input.number(
+      "tolerance", {.doc = "residual over right-hand side", .fallback = 1e-8, .at_least = 1e-13, .at_most = 1e-3})};
+  return [tolerance](const Scene&, Recipe& recipe) { recipe.constant(tolerance); };
+}
+
+Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene) {
+  scene.facts.set(solver);
+  const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
+  return [solver, options](const Scene& of, Recipe& recipe) {
+    for (const auto* systems : {&solver.prepare, &solver.solve}) {
+      for (const std::string& system : *systems) recipe.add("solve", system);
+    }
+    if (options) options(of, recipe);
+  };
+}
+
+}  // namespace
+
+void add_solver(SystemRegistry& registry) {
+  registry.add<AssembleMonolithic>("assemble_monolithic");
+  registry.add<SolveUmfpack>("solve_umfpack");
+  registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
+  registry.add<SolveBlock>("solve_block");
+  registry.add<SolveVolumeBlock>("solve_volume_block");
+  registry.add<UnpackSolution>("unpack_solution");
+  registry.add(LinearSolver{.name = "block",
+                            .doc = "block elimination and GMRES, preconditioned by sparse factors",
+                            .prepare = {},
+                            .solve = {"solve_block", "unpack_solution"},
+                            .solve_volume = {"solve_volume_block"},
+                            .read = read_tolerance,
+                            .bytes_per_node = block_bytes_per_node});
+  registry.add(LinearSolver{.name = "umfpack",
+                            .doc = "monolithic sparse LU, the reference",
+                            .prepare = {"assemble_monolithic"},
+                            .solve = {"solve_umfpack", "unpack_solution"},
+                            .solve_volume = {"solve_volume_umfpack"},
+                            .bytes_per_node = umfpack_bytes_per_node,
+                            .leaner = "block"});
+  registry.add(choice<LinearSolver>("solver", "linear solver", "block", read_solver));
+}
+
+}  // namespace minamo

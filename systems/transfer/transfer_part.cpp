@@ -1,0 +1,87 @@
+#include "systems/grid/liquid.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/scene.hpp"
+#include "systems/setup/schemes.hpp"
+#include "systems/solve/inertia.hpp"
+#include "systems/transfer/advect.hpp"
+#include "systems/transfer/apic.hpp"
+#include "systems/transfer/carry_gradient.hpp"
+#include "systems/transfer/fmpm.hpp"
+#include "systems/transfer/mass.hpp"
+#include "systems/transfer/pic_flip.hpp"
+#include "systems/transfer/scheme.hpp"
+#include "systems/transfer/tpic.hpp"
+#include "systems/transfer/tpic2.hpp"
+#include "systems/transfer/xpic.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// (E53), and where gradients move (E62).
+void correct_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
+  if (integrator.gradients_move) recipe.add("advect", "carry_gradient_to_end", When::step);
+  recipe.add("advect", "g2p_force_gradient", When::step);
+  recipe.add("right_hand_side", "add_inertia_correction");
+  recipe.add_standing_step(integrator.configure_beside,
+                           recipe.make({"correct_backward_euler_velocity", "g2p_force_gradient"}));
+}
+
+Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scene) {
+  const auto make = [&](const std::vector<std::string>& names) {
+    std::vector<System> systems;
+    for (const std::string& name : names) systems.push_back(registry_of(scene).make(name, scene.dimension, &input));
+    return systems;
+  };
+  const auto p2g = make(scheme.p2g_velocity);
+  const auto g2p = make(scheme.g2p_velocity);
+  scene.facts.set(AccelerationTransfer{make(scheme.p2g_acceleration), make(scheme.g2p_acceleration)});
+  scene.facts.set(scheme);
+  const bool corrected =
+      scheme.carries_gradient &&
+      input.choice("inertia", std::vector<std::string>{"corrected", "lumped"},
+                   "lumped mass, with or without what it leaves out: (E53), (E62)", "corrected") == "corrected";
+  return [scheme, p2g, g2p, corrected](const Scene& scene, Recipe& recipe) {
+    const auto& integrator = scene.facts.get<IntegratorNeeds>();
+    recipe.add("p2g", "p2g_mass");
+    if (corrected || scheme.reads_liquid_share) recipe.add("p2g", "find_liquid");
+    if (corrected && integrator.gradients_move) recipe.add("p2g", "carry_gradient_to_middle", When::step);
+    for (const System& system : p2g) recipe.add("p2g", system);
+    for (const System& system : g2p) recipe.add("g2p", system, When::step);
+    if (corrected) correct_inertia(integrator, recipe);
+    recipe.add("advect", "advect", When::step);
+  };
+}
+
+}  // namespace
+
+void add_transfer(SystemRegistry& registry) {
+  registry.add<P2GMass>("p2g_mass");
+  registry.add<P2GVelocityPic>("p2g_velocity_pic");
+  registry.add<P2GAccelerationPic>("p2g_acceleration_pic");
+  registry.add<P2GVelocityTpic>("p2g_velocity_tpic");
+  registry.add<P2GVelocityTpic2>("p2g_velocity_tpic2");
+  registry.add<P2GAccelerationTpic>("p2g_acceleration_tpic");
+  registry.add<G2PVelocityPic>("g2p_velocity_pic");
+  registry.add<G2PVelocityFlip>("g2p_velocity_flip");
+  registry.add<G2PVelocityTpic>("g2p_velocity_tpic");
+  registry.add<G2PVelocityTpic2>("g2p_velocity_tpic2");
+  registry.add<G2PVelocityApic>("g2p_velocity_apic");
+  registry.add<G2PAccelerationApic>("g2p_acceleration_apic");
+  registry.add<FilterVelocityXpic>("filter_velocity_xpic");
+  registry.add<G2PVelocityXpic>("g2p_velocity_xpic");
+  registry.add<FilterVelocityFmpm>("filter_velocity_fmpm");
+  registry.add<G2PVelocityFmpm>("g2p_velocity_fmpm");
+  registry.add<G2PAccelerationPic>("g2p_acceleration_pic");
+  registry.add<G2PAccelerationTpic>("g2p_acceleration_tpic");
+  registry.add<FindLiquid>("find_liquid");
+  registry.add<CarryGradient>("carry_gradient_to_middle");
+  registry.add<CarryGradient>("carry_gradient_to_end");
+  registry.add<AddInertiaCorrection>("add_inertia_correction");
+  registry.add<G2PForceGradient>("g2p_force_gradient");
+  registry.add<Advect>("advect");
+  for (const TransferScheme& scheme : built_in_transfer_schemes()) registry.add(scheme);
+  registry.add(choice<TransferScheme>("transfer", "transfer between particles and grid", "tpic2", read_scheme));
+}
+
+}  // namespace minamo

@@ -1,0 +1,56 @@
+#include "components/fluid.hpp"
+#include "components/step.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/scene.hpp"
+#include "systems/setup/schemes.hpp"
+#include "systems/volume/delta.hpp"
+#include "systems/volume/limit_shift.hpp"
+#include "systems/volume/projection.hpp"
+
+namespace minamo {
+
+namespace {
+
+Contribution read_projection(Input& input, Scene&) {
+  const VolumeRate rate{input.number("rate", {.doc = "share of the excess that is corrected in a step",
+                                              .fallback = VolumeRate{}.rate,
+                                              .at_most = 1,
+                                              .above = 0})};
+  return [rate](const Scene& scene, Recipe& recipe) {
+    // Without a body force nothing is lifted.
+    const bool limited = !scene.facts.get<BodyForce>().is_zero();
+    if (limited) recipe.add("configure", "keep_kinetic_energy", When::step);
+    recipe.add("volume", "gather_node_volume", When::step);
+    recipe.add("volume", "find_volume_excess", When::step);
+    for (const std::string& system : scene.facts.get<LinearSolver>().solve_volume)
+      recipe.add("volume", system, When::step);
+    if (limited) recipe.add("volume", "limit_shift", When::step);
+    recipe.add("volume", "shift_particles", When::step);
+    recipe.constant(rate);
+  };
+}
+
+Contribution read_delta(Input&, Scene&) {
+  return [](const Scene&, Recipe& recipe) {
+    recipe.add("volume", "gather_node_volume", When::step);
+    recipe.add("volume", "shift_by_delta", When::step);
+  };
+}
+
+}  // namespace
+
+void add_volume(SystemRegistry& registry) {
+  registry.add<GatherNodeVolume>("gather_node_volume");
+  registry.add<FindVolumeExcess>("find_volume_excess");
+  registry.add<KeepKineticEnergy>("keep_kinetic_energy");
+  registry.add<LimitShift>("limit_shift");
+  registry.add<ShiftParticles>("shift_particles");
+  registry.add<ShiftByDelta>("shift_by_delta");
+  registry.add(VolumeCorrection{{"delta", "pushes particles apart where they overlap", read_delta}});
+  registry.add(VolumeCorrection{{"none", "no correction", {}}});
+  registry.add(VolumeCorrection{{"projection", "closes gaps and pushes apart, with the operators of the step",
+                                 read_projection}});
+  registry.add(choice<VolumeCorrection>("volume", "volume correction", "projection"));
+}
+
+}  // namespace minamo
