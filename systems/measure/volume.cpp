@@ -1,7 +1,7 @@
 #include "systems/measure/volume.hpp"
 
+#include "systems/assemble/neighbours.hpp"
 #include "systems/grid/node_volume.hpp"
-#include "systems/solve/neighbours.hpp"
 
 #include <cmath>
 #include <functional>

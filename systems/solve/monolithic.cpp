@@ -1,8 +1,8 @@
 #include "systems/solve/monolithic.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/assemble/stencil.hpp"
 #include "systems/solve/equations.hpp"
-#include "systems/solve/stencil.hpp"
 
 namespace minamo {
 

@@ -1,9 +1,9 @@
 #include "systems/volume/projection.hpp"
 
+#include "systems/assemble/stencil.hpp"
 #include "systems/grid/node_volume.hpp"
 #include "systems/grid/place.hpp"
 #include "systems/solve/equations.hpp"
-#include "systems/solve/stencil.hpp"
 #include "systems/transfer/cell_polynomial.hpp"
 #include "systems/volume/shift.hpp"
 

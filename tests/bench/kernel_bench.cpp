@@ -6,8 +6,8 @@
 #include "engine/linear_solver.hpp"
 #include "support/kernels.hpp"
 #include "support/scene_run.hpp"
+#include "systems/assemble/matrices.hpp"
 #include "systems/grid/activate.hpp"
-#include "systems/solve/assemble.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/tpic.hpp"
 

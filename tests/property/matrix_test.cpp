@@ -1,8 +1,8 @@
 #include "support/kernels.hpp"
 
+#include "systems/assemble/matrices.hpp"
+#include "systems/assemble/stencil.hpp"
 #include "systems/grid/activate.hpp"
-#include "systems/solve/assemble.hpp"
-#include "systems/solve/stencil.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,9 +2,9 @@
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
+#include "systems/assemble/matrices.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/full_nodes.hpp"
-#include "systems/solve/assemble.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
-#include "systems/solve/assemble.hpp"
+#include "systems/assemble/matrices.hpp"
 
-#include "systems/solve/slope_matrices.hpp"
+#include "systems/assemble/slope_matrices.hpp"
 
 namespace minamo {
 

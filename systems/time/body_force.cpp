@@ -1,4 +1,4 @@
-#include "systems/integrate/body_force.hpp"
+#include "systems/time/body_force.hpp"
 
 #include "engine/step_control.hpp"
 #include "systems/grid/walls.hpp"

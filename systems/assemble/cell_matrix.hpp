@@ -2,7 +2,7 @@
 /// \file
 /// From cell matrices to the stencil rows of active nodes.
 
-#include "systems/solve/moments.hpp"
+#include "systems/assemble/moments.hpp"
 
 namespace minamo {
 

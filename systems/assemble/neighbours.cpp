@@ -1,7 +1,7 @@
-#include "systems/solve/neighbours.hpp"
+#include "systems/assemble/neighbours.hpp"
 
 #include "engine/parallel.hpp"
-#include "systems/solve/stencil.hpp"
+#include "systems/assemble/stencil.hpp"
 
 namespace minamo {
 

@@ -1,8 +1,8 @@
-#include "systems/solve/inertia.hpp"
+#include "systems/assemble/inertia.hpp"
 
+#include "systems/assemble/moments.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/walls.hpp"
-#include "systems/solve/moments.hpp"
 
 namespace minamo {
 
@@ -43,7 +43,7 @@ void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
     if (share == 0) return;
     const Mat<Dim> gradient = share * density * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
     for (int d = 0; d < Dim; ++d) {
-      const auto way = integrate<Dim>(moments.of_cell[c], node_factors<Dim>(support, d, &AxisBasis::of_distance));
+      const auto way = cell_vector<Dim>(moments.of_cell[c], node_factors<Dim>(support, d, &AxisBasis::of_distance));
       for (std::size_t k = 0; k < way.size(); ++k) out[support.node[k]] += way[k] * gradient.col(d);
     }
   });
@@ -89,7 +89,7 @@ void G2PForceGradient<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, 
     const Support<Dim> support(*grid, cell);
     Mat<Dim> gradient = Mat<Dim>::Zero();
     for (int d = 0; d < Dim; ++d) {
-      const auto slope = integrate<Dim>(moments->of_cell[c], node_factors<Dim>(support, d, &AxisBasis::of_slope));
+      const auto slope = cell_vector<Dim>(moments->of_cell[c], node_factors<Dim>(support, d, &AxisBasis::of_slope));
       for (std::size_t k = 0; k < slope.size(); ++k) {
         const std::size_t j = support.node[k];
         gradient.col(d) += slope[k] * (per_step * (v_new[j] - v_old[j]) - c_i[j]);

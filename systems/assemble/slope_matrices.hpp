@@ -3,7 +3,7 @@
 /// The cell matrices that the balances are made of. Those of cells full of liquid, (E68), are all alike: they are
 /// looked up.
 
-#include "systems/solve/cell_matrix.hpp"
+#include "systems/assemble/cell_matrix.hpp"
 
 namespace minamo {
 
@@ -28,7 +28,7 @@ class SlopeMatrices {
 
   const CellMatrix<Dim>& at(std::size_t kind, int i, int j) {
     if (full_ != nullptr) return (*full_)[kind];
-    integrate<Dim>(*moments_, slope_factors<Dim>(*basis_, i, j), made_[kind]);
+    cell_matrix<Dim>(*moments_, slope_factors<Dim>(*basis_, i, j), made_[kind]);
     return made_[kind];
   }
 

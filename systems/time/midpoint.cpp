@@ -1,4 +1,4 @@
-#include "systems/integrate/midpoint.hpp"
+#include "systems/time/midpoint.hpp"
 
 #include "engine/parallel.hpp"
 

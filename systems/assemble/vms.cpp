@@ -1,6 +1,6 @@
-#include "systems/solve/vms.hpp"
+#include "systems/assemble/vms.hpp"
 
-#include "systems/solve/cell_matrix.hpp"
+#include "systems/assemble/cell_matrix.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -42,9 +42,9 @@ void StabilizeVms<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
     const double tau = tau_1(clock->step, grid->spacing, *fluid, v_i[support.own()].norm());
     const double h = support.per_spacing;
     for (int d = 0; d < Dim; ++d) {
-      const auto laplacian = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support.basis, d, d));
+      const auto laplacian = cell_matrix<Dim>(moments->of_cell[c], slope_factors<Dim>(support.basis, d, d));
       add_to_rows<Dim>(support, row.span(), laplacian, tau * h * h, Dim + 1, Dim, rows);
-      const auto gradient = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support.basis, d, -1));
+      const auto gradient = cell_matrix<Dim>(moments->of_cell[c], slope_factors<Dim>(support.basis, d, -1));
       const double in_units = tau * fluid->density * h;
       add_to_rows<Dim>(support, row.span(), gradient, in_units, Dim + 1, static_cast<std::size_t>(d), rows);
       add_product<Dim>(
@@ -65,7 +65,7 @@ void AddVmsBulkViscosity<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> gri
     const double scale = tau_2(grid->spacing, tau) * support.per_spacing * support.per_spacing;
     for (int i = 0; i < Dim; ++i) {
       for (int j = 0; j < Dim; ++j) {
-        const auto matrix = integrate<Dim>(moments->of_cell[c], slope_factors<Dim>(support.basis, i, j));
+        const auto matrix = cell_matrix<Dim>(moments->of_cell[c], slope_factors<Dim>(support.basis, i, j));
         add_to_rows<Dim>(support, row.span(), matrix, scale, Dim * Dim, static_cast<std::size_t>(Dim * i + j),
                          viscosity.span());
       }

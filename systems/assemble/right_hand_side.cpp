@@ -1,8 +1,8 @@
-#include "systems/solve/right_hand_side.hpp"
+#include "systems/assemble/right_hand_side.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/assemble/neighbours.hpp"
 #include "systems/solve/equations.hpp"
-#include "systems/solve/neighbours.hpp"
 
 namespace minamo {
 

@@ -1,7 +1,7 @@
-#include "systems/solve/stabilization.hpp"
+#include "systems/assemble/stabilization.hpp"
 
+#include "systems/assemble/neighbours.hpp"
 #include "systems/grid/node_volume.hpp"
-#include "systems/solve/neighbours.hpp"
 #include "systems/transfer/gather.hpp"
 #include "systems/transfer/scatter.hpp"
 

@@ -1,4 +1,4 @@
-#include "systems/integrate/newmark.hpp"
+#include "systems/time/newmark.hpp"
 
 #include "engine/parallel.hpp"
 

@@ -1,9 +1,9 @@
-#include "systems/integrate/damp_divergence.hpp"
+#include "systems/time/damp_divergence.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/assemble/neighbours.hpp"
 #include "systems/grid/liquid.hpp"
 #include "systems/solve/equations.hpp"
-#include "systems/solve/neighbours.hpp"
 #include "systems/transfer/carry_gradient.hpp"
 
 namespace minamo {

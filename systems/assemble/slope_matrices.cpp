@@ -1,4 +1,4 @@
-#include "systems/solve/slope_matrices.hpp"
+#include "systems/assemble/slope_matrices.hpp"
 
 #include <algorithm>
 
@@ -30,9 +30,9 @@ const typename SlopeMatrices<Dim>::Matrices& SlopeMatrices<Dim>::of_full_cell(co
       full.fill(1);
       const CellMoments<Dim> moments = integrate_theta<Dim>(bases, full);
       std::size_t place = 0;
-      for (int j = 0; j < Dim; ++j) made[k][place++] = integrate<Dim>(moments, slope_factors<Dim>(bases, -1, j));
+      for (int j = 0; j < Dim; ++j) made[k][place++] = cell_matrix<Dim>(moments, slope_factors<Dim>(bases, -1, j));
       for (int i = 0; i < Dim; ++i) {
-        for (int j = i; j < Dim; ++j) made[k][place++] = integrate<Dim>(moments, slope_factors<Dim>(bases, i, j));
+        for (int j = i; j < Dim; ++j) made[k][place++] = cell_matrix<Dim>(moments, slope_factors<Dim>(bases, i, j));
       }
     });
     return made;

@@ -1,4 +1,4 @@
-#include "systems/solve/moments.hpp"
+#include "systems/assemble/moments.hpp"
 
 #include "systems/grid/contract.hpp"
 
@@ -175,7 +175,7 @@ CellMoments<Dim> integrate_theta(const CellBasis<Dim>& basis, const std::array<d
 }
 
 template <int Dim>
-void integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors, CellMatrix<Dim>& done) {
+void cell_matrix(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors, CellMatrix<Dim>& done) {
   if constexpr (Dim == 2) {
     contract_plane(*factors[0], *factors[1], moments.data(), done.data());
   } else {
@@ -190,7 +190,7 @@ void integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors,
 }
 
 template <int Dim>
-CellVector<Dim> integrate(const CellMoments<Dim>& moments, const NodeFactors<Dim>& factors) {
+CellVector<Dim> cell_vector(const CellMoments<Dim>& moments, const NodeFactors<Dim>& factors) {
   return contract_axes<Dim, product_powers, 3>(
       moments, [&](std::size_t d) { return [&f = *factors[d]](std::size_t q, std::size_t k) { return f[q][k]; }; });
 }
@@ -222,10 +222,10 @@ template struct GatherMomentsMixed<2>;
 template struct GatherMomentsMixed<3>;
 template CellMoments<2> integrate_theta<2>(const CellBasis<2>&, const std::array<double, 9>&);
 template CellMoments<3> integrate_theta<3>(const CellBasis<3>&, const std::array<double, 27>&);
-template void integrate<2>(const CellMoments<2>&, const PairFactors<2>&, CellMatrix<2>&);
-template void integrate<3>(const CellMoments<3>&, const PairFactors<3>&, CellMatrix<3>&);
-template CellVector<2> integrate<2>(const CellMoments<2>&, const NodeFactors<2>&);
-template CellVector<3> integrate<3>(const CellMoments<3>&, const NodeFactors<3>&);
+template void cell_matrix<2>(const CellMoments<2>&, const PairFactors<2>&, CellMatrix<2>&);
+template void cell_matrix<3>(const CellMoments<3>&, const PairFactors<3>&, CellMatrix<3>&);
+template CellVector<2> cell_vector<2>(const CellMoments<2>&, const NodeFactors<2>&);
+template CellVector<3> cell_vector<3>(const CellMoments<3>&, const NodeFactors<3>&);
 template const PairPlaces<2>& pair_places<2>();
 template const PairPlaces<3>& pair_places<3>();
 

@@ -53,11 +53,11 @@ using PairFactors = std::array<const AxisBasis::PairProducts*, static_cast<std::
 
 /// (E20)  The cell matrix of a product of pair factors, in units of h.
 template <int Dim>
-void integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors, CellMatrix<Dim>& done);
+void cell_matrix(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors, CellMatrix<Dim>& done);
 template <int Dim>
-CellMatrix<Dim> integrate(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors) {
+CellMatrix<Dim> cell_matrix(const CellMoments<Dim>& moments, const PairFactors<Dim>& factors) {
   CellMatrix<Dim> done;
-  integrate<Dim>(moments, factors, done);
+  cell_matrix<Dim>(moments, factors, done);
   return done;
 }
 
@@ -71,7 +71,7 @@ using NodeFactors = std::array<const AxisBasis::NodeProducts*, static_cast<std::
 
 /// (E20)  The same for single nodes, in units of h.
 template <int Dim>
-CellVector<Dim> integrate(const CellMoments<Dim>& moments, const NodeFactors<Dim>& factors);
+CellVector<Dim> cell_vector(const CellMoments<Dim>& moments, const NodeFactors<Dim>& factors);
 
 /// Where the pair of nodes I, J of a support stands in a CellMatrix, and where J stands in the stencil of I.
 template <int Dim>

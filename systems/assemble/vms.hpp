@@ -7,7 +7,7 @@
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "engine/clock.hpp"
-#include "systems/solve/moments.hpp"
+#include "systems/assemble/moments.hpp"
 
 namespace minamo {
 

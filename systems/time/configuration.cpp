@@ -1,4 +1,4 @@
-#include "systems/integrate/configuration.hpp"
+#include "systems/time/configuration.hpp"
 
 #include "systems/grid/support.hpp"
 

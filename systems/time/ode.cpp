@@ -1,4 +1,4 @@
-#include "systems/integrate/ode.hpp"
+#include "systems/time/ode.hpp"
 
 #include "engine/step_control.hpp"
 
