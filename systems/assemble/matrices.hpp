@@ -2,6 +2,7 @@
 /// \file
 /// The matrices of the discrete equations, as stencil rows of the active nodes, from the moments of the cells.
 
+#include "components/fluid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "systems/assemble/moments.hpp"

@@ -114,13 +114,13 @@ class FullnessWithin {
 /// The part of (E68) that the particles of a cell bring.
 template <int Dim>
 CellMoments<Dim> sum_beside(const Support<Dim>& support, const std::array<double, support_size<Dim>>& theta,
-                            const typename OccupiedCells<Dim>::Cell& cell, double per_density,
-                            std::span<const Vec<Dim>> y_p, std::span<const double> m_p) {
+                            const typename OccupiedCells<Dim>::Cell& cell, std::span<const Vec<Dim>> y_p,
+                            std::span<const double> V_p) {
   const FullnessWithin<Dim> fullness(support.basis, theta);
   MomentSum<Dim> moments;
   for (std::size_t p = cell.begin; p < cell.end; ++p) {
     const Vec<Dim> xi = (y_p[p] - support.centre) * support.per_spacing;
-    moments.add((1 - fullness.at(xi)) * m_p[p] * per_density, xi);
+    moments.add((1 - fullness.at(xi)) * V_p[p], xi);
   }
   return moments.sum();
 }
@@ -128,25 +128,24 @@ CellMoments<Dim> sum_beside(const Support<Dim>& support, const std::array<double
 }  // namespace
 
 template <int Dim>
-void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                                    Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                    Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p,
                                     Write<Moments<Dim>> moments) const {
   moments->of_cell.resize(cells->cells.size());
   moments->is_full.assign(cells->cells.size(), 0);
-  const double per_density = 1 / fluid->density;
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Vec<Dim> centre = grid->position(cell.node);
     MomentSum<Dim> sum;
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      sum.add(m_p[p] * per_density, (y_p[p] - centre) / grid->spacing);
+      sum.add(V_p[p], (y_p[p] - centre) / grid->spacing);
     }
     moments->of_cell[c] = sum.sum();
   });
 }
 
 template <int Dim>
-void GatherMomentsMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                                         Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+void GatherMomentsMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                         Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p,
                                          Read<node::Fullness> theta_i, Write<Moments<Dim>> moments) const {
   moments->of_cell.resize(cells->cells.size());
   moments->is_full.resize(cells->cells.size());
@@ -158,7 +157,7 @@ void GatherMomentsMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCell
     const auto [least, most] = std::minmax_element(theta.begin(), theta.end());
     moments->is_full[c] = *least == 1;
     CellMoments<Dim> sum{};
-    if (*least < 1) sum = sum_beside<Dim>(support, theta, cell, 1 / fluid->density, y_p.span(), m_p.span());
+    if (*least < 1) sum = sum_beside<Dim>(support, theta, cell, y_p.span(), V_p.span());
     if (*most > 0) {
       const CellMoments<Dim> inside = integrate_theta<Dim>(support.basis, theta);
       for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += cell_volume * inside[k];

@@ -7,7 +7,6 @@
 /// particles costs 5^d multiply-adds instead of 9^d per matrix, exactly; the map is applied direction by direction.
 
 #include "components/cells.hpp"
-#include "components/fluid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "engine/system.hpp"
@@ -19,8 +18,8 @@ namespace minamo {
 template <int Dim>
 struct GatherMoments {
   static constexpr std::string_view doc = "(E19) moments of dual cells";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                  Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p, Write<Moments<Dim>> moments) const;
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                  Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p, Write<Moments<Dim>> moments) const;
 };
 
 /// Of one cell, at [a + 5 b + 25 c].
@@ -38,8 +37,8 @@ CellMoments<Dim> integrate_theta(const CellBasis<Dim>& basis, const std::array<d
 template <int Dim>
 struct GatherMomentsMixed {
   static constexpr std::string_view doc = "(E68) moments of dual cells, mixed quadrature";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                  Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p, Read<node::Fullness> theta_i,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                  Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p, Read<node::Fullness> theta_i,
                   Write<Moments<Dim>> moments) const;
 };
 

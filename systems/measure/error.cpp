@@ -65,11 +65,9 @@ void require_finite(double sum_of_squares, const char* name, const Instant& inst
 
 }  // namespace
 
-// The density is the same everywhere, so that masses weigh like volumes.
-
 template <int Dim, class When>
 void MeasureErrorVelocityAt<Dim, When>::operator()(Read<exact::Velocity> exact, Read<When> when,
-                                                   Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                                                   Read<particle::Volume> V_p, Read<particle::Position<Dim>> x_p,
                                                    Read<particle::Velocity<Dim>> v_p,
                                                    Update<measure::Columns> columns) const {
   if (instant_of(*when).time > exact->until) return columns->set("error_velocity", not_known);
@@ -77,7 +75,7 @@ void MeasureErrorVelocityAt<Dim, When>::operator()(Read<exact::Velocity> exact, 
   const auto sum = sum_of_parts<VelocitySum>(x_p.size(), [&](VelocitySum& part_sum, std::size_t part, std::size_t p) {
     Arguments arguments = start;
     const Vec<Dim> v = vector_at<Dim>(exact->of_part[part], arguments.at<Dim>(x_p[p]));
-    part_sum.join({m_p[p], m_p[p] * (v_p[p] - v).squaredNorm(), m_p[p] * v.squaredNorm()});
+    part_sum.join({V_p[p], V_p[p] * (v_p[p] - v).squaredNorm(), V_p[p] * v.squaredNorm()});
   });
   require_finite(sum.exact, "velocity", instant_of(*when));
   columns->set("error_velocity", relative(sum.difference, sum.exact, sum.weight));
@@ -85,7 +83,7 @@ void MeasureErrorVelocityAt<Dim, When>::operator()(Read<exact::Velocity> exact, 
 
 template <int Dim, class When>
 void MeasureErrorPressureAt<Dim, When>::operator()(Read<exact::Pressure> exact, Read<When> when,
-                                                   Read<particle::Mass> m_p, Read<particle::Configuration<Dim>> y_p,
+                                                   Read<particle::Volume> V_p, Read<particle::Configuration<Dim>> y_p,
                                                    Read<particle::Pressure> p_p,
                                                    Update<measure::Columns> columns) const {
   if (instant_of(*when).time > exact->until) return columns->set("error_pressure", not_known);
@@ -93,8 +91,8 @@ void MeasureErrorPressureAt<Dim, When>::operator()(Read<exact::Pressure> exact, 
   const auto sum = sum_of_parts<PressureSum>(y_p.size(), [&](PressureSum& part_sum, std::size_t part, std::size_t p) {
     Arguments arguments = start;
     const double pressure = exact->of_part[part](arguments.at<Dim>(y_p[p]));
-    part_sum.difference.add(m_p[p], p_p[p] - pressure);
-    part_sum.exact.add(m_p[p], pressure);
+    part_sum.difference.add(V_p[p], p_p[p] - pressure);
+    part_sum.exact.add(V_p[p], pressure);
   });
   const auto squares = [&](const WeightedMean& q) { return exact->is_free ? q.scatter : q.squares(); };
   require_finite(sum.exact.squares(), "pressure", instant_of(*when));

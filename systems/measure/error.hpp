@@ -19,7 +19,7 @@ namespace minamo {
 template <int Dim, class When>
 struct MeasureErrorVelocityAt {
   static constexpr std::string_view doc = "(E41) error of the velocity";
-  void operator()(Read<exact::Velocity> exact, Read<When> when, Read<particle::Mass> m_p,
+  void operator()(Read<exact::Velocity> exact, Read<When> when, Read<particle::Volume> V_p,
                   Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                   Update<measure::Columns> columns) const;
 };
@@ -35,7 +35,7 @@ using MeasureErrorVelocityOde = MeasureErrorVelocityAt<Dim, ode::Values>;
 template <int Dim, class When>
 struct MeasureErrorPressureAt {
   static constexpr std::string_view doc = "(E42) error of the pressure";
-  void operator()(Read<exact::Pressure> exact, Read<When> when, Read<particle::Mass> m_p,
+  void operator()(Read<exact::Pressure> exact, Read<When> when, Read<particle::Volume> V_p,
                   Read<particle::Configuration<Dim>> y_p, Read<particle::Pressure> p_p,
                   Update<measure::Columns> columns) const;
 };

@@ -29,7 +29,7 @@ struct MeasureDivergence {
 template <int Dim>
 struct MeasureOverlap {
   static constexpr std::string_view doc = "(E32) overlap";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p, Read<particle::Volume> V_p,
                   Resize<EndNodes> nodes, Write<EndSites<Dim>> rows, Write<end_node::Site<Dim>> sites,
                   Write<end_node::Volume> v_i, Write<measure::Overlap> overlap) const;
 };

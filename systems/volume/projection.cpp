@@ -10,11 +10,11 @@
 namespace minamo {
 
 template <int Dim>
-void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
-                                       Read<particle::Mass> m_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
+void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
+                                       Read<particle::Volume> V_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
                                        Write<end_node::Site<Dim>> sites, Write<end_node::Volume> v_i) const {
   number_end_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
-  gather_node_volume<Dim>(*grid, *rows, fluid->density, x_p.span(), m_p.span(), v_i.span());
+  gather_node_volume<Dim>(*grid, *rows, x_p.span(), V_p.span(), v_i.span());
 }
 
 template <int Dim>

@@ -24,7 +24,7 @@ namespace minamo {
 template <int Dim>
 struct GatherNodeVolume {
   static constexpr std::string_view doc = "(E35) V~_I at the end of the step";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p, Read<particle::Volume> V_p,
                   Resize<EndNodes> nodes, Write<EndSites<Dim>> rows, Write<end_node::Site<Dim>> sites,
                   Write<end_node::Volume> v_i) const;
 };

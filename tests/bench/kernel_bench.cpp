@@ -44,6 +44,7 @@ void fill(World& world) {
   for (Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) v = random.vector<Dim>(-1, 1);
   for (Mat<Dim>& gradient : world.column<particle::VelocityGradient<Dim>>()) gradient = random.matrix<Dim>(-1, 1);
   for (double& m : world.column<particle::Mass>()) m = 1;
+  kernels::set_volumes(world);
   kernels::run<Bin<Dim>>(world);
   kernels::run<NumberNodes<Dim>>(world);
   kernels::run<P2GMass<Dim>>(world);

@@ -51,6 +51,7 @@ void fill_lattice(World& world, double shift, double surface, std::uint64_t seed
     m_p[p] = density * std::pow(apart, Dim);
     id[p] = static_cast<std::int64_t>(p);
   }
+  set_volumes(world);
   sort<Dim>(world);
   run<P2GMass<Dim>>(world);
   run<FindFullNodes<Dim>>(world);

@@ -101,6 +101,13 @@ void set_grid(World& world, const Grid<Dim>& grid) {
   world.column<node::Fixed>();
 }
 
+/// Particles as dense as the liquid.
+inline void set_volumes(World& world) {
+  const auto m_p = world.column<particle::Mass>();
+  const auto V_p = world.column<particle::Volume>();
+  for (std::size_t p = 0; p < m_p.size(); ++p) V_p[p] = m_p[p] / world.resource<Fluid>().density;
+}
+
 template <int Dim>
 void sort(World& world) {
   run<Bin<Dim>>(world);
@@ -132,6 +139,7 @@ void fill(World& world, std::size_t count, std::uint64_t seed, const Grid<Dim>& 
     m_p[p] = random(0.5, 1.5);
     id[p] = static_cast<std::int64_t>(p);
   }
+  set_volumes(world);
   sort<Dim>(world);
   run<P2GMass<Dim>>(world);
 }
