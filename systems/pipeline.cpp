@@ -43,6 +43,19 @@ struct Needs {
         probes(!scene.probes.empty()) {}
 };
 
+/// `systems`, and `more` if `needed`.
+std::vector<std::string> with(std::vector<std::string> systems, bool needed, const std::string& more) {
+  if (needed) systems.push_back(more);
+  return systems;
+}
+
+void append(std::vector<std::string>& systems, const std::vector<std::string>& more) {
+  systems.insert(systems.end(), more.begin(), more.end());
+}
+
+/// Volume and capacity of the nodes that particles touch where they are.
+std::vector<std::string> node_volume_systems() { return {"gather_node_volume", "find_end_capacity"}; }
+
 std::vector<std::string> force_systems(const Needs& needs) {
   if (needs.uniform_force) return {needs.ode ? "uniform_body_force_ode" : "uniform_body_force", "free_flight"};
   return {needs.ode ? "sample_body_force_ode" : "sample_body_force", "p2g_body_force", "free_flight"};
@@ -52,9 +65,9 @@ std::vector<std::string> force_systems(const Needs& needs) {
 bool needs_viscosity_matrix(const Needs& needs) { return needs.viscous || needs.stabilization == "vms"; }
 
 std::vector<std::string> assemble_systems(const Needs& needs) {
-  std::vector<std::string> systems{"moments"};
-  if (needs.quadrature == "mixed") systems = {"find_full_nodes", "moments_mixed"};
-  systems.emplace_back("divergence_matrix");
+  std::vector<std::string> systems;
+  if (needs.quadrature == "mixed") systems.emplace_back("find_full_nodes");
+  append(systems, {"moments", "divergence_matrix"});
   if (needs_viscosity_matrix(needs)) systems.emplace_back("viscosity_matrix");
   if (needs.stabilization == "vms") {
     systems.emplace_back("add_vms_bulk_viscosity");
@@ -63,8 +76,8 @@ std::vector<std::string> assemble_systems(const Needs& needs) {
   }
   if (needs.stabilization == "oss") systems.emplace_back("p2g_pressure_gradient");
   systems.push_back("stabilize_" + needs.stabilization);
+  systems.emplace_back("right_hand_side");
   const std::string viscous = needs_viscosity_matrix(needs) ? "_viscous" : "";
-  systems.push_back("right_hand_side" + viscous);
   if (needs.solver == "umfpack") systems.push_back("assemble_monolithic" + viscous);
   if (needs.corrected_inertia) systems.emplace_back("add_inertia_correction");
   return systems;
@@ -81,7 +94,9 @@ std::vector<std::string> solve_systems(const Needs& needs) {
 std::vector<std::string> measure_systems(const Needs& needs, const std::string& probes) {
   std::vector<std::string> systems{"measure_energy",
                                    needs.transfer.carries_gradient ? "measure_momentum_affine" : "measure_momentum",
-                                   "measure_max_speed", "measure_divergence", "measure_overlap"};
+                                   "measure_max_speed", "measure_divergence"};
+  append(systems, node_volume_systems());
+  systems.emplace_back("measure_overlap");
   // Their order is that of the columns.
   if (needs.probes) systems.push_back(probes);
   if (needs.exact_velocity) systems.emplace_back(needs.ode ? "measure_error_velocity_ode" : "measure_error_velocity");
@@ -97,23 +112,14 @@ bool limits_shift(const Needs& needs) { return needs.volume == "projection" && n
 
 std::vector<std::string> volume_systems(const Needs& needs) {
   if (needs.volume == "projection") {
-    std::vector<std::string> systems{"gather_node_volume", "find_volume_excess", "solve_volume_" + needs.solver};
+    std::vector<std::string> systems = node_volume_systems();
+    append(systems, {"find_volume_excess", "solve_volume_" + needs.solver});
     if (limits_shift(needs)) systems.emplace_back("limit_shift");
     systems.emplace_back("shift_particles");
     return systems;
   }
-  if (needs.volume == "delta") return {"gather_node_volume", "shift_by_delta"};
+  if (needs.volume == "delta") return with(node_volume_systems(), true, "shift_by_delta");
   return {};
-}
-
-/// `systems`, and `more` if `needed`.
-std::vector<std::string> with(std::vector<std::string> systems, bool needed, const std::string& more) {
-  if (needed) systems.push_back(more);
-  return systems;
-}
-
-void append(std::vector<std::string>& systems, const std::vector<std::string>& more) {
-  systems.insert(systems.end(), more.begin(), more.end());
 }
 
 /// Not with newmark, whose configuration lags behind by more than what this mends.
@@ -142,10 +148,10 @@ std::vector<Slot> step_slots(const Needs& needs) {
   return {
       {"configure", with({needs.newmark ? "configure_at_start" : "configure_at_middle"}, limits_shift(needs),
                          "keep_kinetic_energy")},
-      {"bin", {"bin", "number_nodes"}},
+      {"bin", {"bin", "number_nodes", "find_capacity"}},
       {"p2g", p2g_systems(needs)},
-      {"walls",
-       with({"activate", "find_neighbours", "hold_velocity_at_walls"}, needs.newmark, "hold_acceleration_at_walls")},
+      {"walls", with({"activate", "find_neighbours", "apply_wall_condition"}, needs.newmark,
+                     "apply_wall_condition_acceleration")},
       {"predict", with({needs.newmark ? "predict_newmark" : "predict_midpoint"}, needs.ode, "integrate_ode")},
       {"force", force_systems(needs)},
       {"assemble", with(assemble_systems(needs), !needs.newmark, "damp_divergence")},
@@ -161,10 +167,10 @@ std::vector<Slot> step_slots(const Needs& needs) {
 
 /// A backward Euler step on a configuration beside x^0 that leaves the particles where they are.
 std::vector<std::string> standing_step(const Needs& needs, const std::string& configure) {
-  std::vector<std::string> systems{configure, "bin", "number_nodes", "p2g_mass"};
+  std::vector<std::string> systems{configure, "bin", "number_nodes", "find_capacity", "p2g_mass"};
   if (needs_liquid_share(needs)) systems.emplace_back("find_liquid");
   append(systems, needs.transfer.p2g_velocity);
-  append(systems, {"activate", "find_neighbours", "hold_velocity_at_walls", "predict_backward_euler"});
+  append(systems, {"activate", "find_neighbours", "apply_wall_condition", "predict_backward_euler"});
   for (const auto& part : {force_systems(needs), assemble_systems(needs), solve_systems(needs)}) append(systems, part);
   return systems;
 }

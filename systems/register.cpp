@@ -8,6 +8,7 @@
 #include "systems/assemble/vms.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/capacity.hpp"
 #include "systems/grid/full_nodes.hpp"
 #include "systems/grid/liquid.hpp"
 #include "systems/grid/number_nodes.hpp"
@@ -51,6 +52,8 @@ void register_systems(SystemRegistry& registry) {
   registry.add<ConfigureStepAhead>("configure_step_ahead");
   registry.add<Bin>("bin");
   registry.add<NumberNodes>("number_nodes");
+  registry.add<FindCapacity>("find_capacity");
+  registry.add<FindEndCapacity>("find_end_capacity");
 
   registry.add<P2GMass>("p2g_mass");
   registry.add<P2GVelocityPic>("p2g_velocity_pic");
@@ -61,8 +64,8 @@ void register_systems(SystemRegistry& registry) {
 
   registry.add<Activate>("activate");
   registry.add<FindNeighbours>("find_neighbours");
-  registry.add<HoldVelocityAtWalls>("hold_velocity_at_walls");
-  registry.add<HoldAccelerationAtWalls>("hold_acceleration_at_walls");
+  registry.add<ApplyWallCondition>("apply_wall_condition");
+  registry.add<ApplyWallConditionAcceleration>("apply_wall_condition_acceleration");
 
   registry.add<PredictNewmark>("predict_newmark");
   registry.add<PredictMidpoint>("predict_midpoint");
@@ -84,7 +87,6 @@ void register_systems(SystemRegistry& registry) {
 
   registry.add<FindFullNodes>("find_full_nodes");
   registry.add<GatherMoments>("moments");
-  registry.add<GatherMomentsMixed>("moments_mixed");
   registry.add<AssembleDivergence>("divergence_matrix");
   registry.add<AssembleLaplacian>("laplacian_matrix");
   registry.add<LaplacianFromViscosity>("laplacian_from_viscosity");
@@ -106,7 +108,6 @@ void register_systems(SystemRegistry& registry) {
   registry.add<SolveBlock>("solve_block");
   registry.add<SolveBlockViscous>("solve_block_viscous");
   registry.add<FillRightHandSide>("right_hand_side");
-  registry.add<FillRightHandSideViscous>("right_hand_side_viscous");
   registry.add<UnpackSolution>("unpack_solution");
 
   registry.add<G2PVelocityPic>("g2p_velocity_pic");

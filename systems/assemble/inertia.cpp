@@ -2,7 +2,7 @@
 
 #include "systems/assemble/moments.hpp"
 #include "systems/grid/activate.hpp"
-#include "systems/grid/walls.hpp"
+#include "systems/grid/constraint.hpp"
 
 namespace minamo {
 
@@ -56,19 +56,21 @@ void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> st
                                            Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
                                            Read<Moments<Dim>> moments, Read<LiquidShare> liquid,
                                            Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p,
-                                           Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+                                           Read<node::Row> row, Read<node::Constraint> constraint,
+                                           Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
                                            Read<matrix::Node> node, Write<node::InertiaCorrection<Dim>> c_i,
                                            Update<matrix::RightHandSide> right_hand_side) const {
   scatter_first_moment<Dim>(*grid, *cells, fluid->density, *moments, m_p.span(), grad_f_p.span(), *liquid, c_i.span());
   const double share = std::min(1.0, step->seconds / clock->step);
   const double light = light_mass(m_i.span());
+  const Constraints<Dim> constraints{constraint.span(), frame.span()};
   for_each_row(c_i.size(), [&](std::size_t i) {
     // What the liquid does to a light node next to a wall is not to come back to it as inertia of its own.
     if (row[i] < 0 || m_i[i] <= light) {
       c_i[i].setZero();
     } else {
       c_i[i] *= share / m_i[i];
-      hold<Dim>(fixed[i], c_i[i]);
+      hold_at_rest<Dim>(constraints, i, c_i[i]);
     }
   });
   for_each_row(node.size(), [&](std::size_t r) {

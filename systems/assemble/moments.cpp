@@ -111,16 +111,14 @@ class FullnessWithin {
   std::array<double, support_size<Dim>> coefficient_;
 };
 
-/// The part of (E68) that the particles of a cell bring.
-template <int Dim>
-CellMoments<Dim> sum_beside(const Support<Dim>& support, const std::array<double, support_size<Dim>>& theta,
-                            const typename OccupiedCells<Dim>::Cell& cell, std::span<const Vec<Dim>> y_p,
-                            std::span<const double> V_p) {
-  const FullnessWithin<Dim> fullness(support.basis, theta);
+/// The sum over the particles of a cell of V_p share(xi) xi^a eta^b zeta^c.
+template <int Dim, class Share>
+CellMoments<Dim> sum_over_particles(const Support<Dim>& support, const typename OccupiedCells<Dim>::Cell& cell,
+                                    std::span<const Vec<Dim>> y_p, std::span<const double> V_p, const Share& share) {
   MomentSum<Dim> moments;
   for (std::size_t p = cell.begin; p < cell.end; ++p) {
     const Vec<Dim> xi = (y_p[p] - support.centre) * support.per_spacing;
-    moments.add((1 - fullness.at(xi)) * V_p[p], xi);
+    moments.add(share(xi) * V_p[p], xi);
   }
   return moments.sum();
 }
@@ -130,39 +128,31 @@ CellMoments<Dim> sum_beside(const Support<Dim>& support, const std::array<double
 template <int Dim>
 void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                                     Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p,
-                                    Write<Moments<Dim>> moments) const {
-  moments->of_cell.resize(cells->cells.size());
-  moments->is_full.assign(cells->cells.size(), 0);
-  for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const Vec<Dim> centre = grid->position(cell.node);
-    MomentSum<Dim> sum;
-    for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      sum.add(V_p[p], (y_p[p] - centre) / grid->spacing);
-    }
-    moments->of_cell[c] = sum.sum();
-  });
-}
-
-template <int Dim>
-void GatherMomentsMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                         Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p,
-                                         Read<node::Fullness> theta_i, Write<Moments<Dim>> moments) const {
+                                    Optional<Read<node::Fullness>> theta_i, Write<Moments<Dim>> moments) const {
   moments->of_cell.resize(cells->cells.size());
   moments->is_full.resize(cells->cells.size());
   const double cell_volume = std::pow(grid->spacing, Dim);
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
-    std::array<double, support_size<Dim>> theta;
-    for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = theta_i[support.node[k]];
+    std::array<double, support_size<Dim>> theta{};
+    if (theta_i) {
+      for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = theta_i[support.node[k]];
+    }
     const auto [least, most] = std::minmax_element(theta.begin(), theta.end());
     moments->is_full[c] = *least == 1;
-    CellMoments<Dim> sum{};
-    if (*least < 1) sum = sum_beside<Dim>(support, theta, cell, y_p.span(), V_p.span());
-    if (*most > 0) {
-      const CellMoments<Dim> inside = integrate_theta<Dim>(support.basis, theta);
-      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += cell_volume * inside[k];
+    CellMoments<Dim>& sum = moments->of_cell[c];
+    if (*most == 0) {
+      sum = sum_over_particles<Dim>(support, cell, y_p.span(), V_p.span(), [](const Vec<Dim>&) { return 1.0; });
+      return;
     }
-    moments->of_cell[c] = sum;
+    sum.fill(0);
+    if (*least < 1) {
+      const FullnessWithin<Dim> fullness(support.basis, theta);
+      sum = sum_over_particles<Dim>(support, cell, y_p.span(), V_p.span(),
+                                    [&](const Vec<Dim>& xi) { return 1 - fullness.at(xi); });
+    }
+    const CellMoments<Dim> inside = integrate_theta<Dim>(support.basis, theta);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += cell_volume * inside[k];
   });
 }
 
@@ -217,8 +207,6 @@ const PairPlaces<Dim>& pair_places() {
 
 template struct GatherMoments<2>;
 template struct GatherMoments<3>;
-template struct GatherMomentsMixed<2>;
-template struct GatherMomentsMixed<3>;
 template CellMoments<2> integrate_theta<2>(const CellBasis<2>&, const std::array<double, 9>&);
 template CellMoments<3> integrate_theta<3>(const CellBasis<3>&, const std::array<double, 27>&);
 template void cell_matrix<2>(const CellMoments<2>&, const PairFactors<2>&, CellMatrix<2>&);

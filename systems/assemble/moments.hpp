@@ -14,14 +14,6 @@
 
 namespace minamo {
 
-/// (E19)  M_abc = sum_p V_p xi^a eta^b zeta^c over the particles of a cell: they are the points of the quadrature.
-template <int Dim>
-struct GatherMoments {
-  static constexpr std::string_view doc = "(E19) moments of dual cells";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                  Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p, Write<Moments<Dim>> moments) const;
-};
-
 /// Of one cell, at [a + 5 b + 25 c].
 template <int Dim>
 using CellMoments = std::array<double, stencil_size<Dim>>;
@@ -30,15 +22,17 @@ using CellMoments = std::array<double, stencil_size<Dim>>;
 template <int Dim>
 CellMoments<Dim> integrate_theta(const CellBasis<Dim>& basis, const std::array<double, support_size<Dim>>& theta);
 
-/// (E68)  M_abc = sum_p V_p (1 - theta(y_p)) xi^a eta^b zeta^c + the integral over the cell of theta xi^a eta^b zeta^c,
-/// theta = sum_J theta_J S_J of (E67): particles are the points of the quadrature where there is a surface, and nothing
-/// depends on where they are inside the liquid. Mixed integration is known from L. Beuth, Z. Wieckowski, P. A. Vermeer,
-/// IJNAMG 35 (2011) 1451, doi:10.1002/nag.965, cell by cell; the smooth passage from one to the other is ours.
+/// (E19)  M_abc = sum_p V_p xi^a eta^b zeta^c over the particles of a cell: they are the points of the quadrature.
+/// (E68)  Where a scene has theta, M_abc = sum_p V_p (1 - theta(y_p)) xi^a eta^b zeta^c + the integral over the cell of
+/// theta xi^a eta^b zeta^c, theta = sum_J theta_J S_J of (E67): particles are the points of the quadrature where there
+/// is a surface, and nothing depends on where they are inside the liquid. Mixed integration is known from L. Beuth, Z.
+/// Wieckowski, P. A. Vermeer, IJNAMG 35 (2011) 1451, doi:10.1002/nag.965, cell by cell; the smooth passage from one to
+/// the other is ours.
 template <int Dim>
-struct GatherMomentsMixed {
-  static constexpr std::string_view doc = "(E68) moments of dual cells, mixed quadrature";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                  Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p, Read<node::Fullness> theta_i,
+struct GatherMoments {
+  static constexpr std::string_view doc = "(E19) (E68) moments of dual cells";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+                  Read<particle::Volume> V_p, Optional<Read<node::Fullness>> theta_i,
                   Write<Moments<Dim>> moments) const;
 };
 

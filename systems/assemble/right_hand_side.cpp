@@ -2,6 +2,7 @@
 
 #include "engine/parallel.hpp"
 #include "systems/assemble/neighbours.hpp"
+#include "systems/grid/constraint.hpp"
 #include "systems/solve/equations.hpp"
 
 namespace minamo {
@@ -11,7 +12,7 @@ namespace {
 template <int Dim>
 struct KnownTerms {
   double c_v;
-  std::span<const std::uint8_t> fixed;
+  Constraints<Dim> constraints;
   std::span<const double> m_i;
   std::span<const Vec<Dim>> b_i;
   std::span<const Vec<Dim>> v_known;
@@ -42,9 +43,8 @@ void fill_row(const KnownTerms<Dim>& t, std::size_t r, double* out) {
       }
     }
   });
-  for (std::size_t d = 0; d < Dim; ++d) {
-    out[d] = t.fixed[i] >> d & 1 ? 0 : momentum[static_cast<Eigen::Index>(d)];
-  }
+  hold_at_rest<Dim>(t.constraints, i, momentum);
+  for (std::size_t d = 0; d < Dim; ++d) out[d] = momentum[static_cast<Eigen::Index>(d)];
   out[Dim] = mass;
 }
 
@@ -61,15 +61,17 @@ void fill(const KnownTerms<Dim>& terms, std::vector<double>& right_hand_side) {
 }  // namespace
 
 template <int Dim>
-void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Constraint> constraint,
+                                        Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
                                         Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
                                         Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
                                         Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                                         Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::StabilizationSource> source,
+                                        Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                                         Write<matrix::RightHandSide> right_hand_side) const {
   fill<Dim>({rates->velocity,
-             fixed.span(),
+             {constraint.span(), frame.span()},
              m_i.span(),
              b_i.span(),
              v_known.span(),
@@ -79,25 +81,11 @@ void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Fixed> fix
              neighbour.span(),
              divergence.span(),
              source.span(),
-             {}},
-            right_hand_side->values);
-}
-
-template <int Dim>
-void FillRightHandSideViscous<Dim>::operator()(
-    Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-    Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
-    Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
-    Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
-    Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::RightHandSide> right_hand_side) const {
-  fill<Dim>({rates->velocity, fixed.span(), m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(),
-             node.span(), neighbour.span(), divergence.span(), source.span(), viscosity.span()},
+             viscosity.span()},
             right_hand_side->values);
 }
 
 template struct FillRightHandSide<2>;
 template struct FillRightHandSide<3>;
-template struct FillRightHandSideViscous<2>;
-template struct FillRightHandSideViscous<3>;
 
 }  // namespace minamo

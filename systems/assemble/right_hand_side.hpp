@@ -14,22 +14,14 @@ namespace minamo {
 
 template <int Dim>
 struct FillRightHandSide {
-  static constexpr std::string_view doc = "(E25) (E26) right-hand side, inviscid";
-  void operator()(Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
-                  Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
+  static constexpr std::string_view doc = "(E25) (E26) right-hand side";
+  void operator()(Read<Rates> rates, Read<node::Constraint> constraint,
+                  Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
+                  Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
+                  Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
+                  Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
-                  Write<matrix::RightHandSide> right_hand_side) const;
-};
-
-template <int Dim>
-struct FillRightHandSideViscous {
-  static constexpr std::string_view doc = "(E25) (E26) right-hand side, viscous";
-  void operator()(Read<Rates> rates, Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
-                  Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
-                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
-                  Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::RightHandSide> right_hand_side) const;
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Write<matrix::RightHandSide> right_hand_side) const;
 };
 
 }  // namespace minamo

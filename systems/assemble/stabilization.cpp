@@ -1,7 +1,6 @@
 #include "systems/assemble/stabilization.hpp"
 
 #include "systems/assemble/neighbours.hpp"
-#include "systems/grid/node_volume.hpp"
 #include "systems/transfer/gather.hpp"
 #include "systems/transfer/scatter.hpp"
 
@@ -71,7 +70,7 @@ void StabilizePspg<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
 }
 
 template <int Dim>
-void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<node::Site<Dim>> sites,
+void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<node::Capacity> capacity,
                                    Read<Fluid> fluid, Read<node::Row> row, Read<node::Mass> m_i,
                                    Read<node::BodyForce<Dim>> b_i, Read<node::PressureGradient<Dim>> g_i,
                                    Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
@@ -84,7 +83,7 @@ void StabilizeOss<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read
   constexpr double full_enough = 0.6;  // without this guard the dam break blows up at its surface
   fill_rows<Dim>(tau, row.span(), neighbour.span(), divergence.span(), laplacian.span(), stabilization.span(),
                  source.span(), [&](std::size_t r, std::size_t k, std::uint32_t j, const auto& row_j) {
-                   const bool full = m_i[j] > full_enough * fluid->density * full_volume<Dim>(*grid, sites[j]);
+                   const bool full = m_i[j] > full_enough * fluid->density * capacity[j];
                    const Vec<Dim> g = full ? g_i[j] : Vec<Dim>(fluid->density * b_i[j]);
                    source[r] += tau * dot<Dim>(row_j, stencil_size<Dim> - 1 - k, g);
                  });

@@ -10,7 +10,6 @@
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
-#include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
@@ -36,7 +35,7 @@ struct StabilizePspg {
 template <int Dim>
 struct StabilizeOss {
   static constexpr std::string_view doc = "(E48) orthogonal subscales";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<node::Site<Dim>> sites, Read<Fluid> fluid,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<node::Capacity> capacity, Read<Fluid> fluid,
                   Read<node::Row> row, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
                   Read<node::PressureGradient<Dim>> g_i, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Laplacian<Dim>> laplacian,

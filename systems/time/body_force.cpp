@@ -1,7 +1,7 @@
 #include "systems/time/body_force.hpp"
 
 #include "engine/step_control.hpp"
-#include "systems/grid/walls.hpp"
+#include "systems/grid/constraint.hpp"
 #include "systems/transfer/scatter.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -49,14 +49,18 @@ void P2GBodyForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>
 }
 
 template <int Dim>
-void FreeFlight<Dim>::operator()(Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+void FreeFlight<Dim>::operator()(Read<node::Row> row, Read<node::Constraint> constraint,
+                                 Optional<Read<node::ConstraintFrame<Dim>>> frame,
+                                 Optional<Read<node::ConstraintVelocity<Dim>>> w_i, Read<node::Mass> m_i,
                                  Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
-                                 Read<node::KnownAcceleration<Dim>> a_known, Write<node::Displacement<Dim>> u_i) const {
+                                 Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+                                 Write<node::Displacement<Dim>> u_i) const {
+  const Constraints<Dim> constraints{constraint.span(), frame.span(), w_i.span()};
   for_each_row(u_i.size(), [&](std::size_t i) {
     u_i[i].setZero();
-    if (row[i] >= 0 || m_i[i] == 0) return;
-    u_i[i] = (b_i[i] - a_known[i]) / rates->acceleration;
-    hold<Dim>(fixed[i], u_i[i]);
+    if (m_i[i] == 0) return;
+    if (row[i] < 0) u_i[i] = (b_i[i] - a_known[i]) / rates->acceleration;
+    hold_displacement<Dim>(constraints, i, rates->velocity, v_known[i], u_i[i]);
   });
 }
 

@@ -45,14 +45,17 @@ struct P2GBodyForce {
                   Write<node::BodyForce<Dim>> b_i) const;
 };
 
-/// (E15)  Light nodes move freely, a_I = b_I: u_I = (b_I - a^_I)/c_a. Active nodes get zero, to be filled by the solve.
+/// (E15)  Light nodes move freely, a_I = b_I: u_I = (b_I - a^_I)/c_a. Active nodes get what walls
+/// prescribe, zero where they are at rest; the solve adds the rest.
 /// With this every node with mass has a velocity: a uniform flow has no divergence, and of the linear momentum only the
 /// pressure force on light nodes is lost, less than 1e-5 in tests/property/conservation_test.cpp.
 template <int Dim>
 struct FreeFlight {
   static constexpr std::string_view doc = "(E15) u_I of light nodes";
-  void operator()(Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                  Read<Rates> rates, Read<node::KnownAcceleration<Dim>> a_known,
+  void operator()(Read<node::Row> row, Read<node::Constraint> constraint,
+                  Optional<Read<node::ConstraintFrame<Dim>>> frame, Optional<Read<node::ConstraintVelocity<Dim>>> w_i,
+                  Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
+                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
                   Write<node::Displacement<Dim>> u_i) const;
 };
 

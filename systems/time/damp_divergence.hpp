@@ -25,9 +25,9 @@ template <int Dim>
 struct DampDivergence {
   static constexpr std::string_view doc = "(E63) part of the divergence at the start, let out at the middle";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Site<Dim>> site,
-                  Read<node::Mass> m_i, Read<node::Velocity<Dim>> v_i, Read<matrix::Node> node,
-                  Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
-                  Update<matrix::RightHandSide> right_hand_side) const;
+                  Read<node::Mass> m_i, Read<node::Capacity> capacity, Read<node::Velocity<Dim>> v_i,
+                  Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
+                  Read<matrix::Divergence<Dim>> divergence, Update<matrix::RightHandSide> right_hand_side) const;
 };
 
 }  // namespace minamo

@@ -19,7 +19,8 @@ template <int Dim>
 struct FilterVelocityXpic {
   static constexpr std::string_view doc = "(E46) v*_I, XPIC";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<FilterOrder> order, Read<node::Mass> m_i, Read<node::Fixed> fixed,
+                  Read<particle::Mass> m_p, Read<FilterOrder> order, Read<node::Mass> m_i,
+                  Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
                   Read<node::Velocity<Dim>> v_i, Write<node::Residue<Dim>> residue, Write<node::Smoothed<Dim>> smoothed,
                   Write<node::FilteredVelocity<Dim>> v_filtered) const;
 };

@@ -18,7 +18,7 @@ template <int Dim>
 struct ShiftByDelta {
   static constexpr std::string_view doc = "(E52) x_p, delta-correction";
   void operator()(Read<Grid<Dim>> grid, Read<particle::Volume> V_p, Read<EndSites<Dim>> rows,
-                  Read<end_node::Site<Dim>> sites, Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i,
+                  Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i,
                   Write<end_node::VolumeResponse> r_i, Update<particle::Position<Dim>> x_p) const;
 };
 

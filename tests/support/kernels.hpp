@@ -8,6 +8,7 @@
 #include "components/particle.hpp"
 #include "engine/system.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/capacity.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/grid/support.hpp"
 #include "systems/transfer/mass.hpp"
@@ -91,6 +92,7 @@ void number_all_nodes(World& world) {
     for_each_support<Dim>(
         [&](std::size_t k, const Index<Dim>& offset) { cell.rows[k] = *rows.find(support.site(grid, offset)); });
   }
+  run<FindCapacity<Dim>>(world);
 }
 
 template <int Dim>
@@ -98,7 +100,7 @@ void set_grid(World& world, const Grid<Dim>& grid) {
   world.resource<Grid<Dim>>() = grid;
   world.resource<Fluid>() = {1000, 0.7};
   number_all_nodes<Dim>(world);
-  world.column<node::Fixed>();
+  world.column<node::Constraint>();
 }
 
 /// Particles as dense as the liquid.
