@@ -32,6 +32,11 @@ struct Site : Column<EndNodes, Index<Dim>> {
   static constexpr ComponentInfo info{"end_node.site", "", "1", Lifetime::scratch};
 };
 
+/// V_I of (E39), as node::Capacity. [m^3; m^2 in 2-D]
+struct Capacity : Column<EndNodes, double> {
+  static constexpr ComponentInfo info{"end_node.capacity", "V_I", "m^d", Lifetime::scratch};
+};
+
 /// Volume V~_I of the particles around a node at the end of the step. [m^3; m^2 in 2-D]
 struct Volume : Column<EndNodes, double> {
   static constexpr ComponentInfo info{"end_node.volume", "V~_I", "m^d", Lifetime::scratch};

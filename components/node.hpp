@@ -22,9 +22,22 @@ struct Site : Column<Nodes, Index<Dim>> {
   static constexpr ComponentInfo info{"node.site", "", "1", Lifetime::state};
 };
 
-/// Components of the displacement that a wall holds at zero: bit d for direction d. [1]
-struct Fixed : Column<Nodes, std::uint8_t> {
-  static constexpr ComponentInfo info{"node.fixed", "", "1", Lifetime::scratch};
+/// Directions in which walls prescribe the velocity: bit d for axis d of the node's frame. [1]
+struct Constraint : Column<Nodes, std::uint8_t> {
+  static constexpr ComponentInfo info{"node.constraint", "", "1", Lifetime::scratch};
+};
+
+/// The node's frame, a rotation whose rows are its axes. A scene without oblique walls has no such column: frames are
+/// that of the grid. [1]
+template <int Dim>
+struct ConstraintFrame : Column<Nodes, Mat<Dim>> {
+  static constexpr ComponentInfo info{"node.constraint_frame", "R_I", "1", Lifetime::scratch};
+};
+
+/// Velocity of the wall, prescribed in the held directions. A scene whose walls are at rest has no such column. [m/s]
+template <int Dim>
+struct ConstraintVelocity : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.constraint_velocity", "w_I", "m/s", Lifetime::scratch};
 };
 
 /// Row in the matrix tables, -1 for a node that is not active. [1]
@@ -35,6 +48,11 @@ struct Row : Column<Nodes, std::int32_t> {
 /// Mass m_I. [kg]
 struct Mass : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.mass", "m_I", "kg", Lifetime::scratch};
+};
+
+/// V_I of (E39): volume of the part of the domain that the node stands for, the integral of S_I. [m^3; m^2 in 2-D]
+struct Capacity : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.capacity", "V_I", "m^d", Lifetime::scratch};
 };
 
 /// phi_I of (E67): the share of the node's volume that the particles fill. [1]

@@ -18,9 +18,14 @@ struct Id : Column<Particles, std::int64_t> {
   static constexpr ComponentInfo info{"particle.id", "p", "1", Lifetime::state};
 };
 
-/// Mass m_p, constant; the volume is V_p = m_p / rho. In 2-D per metre of depth. [kg]
+/// Mass m_p, constant. In 2-D per metre of depth. [kg]
 struct Mass : Column<Particles, double> {
   static constexpr ComponentInfo info{"particle.mass", "m_p", "kg", Lifetime::state};
+};
+
+/// Volume V_p, constant: the liquid is incompressible. [m^3; m^2 in 2-D]
+struct Volume : Column<Particles, double> {
+  static constexpr ComponentInfo info{"particle.volume", "V_p", "m^d", Lifetime::state};
 };
 
 /// Position x_p. [m]

@@ -1,6 +1,5 @@
 #include "systems/grid/full_nodes.hpp"
 
-#include "systems/grid/node_volume.hpp"
 #include "systems/grid/support.hpp"
 
 namespace minamo {
@@ -16,12 +15,12 @@ constexpr double all_from = 0.97;
 
 template <int Dim>
 void FindFullNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                                    Read<node::Mass> m_i, Write<node::Filling> phi_i,
+                                    Read<node::Mass> m_i, Read<node::Capacity> capacity, Write<node::Filling> phi_i,
                                     Write<node::Fullness> theta_i) const {
   for_each_row(theta_i.size(), [&](std::size_t i) { phi_i[i] = theta_i[i] = 0; });
   for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
     const std::size_t i = Support<Dim>(*grid, cell).own();
-    phi_i[i] = m_i[i] / (fluid->density * full_volume<Dim>(*grid, cell.node));
+    phi_i[i] = m_i[i] / (fluid->density * capacity[i]);
   });
   for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
     const Support<Dim> support(*grid, cell);

@@ -16,7 +16,7 @@ template <int Dim>
 struct FindFullNodes {
   static constexpr std::string_view doc = "(E67) nodes that the liquid fills";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid, Read<node::Mass> m_i,
-                  Write<node::Filling> phi_i, Write<node::Fullness> theta_i) const;
+                  Read<node::Capacity> capacity, Write<node::Filling> phi_i, Write<node::Fullness> theta_i) const;
 };
 
 }  // namespace minamo

@@ -1,11 +1,12 @@
 #include "components/grid.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/capacity.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/scene_checks.hpp"
-#include "systems/solve/neighbours.hpp"
+#include "systems/assemble/neighbours.hpp"
 
 namespace minamo {
 
@@ -44,6 +45,7 @@ Contribution read_grid(Input& input, Scene& scene) {
   return [](const Scene& scene, Recipe& recipe) {
     recipe.add("sort", "bin");
     recipe.add("sort", "number_nodes");
+    recipe.add("sort", "find_capacity");
     recipe.add("boundaries", "activate");
     recipe.add("boundaries", "find_neighbours");
     with_dimension(scene.dimension, [&](auto dim) { recipe.constant(make_grid<dim()>(scene.grid)); });
@@ -55,6 +57,8 @@ Contribution read_grid(Input& input, Scene& scene) {
 void add_grid(SystemRegistry& registry) {
   registry.add<Bin>("bin");
   registry.add<NumberNodes>("number_nodes");
+  registry.add<FindCapacity>("find_capacity");
+  registry.add<FindEndCapacity>("find_end_capacity");
   registry.add<Activate>("activate");
   registry.add<FindNeighbours>("find_neighbours");
   registry.add(Part{"grid", "the box and its cells", read_grid});

@@ -10,9 +10,8 @@
 
 namespace minamo {
 
-/// w_c of (E61) from the mass of the nodes of a dual cell.
-template <int Dim>
-double liquid_share(const Grid<Dim>& grid, const SupportBox<Dim>& around, double density, double mass);
+/// w_c of (E61) from f_c.
+double liquid_share(double fill_fraction);
 
 /// (E61)  w_c = min(1, max(0, 5 f_c - 1.5)), f_c = sum_J m_J / (rho sum_J V_J) over the nodes of a dual cell, V_J
 /// (E39). A cell full of particles that is alone has f_c = 0.1 to 0.24, one at a corner of a body 0.44, one in a film
@@ -21,7 +20,7 @@ template <int Dim>
 struct FindLiquid {
   static constexpr std::string_view doc = "(E61) share of a cell that is liquid, not spray";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid, Read<node::Mass> m_i,
-                  Write<LiquidShare> liquid) const;
+                  Read<node::Capacity> capacity, Write<LiquidShare> liquid) const;
 };
 
 }  // namespace minamo

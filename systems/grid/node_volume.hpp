@@ -11,28 +11,14 @@
 
 namespace minamo {
 
-/// (E39)  V_I, the integral of S_I over the box: h^d, times 13/24 on a wall and 23/24 beside it. [m^3; m^2 in 2-D]
+/// (E39)  V_I of a box with nothing inside: h^d, times 13/24 on a wall and 23/24 beside it. Kernels read
+/// node::Capacity, which may be less. [m^3; m^2 in 2-D]
 template <int Dim>
 double full_volume(const Grid<Dim>& grid, const Index<Dim>& site) {
   double volume = 1;
   for (std::size_t d = 0; d < Dim; ++d) {
     volume *= grid.spacing;
     if (!grid.periodic[d]) volume *= axis_integral(site[d], grid.cells[d]);
-  }
-  return volume;
-}
-
-/// sum_I V_I over the nodes of a dual cell.
-template <int Dim>
-double full_volume(const Grid<Dim>& grid, const SupportBox<Dim>& support) {
-  double volume = 1;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    double length = 3;
-    if (!grid.periodic[d]) {
-      length = 0;
-      for (int a = 0; a < 3; ++a) length += axis_integral(support.first[d] + a, grid.cells[d]);
-    }
-    volume *= grid.spacing * length;
   }
   return volume;
 }
@@ -58,10 +44,9 @@ void number_end_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resi
 
 /// What particles in one dual cell give to its nodes, sum_p S_I(x_p) V_p, from their sums of V_p xi^a eta^b zeta^c.
 template <int Dim>
-std::array<double, support_size<Dim>> volume_of_run(const Grid<Dim>& grid, const Index<Dim>& own, double density,
-                                                    std::span<const Vec<Dim>> x_p, std::span<const double> m_p) {
+std::array<double, support_size<Dim>> volume_of_run(const Grid<Dim>& grid, const Index<Dim>& own,
+                                                    std::span<const Vec<Dim>> x_p, std::span<const double> V_p) {
   const SupportBox<Dim> support(grid, own);
-  const double per_density = 1 / density;
   std::array<double, support_size<Dim>> moments{};
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const Vec<Dim> xi = (in_cell<Dim>(grid, support.centre, x_p[p]) - support.centre) * support.per_spacing;
@@ -70,9 +55,8 @@ std::array<double, support_size<Dim>> volume_of_run(const Grid<Dim>& grid, const
       const double x = xi[static_cast<Eigen::Index>(d)];
       powers[d] = {1, x, x * x};
     }
-    const double v = m_p[p] * per_density;
     for_each_support<Dim>([&](std::size_t k, const Index<Dim>& of) {
-      double product = v;
+      double product = V_p[p];
       for (std::size_t d = Dim; d-- > 0;) product *= powers[d][static_cast<std::size_t>(of[d])];
       moments[k] += product;
     });
@@ -85,15 +69,14 @@ std::array<double, support_size<Dim>> volume_of_run(const Grid<Dim>& grid, const
 /// (E35)  V~_I = sum_p S_I(x_p) V_p: first in every run, then one run after the other.
 /// \pre the rows are those of these particles.
 template <int Dim>
-void gather_node_volume(const Grid<Dim>& grid, EndSites<Dim>& rows, double density, std::span<const Vec<Dim>> x_p,
-                        std::span<const double> m_p, std::span<double> v_i) {
+void gather_node_volume(const Grid<Dim>& grid, EndSites<Dim>& rows, std::span<const Vec<Dim>> x_p,
+                        std::span<const double> V_p, std::span<double> v_i) {
   constexpr std::size_t runs_per_task = 64;
   const auto add_up = [&](std::size_t r) {
     auto& run = rows.runs[r];
     const std::size_t end = r + 1 < rows.runs.size() ? rows.runs[r + 1].begin : x_p.size();
     const std::size_t count = end - run.begin;
-    run.volume =
-        volume_of_run<Dim>(grid, run.node, density, x_p.subspan(run.begin, count), m_p.subspan(run.begin, count));
+    run.volume = volume_of_run<Dim>(grid, run.node, x_p.subspan(run.begin, count), V_p.subspan(run.begin, count));
   };
   for_each_row(rows.runs.size(), add_up, runs_per_task);
   std::fill(v_i.begin(), v_i.end(), 0.0);

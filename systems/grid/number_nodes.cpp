@@ -45,7 +45,7 @@ void look_up(const Grid<Dim>& grid, const WetSites<Dim>& rows, OccupiedCells<Dim
 template <int Dim>
 void NumberNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, Resize<Nodes> nodes,
                                   Update<OccupiedCells<Dim>> cells, Update<WetSites<Dim>> rows,
-                                  Update<node::Site<Dim>> sites, Write<node::Fixed> fixed,
+                                  Update<node::Site<Dim>> sites, Write<node::Constraint> constraint,
                                   Update<NumberingBuffer> buffer) const {
   rows->start(*grid);
   typename SiteRows<Dim>::Adder add(*rows);
@@ -58,7 +58,7 @@ void NumberNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, 
   nodes.renumber(buffer->from);
   rows->for_each([&](const Index<Dim>& site, std::uint32_t i) {
     sites[i] = site;
-    fixed[i] = held_at<Dim>(*grid, *walls, site);
+    constraint[i] = held_at<Dim>(*grid, *walls, site);
   });
   look_up<Dim>(*grid, *rows, *cells);
 }

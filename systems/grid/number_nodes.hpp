@@ -22,7 +22,7 @@ template <int Dim>
 struct NumberNodes {
   static constexpr std::string_view doc = "number the nodes of occupied dual cells";
   void operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, Resize<Nodes> nodes, Update<OccupiedCells<Dim>> cells,
-                  Update<WetSites<Dim>> rows, Update<node::Site<Dim>> sites, Write<node::Fixed> fixed,
+                  Update<WetSites<Dim>> rows, Update<node::Site<Dim>> sites, Write<node::Constraint> constraint,
                   Update<NumberingBuffer> buffer) const;
 };
 

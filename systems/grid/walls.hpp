@@ -7,26 +7,20 @@
 
 namespace minamo {
 
-/// (E8)  v_I . n = 0 at slip walls, v_I = 0 at no-slip walls.
+/// (E8)  v_I = w_I in the held directions: v_I . n = 0 at slip walls at rest, v_I = 0 at no-slip walls at rest.
 template <int Dim>
-struct HoldVelocityAtWalls {
+struct ApplyWallCondition {
   static constexpr std::string_view doc = "(E8) wall conditions on v_I^n";
-  void operator()(Read<node::Fixed> fixed, Update<node::Velocity<Dim>> v_i) const;
+  void operator()(Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
+                  Optional<Read<node::ConstraintVelocity<Dim>>> w_i, Update<node::Velocity<Dim>> v_i) const;
 };
 
-/// (E8) for the acceleration.
+/// (E8) for the acceleration, which is zero there: walls move steadily.
 template <int Dim>
-struct HoldAccelerationAtWalls {
+struct ApplyWallConditionAcceleration {
   static constexpr std::string_view doc = "(E8) wall conditions on a_I^n";
-  void operator()(Read<node::Fixed> fixed, Update<node::Acceleration<Dim>> a_i) const;
+  void operator()(Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
+                  Update<node::Acceleration<Dim>> a_i) const;
 };
-
-/// Sets the components of a nodal vector that a wall holds to zero.
-template <int Dim>
-inline void hold(std::uint8_t fixed, Vec<Dim>& value) {
-  for (int d = 0; d < Dim; ++d) {
-    if (fixed >> d & 1) value[d] = 0;
-  }
-}
 
 }  // namespace minamo

@@ -118,7 +118,7 @@ Contribution read_walls(Input& input, Scene& scene) {
   const Sides sides = read_sides(input, scene.grid.cells, conditions(registry_of(scene)));
   for (std::size_t d = 0; d < sides.size(); ++d) scene.grid.periodic[d] = sides[d][0] == periodic;
   return [sides](const Scene& scene, Recipe& recipe) {
-    recipe.add("boundaries", "hold_velocity_at_walls");
+    recipe.add("boundaries", "apply_wall_condition");
     with_dimension(scene.dimension,
                    [&](auto dim) { recipe.constant(make_walls<dim()>(sides, recipe.registry())); });
   };
@@ -127,7 +127,7 @@ Contribution read_walls(Input& input, Scene& scene) {
 }  // namespace
 
 void add_walls(SystemRegistry& registry) {
-  registry.add<HoldVelocityAtWalls>("hold_velocity_at_walls");
+  registry.add<ApplyWallCondition>("apply_wall_condition");
   registry.add(WallCondition{
       "slip", "no flow through the wall", [](int, int axis) { return static_cast<std::uint8_t>(1U << axis); }});
   registry.add(WallCondition{"no_slip", "no flow at the wall", [](int dimension, int) {

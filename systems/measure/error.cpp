@@ -65,11 +65,9 @@ void require_finite(double sum_of_squares, const char* name, const Instant& inst
 
 }  // namespace
 
-// The density is the same everywhere, so that masses weigh like volumes.
-
 template <int Dim>
 void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clock> clock,
-                                           Optional<Read<ode::Values>> ode, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                                           Optional<Read<ode::Values>> ode, Read<particle::Volume> V_p, Read<particle::Position<Dim>> x_p,
                                                    Read<particle::Velocity<Dim>> v_p,
                                                    Update<measure::Columns> columns) const {
   const Instant now = instant_of(ode, clock);
@@ -78,7 +76,7 @@ void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clo
   const auto sum = sum_of_parts<VelocitySum>(x_p.size(), [&](VelocitySum& part_sum, std::size_t part, std::size_t p) {
     Arguments arguments = start;
     const Vec<Dim> v = vector_at<Dim>(exact->of_part[part], arguments.at<Dim>(x_p[p]));
-    part_sum.join({m_p[p], m_p[p] * (v_p[p] - v).squaredNorm(), m_p[p] * v.squaredNorm()});
+    part_sum.join({V_p[p], V_p[p] * (v_p[p] - v).squaredNorm(), V_p[p] * v.squaredNorm()});
   });
   require_finite(sum.exact, "velocity", now);
   columns->set("error_velocity", relative(sum.difference, sum.exact, sum.weight));
@@ -86,7 +84,7 @@ void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clo
 
 template <int Dim>
 void MeasureErrorPressure<Dim>::operator()(Read<exact::Pressure> exact, Read<Rates> rates,
-                                           Optional<Read<ode::AtBalances>> ode, Read<particle::Mass> m_p, Read<particle::Configuration<Dim>> y_p,
+                                           Optional<Read<ode::AtBalances>> ode, Read<particle::Volume> V_p, Read<particle::Configuration<Dim>> y_p,
                                                    Read<particle::Pressure> p_p,
                                                    Update<measure::Columns> columns) const {
   const Instant now = instant_of(ode, rates);
@@ -95,8 +93,8 @@ void MeasureErrorPressure<Dim>::operator()(Read<exact::Pressure> exact, Read<Rat
   const auto sum = sum_of_parts<PressureSum>(y_p.size(), [&](PressureSum& part_sum, std::size_t part, std::size_t p) {
     Arguments arguments = start;
     const double pressure = exact->of_part[part](arguments.at<Dim>(y_p[p]));
-    part_sum.difference.add(m_p[p], p_p[p] - pressure);
-    part_sum.exact.add(m_p[p], pressure);
+    part_sum.difference.add(V_p[p], p_p[p] - pressure);
+    part_sum.exact.add(V_p[p], pressure);
   });
   const auto squares = [&](const WeightedMean& q) { return exact->is_free ? q.scatter : q.squares(); };
   require_finite(sum.exact.squares(), "pressure", now);

@@ -19,7 +19,7 @@ template <int Dim>
 struct MeasureErrorVelocity {
   static constexpr std::string_view doc = "(E41) error of the velocity";
   void operator()(Read<exact::Velocity> exact, Read<Clock> clock, Optional<Read<ode::Values>> ode,
-                  Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                  Read<particle::Volume> V_p, Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                   Update<measure::Columns> columns) const;
 };
 
@@ -31,7 +31,7 @@ template <int Dim>
 struct MeasureErrorPressure {
   static constexpr std::string_view doc = "(E42) error of the pressure";
   void operator()(Read<exact::Pressure> exact, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
-                  Read<particle::Mass> m_p, Read<particle::Configuration<Dim>> y_p, Read<particle::Pressure> p_p,
+                  Read<particle::Volume> V_p, Read<particle::Configuration<Dim>> y_p, Read<particle::Pressure> p_p,
                   Update<measure::Columns> columns) const;
 };
 

@@ -1,7 +1,6 @@
 #include "systems/measure/volume.hpp"
 
-#include "systems/grid/node_volume.hpp"
-#include "systems/solve/neighbours.hpp"
+#include "systems/assemble/neighbours.hpp"
 
 #include <cmath>
 #include <functional>
@@ -26,19 +25,13 @@ void MeasureDivergence<Dim>::operator()(Read<Fluid> fluid, Read<Rates> rates, Re
 }
 
 template <int Dim>
-void MeasureOverlap<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
-                                     Read<particle::Mass> m_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
-                                     Write<end_node::Site<Dim>> sites, Write<end_node::Volume> v_i,
-                                     Write<measure::Overlap> overlap) const {
-  number_end_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
-  gather_node_volume<Dim>(*grid, *rows, fluid->density, x_p.span(), m_p.span(), v_i.span());
-  const auto excess_of = [&](std::size_t i) {
-    return v_i[i] > 0 ? std::max(0.0, v_i[i] - full_volume<Dim>(*grid, sites[i])) : 0;
-  };
+void MeasureOverlap<Dim>::operator()(Read<particle::Volume> V_p, Read<end_node::Capacity> capacity,
+                                     Read<end_node::Volume> v_i, Write<measure::Overlap> overlap) const {
+  const auto excess_of = [&](std::size_t i) { return v_i[i] > 0 ? std::max(0.0, v_i[i] - capacity[i]) : 0; };
   const double excess = reduce_rows(v_i.size(), 0.0, excess_of, std::plus<>());
-  const double mass = reduce_rows(
-      m_p.size(), 0.0, [&](std::size_t p) { return m_p[p]; }, std::plus<>());
-  overlap->value = excess * fluid->density / mass;
+  const double volume = reduce_rows(
+      V_p.size(), 0.0, [&](std::size_t p) { return V_p[p]; }, std::plus<>());
+  overlap->value = excess / volume;
 }
 
 template struct MeasureDivergence<2>;

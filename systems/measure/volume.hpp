@@ -25,13 +25,12 @@ struct MeasureDivergence {
                   Write<measure::MaxDivergence> largest) const;
 };
 
-/// (E32)  overlap = sum_I max(0, V~_I - V_I) / sum_p V_p, V~_I = sum_p S_I(x_p) V_p, V_I the integral of S_I.
+/// (E32)  overlap = sum_I max(0, V~_I - V_I) / sum_p V_p, V~_I (E35), V_I (E39).
 template <int Dim>
 struct MeasureOverlap {
   static constexpr std::string_view doc = "(E32) overlap";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p, Read<particle::Mass> m_p,
-                  Resize<EndNodes> nodes, Write<EndSites<Dim>> rows, Write<end_node::Site<Dim>> sites,
-                  Write<end_node::Volume> v_i, Write<measure::Overlap> overlap) const;
+  void operator()(Read<particle::Volume> V_p, Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
+                  Write<measure::Overlap> overlap) const;
 };
 
 }  // namespace minamo

@@ -117,7 +117,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& prob
   return seeds;
 }
 
-/// (E6)  m_p = rho (h/n)^d for n per cell and direction, v_p = v(x_p), grad v_p by central differences.
+/// (E6)  m_p = rho (h/n)^d for n per cell and direction, V_p = m_p/rho, v_p = v(x_p), grad v_p by central differences.
 template <int Dim>
 void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& seeds, World& world,
                    SeedProblems& problems) {
@@ -126,6 +126,7 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
   const auto x_p = world.column<particle::Position<Dim>>();
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const auto m_p = world.column<particle::Mass>();
+  const auto V_p = world.column<particle::Volume>();
   const auto id = world.column<particle::Id>();
   const auto grad_v_p = with_gradient ? world.column<particle::VelocityGradient<Dim>>() : std::span<Mat<Dim>>{};
   const Instant start = scene.start;
@@ -137,6 +138,7 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     x_p[p] = seeds.position[p];
     id[p] = static_cast<std::int64_t>(p);
     m_p[p] = density * std::pow(grid.spacing / region.per_cell, Dim);
+    V_p[p] = m_p[p] * (1 / density);
     v_p[p] = value_at<Dim>(region.velocity, x_p[p], start);
     if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], start, grid.spacing);
     const bool finite = v_p[p].allFinite() && (!with_gradient || grad_v_p[p].allFinite());

@@ -1,8 +1,8 @@
 #include "systems/solve/monolithic.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/assemble/stencil.hpp"
 #include "systems/solve/equations.hpp"
-#include "systems/solve/stencil.hpp"
 
 namespace minamo {
 
@@ -122,7 +122,7 @@ void fill_monolithic(const EquationTerms<Dim>& t, const Grid<Dim>& grid, matrix:
 
 template <int Dim>
 void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                                         Read<node::Row> row, Read<node::Fixed> fixed, Read<node::Mass> m_i,
+                                         Read<node::Row> row, Read<node::Constraint> fixed, Read<node::Mass> m_i,
                                          Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                          Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
@@ -145,7 +145,7 @@ void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid
 template <int Dim>
 void AssembleMonolithicViscous<Dim>::operator()(
     Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-    Read<node::Fixed> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+    Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
     Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
     Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
   fill_monolithic<Dim>({rates->velocity, rates->acceleration,

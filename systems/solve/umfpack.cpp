@@ -82,7 +82,7 @@ void UnpackSolution<Dim>::operator()(Read<matrix::Solution> solution, Read<node:
     p_i[i] = 0;
     if (row[i] < 0) return;
     const double* unknowns = solution->values.data() + (Dim + 1) * static_cast<std::size_t>(row[i]);
-    for (int d = 0; d < Dim; ++d) u_i[i][d] = unknowns[d];
+    for (int d = 0; d < Dim; ++d) u_i[i][d] += unknowns[d];
     p_i[i] = unknowns[Dim];
   });
 }

@@ -1,7 +1,6 @@
 #include "systems/transfer/filter_series.hpp"
 
 #include "engine/parallel.hpp"
-#include "systems/grid/walls.hpp"
 
 #include <algorithm>
 
@@ -25,7 +24,7 @@ void there_and_back(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> 
 }  // namespace
 
 template <int Dim>
-void filter_series(const ScatterSource<Dim>& source, std::span<const std::uint8_t> fixed, int order,
+void filter_series(const ScatterSource<Dim>& source, const Constraints<Dim>& constraints, int order,
                    std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
                    std::span<Vec<Dim>> filtered) {
   std::copy(v.begin(), v.end(), residue.begin());
@@ -34,15 +33,15 @@ void filter_series(const ScatterSource<Dim>& source, std::span<const std::uint8_
     there_and_back<Dim>(source, residue, smoothed);
     for_each_row(v.size(), [&](std::size_t i) {
       residue[i] -= smoothed[i];
-      hold<Dim>(fixed[i], residue[i]);
+      hold_at_rest<Dim>(constraints, i, residue[i]);
       filtered[i] += residue[i];
     });
   }
 }
 
-template void filter_series<2>(const ScatterSource<2>&, std::span<const std::uint8_t>, int, std::span<const Vec<2>>,
+template void filter_series<2>(const ScatterSource<2>&, const Constraints<2>&, int, std::span<const Vec<2>>,
                                std::span<Vec<2>>, std::span<Vec<2>>, std::span<Vec<2>>);
-template void filter_series<3>(const ScatterSource<3>&, std::span<const std::uint8_t>, int, std::span<const Vec<3>>,
+template void filter_series<3>(const ScatterSource<3>&, const Constraints<3>&, int, std::span<const Vec<3>>,
                                std::span<Vec<3>>, std::span<Vec<3>>, std::span<Vec<3>>);
 
 }  // namespace minamo

@@ -4,6 +4,7 @@
 /// matrix times the lumped one.
 
 #include "engine/input.hpp"
+#include "systems/grid/constraint.hpp"
 #include "systems/transfer/scatter.hpp"
 
 namespace minamo {
@@ -13,7 +14,7 @@ namespace minamo {
 /// \param residue   work space: what the filter has not yet passed
 /// \param smoothed  work space: the residue after a trip to the particles and back
 template <int Dim>
-void filter_series(const ScatterSource<Dim>& source, std::span<const std::uint8_t> fixed, int order,
+void filter_series(const ScatterSource<Dim>& source, const Constraints<Dim>& constraints, int order,
                    std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
                    std::span<Vec<Dim>> filtered);
 

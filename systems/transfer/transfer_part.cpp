@@ -2,7 +2,7 @@
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/schemes.hpp"
-#include "systems/solve/inertia.hpp"
+#include "systems/assemble/inertia.hpp"
 #include "systems/transfer/advect.hpp"
 #include "systems/transfer/apic.hpp"
 #include "systems/transfer/carry_gradient.hpp"

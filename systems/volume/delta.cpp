@@ -31,19 +31,19 @@ double step_length(std::span<const double> e_i, std::span<const double> r_i) {
 }  // namespace
 
 template <int Dim>
-void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Mass> m_p,
-                                   Read<EndSites<Dim>> rows, Read<end_node::Site<Dim>> sites,
-                                   Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i,
-                                   Write<end_node::VolumeResponse> r_i, Update<particle::Position<Dim>> x_p) const {
+void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Volume> V_p, Read<EndSites<Dim>> rows,
+                                   Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
+                                   Write<end_node::VolumeExcess> e_i, Write<end_node::VolumeResponse> r_i,
+                                   Update<particle::Position<Dim>> x_p) const {
   for_each_row(e_i.size(), [&](std::size_t i) {
-    e_i[i] = std::max(0.0, v_i[i] - full_volume<Dim>(*grid, sites[i]));
+    e_i[i] = std::max(0.0, v_i[i] - capacity[i]);
     r_i[i] = 0;
   });
   // One after the other: particles have left the cells that they are sorted by.
   PlaceFinder<Dim> places(*grid, *rows);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     places.visit(x_p[p], [&](const auto& place, const auto& weights) {
-      const Vec<Dim> g = m_p[p] / fluid->density * slope<Dim>(place, weights, e_i.span());
+      const Vec<Dim> g = V_p[p] * slope<Dim>(place, weights, e_i.span());
       place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { r_i[i] += weights.gradient(offset).dot(g); });
     });
   }

@@ -6,7 +6,6 @@
 /// ours.
 
 #include "components/end_node.hpp"
-#include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "engine/system.hpp"
@@ -18,8 +17,8 @@ namespace minamo {
 template <int Dim>
 struct ShiftByDelta {
   static constexpr std::string_view doc = "(E52) x_p, delta-correction";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Mass> m_p, Read<EndSites<Dim>> rows,
-                  Read<end_node::Site<Dim>> sites, Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i,
+  void operator()(Read<Grid<Dim>> grid, Read<particle::Volume> V_p, Read<EndSites<Dim>> rows,
+                  Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i,
                   Write<end_node::VolumeResponse> r_i, Update<particle::Position<Dim>> x_p) const;
 };
 

@@ -1,32 +1,33 @@
 #include "systems/volume/projection.hpp"
 
+#include "systems/assemble/stencil.hpp"
 #include "systems/grid/node_volume.hpp"
 #include "systems/grid/place.hpp"
 #include "systems/solve/equations.hpp"
-#include "systems/solve/stencil.hpp"
 #include "systems/transfer/cell_polynomial.hpp"
 #include "systems/volume/shift.hpp"
 
 namespace minamo {
 
 template <int Dim>
-void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p,
-                                       Read<particle::Mass> m_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
+void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
+                                       Read<particle::Volume> V_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
                                        Write<end_node::Site<Dim>> sites, Write<end_node::Volume> v_i) const {
   number_end_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
-  gather_node_volume<Dim>(*grid, *rows, fluid->density, x_p.span(), m_p.span(), v_i.span());
+  gather_node_volume<Dim>(*grid, *rows, x_p.span(), V_p.span(), v_i.span());
 }
 
 template <int Dim>
 void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>> rows, Read<end_node::Site<Dim>> sites,
-                                       Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i) const {
+                                       Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
+                                       Write<end_node::VolumeExcess> e_i) const {
   // Deep inside: all nodes within two rings are at least half full, so that the support holds no part of the surface.
   const Stencil<Dim> stencil(*grid, *rows, sites.span());
-  const auto half_full = [&](std::size_t j) { return v_i[j] > 0.5 * full_volume<Dim>(*grid, sites[j]); };
+  const auto half_full = [&](std::size_t j) { return v_i[j] > 0.5 * capacity[j]; };
   for_each_row(e_i.size(), [&](std::size_t i) {
     e_i[i] = 0;
     if (v_i[i] == 0) return;
-    const double excess = v_i[i] - full_volume<Dim>(*grid, sites[i]);
+    const double excess = v_i[i] - capacity[i];
     const bool counts = excess >= 0 || (half_full(i) && stencil.all_of(static_cast<std::uint32_t>(i), half_full));
     if (counts) e_i[i] = excess;
   });
@@ -76,7 +77,7 @@ void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rat
 
 template <int Dim>
 void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate,
-                                       Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Fixed>,
+                                       Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint>,
                                        Read<node::Mass>, Read<WetSites<Dim>>, Read<node::Site<Dim>> sites,
                                        Read<matrix::Node> node, Read<matrix::Divergence<Dim>>,
                                        Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows,

@@ -24,7 +24,7 @@ namespace minamo {
 template <int Dim>
 struct GatherNodeVolume {
   static constexpr std::string_view doc = "(E35) V~_I at the end of the step";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<particle::Position<Dim>> x_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p, Read<particle::Volume> V_p,
                   Resize<EndNodes> nodes, Write<EndSites<Dim>> rows, Write<end_node::Site<Dim>> sites,
                   Write<end_node::Volume> v_i) const;
 };
@@ -34,7 +34,8 @@ template <int Dim>
 struct FindVolumeExcess {
   static constexpr std::string_view doc = "(E36) E_I";
   void operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>> rows, Read<end_node::Site<Dim>> sites,
-                  Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i) const;
+                  Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
+                  Write<end_node::VolumeExcess> e_i) const;
 };
 
 /// (E37)  The system of the step with right-hand side (0; c_v r E_I) instead: a displacement d_I with D d = r E.
@@ -54,7 +55,7 @@ struct SolveVolumeBlock {
   /// The viscous matrix, where a scene has one, is looked at too; no system writes it after the solve.
   /// \throws StepRejected as SolveBlock.
   void operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate, Read<SolverTolerance> tolerance,
-                  Read<node::Row> row, Read<node::Fixed>, Read<node::Mass>, Read<WetSites<Dim>>,
+                  Read<node::Row> row, Read<node::Constraint>, Read<node::Mass>, Read<WetSites<Dim>>,
                   Read<node::Site<Dim>> sites, Read<matrix::Node> node, Read<matrix::Divergence<Dim>>,
                   Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
                   Update<BlockFactors<Dim>> factors, Update<VolumeEquations> equations,

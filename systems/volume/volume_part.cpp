@@ -21,6 +21,7 @@ Contribution read_projection(Input& input, Scene&) {
     const bool limited = !scene.facts.get<BodyForce>().is_zero();
     if (limited) recipe.add("configure", "keep_kinetic_energy", When::step);
     recipe.add("volume", "gather_node_volume", When::step);
+    recipe.add("volume", "find_end_capacity", When::step);
     recipe.add("volume", "find_volume_excess", When::step);
     for (const std::string& system : scene.facts.get<LinearSolver>().solve_volume)
       recipe.add("volume", system, When::step);
@@ -33,6 +34,7 @@ Contribution read_projection(Input& input, Scene&) {
 Contribution read_delta(Input&, Scene&) {
   return [](const Scene&, Recipe& recipe) {
     recipe.add("volume", "gather_node_volume", When::step);
+    recipe.add("volume", "find_end_capacity", When::step);
     recipe.add("volume", "shift_by_delta", When::step);
   };
 }

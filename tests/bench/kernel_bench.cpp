@@ -6,8 +6,8 @@
 #include "engine/linear_solver.hpp"
 #include "support/kernels.hpp"
 #include "support/scene_run.hpp"
+#include "systems/assemble/matrices.hpp"
 #include "systems/grid/activate.hpp"
-#include "systems/solve/assemble.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/tpic.hpp"
 
@@ -44,6 +44,7 @@ void fill(World& world) {
   for (Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) v = random.vector<Dim>(-1, 1);
   for (Mat<Dim>& gradient : world.column<particle::VelocityGradient<Dim>>()) gradient = random.matrix<Dim>(-1, 1);
   for (double& m : world.column<particle::Mass>()) m = 1;
+  kernels::set_volumes(world);
   kernels::run<Bin<Dim>>(world);
   kernels::run<NumberNodes<Dim>>(world);
   kernels::run<P2GMass<Dim>>(world);

@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE_SIG("the scattered scene has light nodes and active nodes at 
   SceneRun run(scattered<Dim>());
   run.step();
   CHECK(light_nodes<Dim>(run.world()) > 0);
-  const auto fixed = run.world().template column<node::Fixed>();
+  const auto fixed = run.world().template column<node::Constraint>();
   const auto row = run.world().template column<node::Row>();
   std::size_t held = 0;
   for (std::size_t i = 0; i < row.size(); ++i) held += row[i] >= 0 && fixed[i] != 0;
@@ -183,7 +183,7 @@ TEMPLATE_TEST_CASE_SIG("a light node falls freely, an active one takes the solut
   World& world = run.world();
   const double dt = world.template resource<Clock>().step;
   const auto row = world.template column<node::Row>();
-  const auto fixed = world.template column<node::Fixed>();
+  const auto fixed = world.template column<node::Constraint>();
   const auto m_i = world.template column<node::Mass>();
   const auto u_i = world.template column<node::Displacement<Dim>>();
   const auto v_i = world.template column<node::Velocity<Dim>>();

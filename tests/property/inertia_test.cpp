@@ -139,7 +139,7 @@ TEMPLATE_TEST_CASE_SIG("the inertia correction is the first moment of the forces
   const auto c_i = kernels::on_grid<Dim, node::InertiaCorrection<Dim>>(world);
   const auto m_i = kernels::on_grid<Dim, node::Mass>(world);
   const auto row = kernels::on_grid<Dim, node::Row>(world, -1);
-  const auto fixed = kernels::on_grid<Dim, node::Fixed>(world);
+  const auto fixed = kernels::on_grid<Dim, node::Constraint>(world);
   double worst = 0;
   double largest = 0;
   std::size_t held = 0;

@@ -1,8 +1,8 @@
 #include "support/kernels.hpp"
 
+#include "systems/assemble/matrices.hpp"
+#include "systems/assemble/stencil.hpp"
 #include "systems/grid/activate.hpp"
-#include "systems/solve/assemble.hpp"
-#include "systems/solve/stencil.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -23,6 +23,7 @@ template <int Dim>
 void assemble(World& world, std::uint64_t seed) {
   fill<Dim>(world, 300, seed);
   world.resource<Fluid>() = {2, viscosity};
+  set_volumes(world);
   run<Activate<Dim>>(world);
   run<GatherMoments<Dim>>(world);
   run<AssembleDivergence<Dim>>(world);
@@ -34,10 +35,9 @@ void assemble(World& world, std::uint64_t seed) {
 template <int Dim, class Body>
 void for_each_particle(World& world, const Body& body) {
   const auto y_p = world.column<particle::Configuration<Dim>>();
-  const auto m_p = world.column<particle::Mass>();
-  const double density = world.resource<Fluid>().density;
+  const auto V_p = world.column<particle::Volume>();
   for (std::size_t p = 0; p < y_p.size(); ++p) {
-    body(m_p[p] / density, PlainWeights<Dim>(small_grid<Dim>(), y_p[p]));
+    body(V_p[p], PlainWeights<Dim>(small_grid<Dim>(), y_p[p]));
   }
 }
 

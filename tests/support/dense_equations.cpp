@@ -171,7 +171,7 @@ Equations assemble(scene_run::SceneRun& run) {
   const Kinematics<Dim> kin(run);
   const Sums<Dim> s = sum_over_points<Dim>(run, kin.time);
   const auto row = kernels::on_grid<Dim, node::Row>(world, -1);
-  const auto fixed = kernels::on_grid<Dim, node::Fixed>(world);
+  const auto fixed = kernels::on_grid<Dim, node::Constraint>(world);
   const double dt = world.resource<Clock>().step;
   const double h = run.scene().grid.spacing;
   const double rho = run.scene().density;
@@ -249,7 +249,7 @@ EquationTerms<Dim> terms_of_step(World& world) {
           pressure_per_mass(world.resource<Clock>().step, world.resource<Fluid>().density,
                             world.resource<Grid<Dim>>().spacing),
           world.column<node::Row>(),
-          world.column<node::Fixed>(),
+          world.column<node::Constraint>(),
           world.column<node::Mass>(),
           world.column<node::Site<Dim>>(),
           &world.resource<WetSites<Dim>>(),

@@ -8,6 +8,7 @@
 #include "components/particle.hpp"
 #include "engine/system.hpp"
 #include "systems/grid/bin.hpp"
+#include "systems/grid/capacity.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/grid/support.hpp"
 #include "systems/transfer/mass.hpp"
@@ -91,6 +92,7 @@ void number_all_nodes(World& world) {
     for_each_support<Dim>(
         [&](std::size_t k, const Index<Dim>& offset) { cell.rows[k] = *rows.find(support.site(grid, offset)); });
   }
+  run<FindCapacity<Dim>>(world);
 }
 
 template <int Dim>
@@ -98,7 +100,14 @@ void set_grid(World& world, const Grid<Dim>& grid) {
   world.resource<Grid<Dim>>() = grid;
   world.resource<Fluid>() = {1000, 0.7};
   number_all_nodes<Dim>(world);
-  world.column<node::Fixed>();
+  world.column<node::Constraint>();
+}
+
+/// Particles as dense as the liquid.
+inline void set_volumes(World& world) {
+  const auto m_p = world.column<particle::Mass>();
+  const auto V_p = world.column<particle::Volume>();
+  for (std::size_t p = 0; p < m_p.size(); ++p) V_p[p] = m_p[p] / world.resource<Fluid>().density;
 }
 
 template <int Dim>
@@ -132,6 +141,7 @@ void fill(World& world, std::size_t count, std::uint64_t seed, const Grid<Dim>& 
     m_p[p] = random(0.5, 1.5);
     id[p] = static_cast<std::int64_t>(p);
   }
+  set_volumes(world);
   sort<Dim>(world);
   run<P2GMass<Dim>>(world);
 }

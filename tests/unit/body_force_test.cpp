@@ -2,7 +2,7 @@
 
 #include "components/step.hpp"
 #include "support/scene_run.hpp"
-#include "systems/integrate/body_force.hpp"
+#include "systems/time/body_force.hpp"
 
 #include <catch2/catch.hpp>
 

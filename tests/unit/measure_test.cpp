@@ -4,6 +4,7 @@
 #include "systems/measure/conservation.hpp"
 #include "systems/measure/energy_watch.hpp"
 #include "systems/measure/volume.hpp"
+#include "systems/volume/projection.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -38,6 +39,7 @@ void full_box(World& world, double density) {
     world.column<particle::Mass>()[p] = density * grid.spacing * grid.spacing / 4;
   }
   world.resource<Fluid>().density = density;
+  set_volumes(world);
 }
 
 }  // namespace
@@ -83,7 +85,9 @@ TEST_CASE("overlap is what particles have beyond the volume of their nodes", "[u
   CAPTURE(times);
   World world;
   full_box(world, 700);
-  for (double& m : world.column<particle::Mass>()) m *= times;
+  for (double& V : world.column<particle::Volume>()) V *= times;
+  run<GatherNodeVolume<2>>(world);
+  run<FindEndCapacity<2>>(world);
   run<MeasureOverlap<2>>(world);
   // Per direction a lattice of 2 particles gives the nodes 17/32, 31/32, 1, ... of h; the integrals of their weights
   // are 13/24, 23/24, 1, ... of h.

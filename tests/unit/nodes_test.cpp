@@ -1,6 +1,7 @@
 #include "support/kernels.hpp"
 
 #include "systems/grid/activate.hpp"
+#include "systems/grid/constraint.hpp"
 #include "systems/grid/walls.hpp"
 
 #include <catch2/catch.hpp>
@@ -55,27 +56,78 @@ TEST_CASE("without mass no node is active", "[unit]") {
   CHECK(world.rows<ActiveNodes>() == 0);
 }
 
-TEST_CASE("a wall holds the components that it fixes and no other", "[unit]") {
+TEST_CASE("a wall at rest holds the components that it fixes and no other", "[unit]") {
   World world;
   world.resize<Nodes>(4);
-  const auto fixed = world.column<node::Fixed>();
+  const auto fixed = world.column<node::Constraint>();
   const auto v_i = world.column<node::Velocity<2>>();
   for (std::size_t i = 0; i < 4; ++i) {
     fixed[i] = static_cast<std::uint8_t>(i);
     v_i[i] = {1, 2};
   }
-  run<HoldVelocityAtWalls<2>>(world);
+  run<ApplyWallCondition<2>>(world);
   CHECK(v_i[0] == Vec<2>(1, 2));
   CHECK(v_i[1] == Vec<2>(0, 2));
   CHECK(v_i[2] == Vec<2>(1, 0));
   CHECK(v_i[3] == Vec<2>(0, 0));
 }
 
+TEST_CASE("a wall that moves gives the held components its velocity and leaves the others alone", "[unit]") {
+  World world;
+  world.resize<Nodes>(4);
+  const auto constraint = world.column<node::Constraint>();
+  const auto v_i = world.column<node::Velocity<2>>();
+  for (std::size_t i = 0; i < 4; ++i) {
+    constraint[i] = static_cast<std::uint8_t>(i);
+    v_i[i] = {1, 2};
+    world.column<node::ConstraintVelocity<2>>()[i] = {0.3, -5};
+  }
+  run<ApplyWallCondition<2>>(world);
+  CHECK(v_i[0] == Vec<2>(1, 2));
+  CHECK(v_i[1] == Vec<2>(0.3, 2));
+  CHECK(v_i[2] == Vec<2>(1, -5));
+  CHECK(v_i[3] == Vec<2>(0.3, -5));
+}
+
+TEST_CASE("an oblique wall holds along its own axes", "[unit]") {
+  const double angle = 0.4;
+  const Vec<2> n(std::cos(angle), std::sin(angle));
+  const Vec<2> t(-n[1], n[0]);
+  Mat<2> axes;
+  axes << n.transpose(), t.transpose();
+  const std::vector<std::uint8_t> mask{0b01, 0b10, 0b11, 0};
+  const std::vector<Mat<2>> frame(4, axes);
+  const std::vector<Vec<2>> wall(4, Vec<2>(0.3, -5));
+  const Vec<2> v(1, 2);
+  const Constraints<2> constraints{mask, frame, wall};
+  std::vector<Vec<2>> held(4, v);
+  for (std::size_t i = 0; i < 4; ++i) hold<2>(constraints, i, held[i]);
+  // Numbers of size 5, some roundings each.
+  CHECK((held[0] - (n.dot(wall[0]) * n + t.dot(v) * t)).norm() < 1e-14);
+  CHECK((held[1] - (n.dot(v) * n + t.dot(wall[0]) * t)).norm() < 1e-14);
+  CHECK((held[2] - wall[0]).norm() < 1e-14);
+  CHECK(held[3] == v);
+  Vec<2> force = v;
+  hold_at_rest<2>(constraints, 0, force);
+  CHECK((force - t.dot(v) * t).norm() < 1e-15);
+}
+
+TEST_CASE("a displacement is held so that the velocity is the wall's", "[unit]") {
+  const std::vector<std::uint8_t> mask{0b10};
+  const std::vector<Vec<2>> wall{{0.3, -5}};
+  const Vec<2> predicted(7, 1);
+  Vec<2> u(1, 2);
+  hold_displacement<2>({mask, {}, wall}, 0, 4, predicted, u);
+  CHECK(u == Vec<2>(1, (-5. - 1) / 4));
+  hold_displacement<2>({mask}, 0, 4, predicted, u);
+  CHECK(u == Vec<2>(1, 0));
+}
+
 TEST_CASE("a wall holds the acceleration as it holds the velocity", "[unit]") {
   World world;
   world.resize<Nodes>(1);
-  world.column<node::Fixed>()[0] = 0b101;
+  world.column<node::Constraint>()[0] = 0b101;
   world.column<node::Acceleration<3>>()[0] = {1, 2, 3};
-  run<HoldAccelerationAtWalls<3>>(world);
+  run<ApplyWallConditionAcceleration<3>>(world);
   CHECK(world.column<node::Acceleration<3>>()[0] == Vec<3>(0, 2, 0));
 }

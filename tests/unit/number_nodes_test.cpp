@@ -110,7 +110,7 @@ TEST_CASE("a node has what the walls at its site hold", "[unit]") {
   CAPTURE(low);
   place<2>(world, low, low + 2.4, 75);
   const auto sites = world.column<node::Site<2>>();
-  const auto fixed = world.column<node::Fixed>();
+  const auto fixed = world.column<node::Constraint>();
   std::size_t wrong = 0;
   std::size_t held = 0;
   for (std::size_t i = 0; i < sites.size(); ++i) {

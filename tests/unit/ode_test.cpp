@@ -1,4 +1,4 @@
-#include "systems/integrate/ode.hpp"
+#include "systems/time/ode.hpp"
 
 #include "components/particle.hpp"
 #include "support/kernels.hpp"

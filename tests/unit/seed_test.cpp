@@ -27,7 +27,7 @@ std::vector<Vec<2>> places(const Json& scene) {
 }
 
 std::uint8_t fixed_at(World& world, int i, int j) {
-  return kernels::on_grid<2, node::Fixed>(world)[world.resource<Grid<2>>().row({i, j})];
+  return kernels::on_grid<2, node::Constraint>(world)[world.resource<Grid<2>>().row({i, j})];
 }
 
 }  // namespace
@@ -38,6 +38,18 @@ TEST_CASE("the liquid weighs density times area", "[unit]") {
   SceneRun run(scene_of_file("dam_break.json"));
   // 800 equal numbers, a rounding each.
   CHECK(total_mass(run.world()) == Approx(1000 * 0.146 * 0.292).epsilon(1e-13));
+}
+
+TEST_CASE("particles have the volume of their mass", "[unit]") {
+  SceneRun run(scene_of_file("dam_break.json"));
+  const auto m_p = run.world().column<particle::Mass>();
+  const auto V_p = run.world().column<particle::Volume>();
+  const double h = run.world().resource<Grid<2>>().spacing;
+  std::size_t wrong = 0;
+  for (std::size_t p = 0; p < m_p.size(); ++p) {
+    wrong += std::abs(V_p[p] - h * h / 4) > 1e-15 * V_p[p] || std::abs(m_p[p] - 1000 * V_p[p]) > 1e-15 * m_p[p];
+  }
+  CHECK(wrong == 0);  // a rounding or two
 }
 
 TEST_CASE("the liquid weighs density times volume", "[unit]") {

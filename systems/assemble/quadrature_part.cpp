@@ -1,0 +1,31 @@
+#include "systems/grid/full_nodes.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/lattice.hpp"
+#include "systems/setup/schemes.hpp"
+#include "systems/assemble/moments.hpp"
+
+namespace minamo {
+
+namespace {
+
+Contribution read_mixed(Input&, Scene& scene) {
+  scene.facts.set(LatticePlaces::nearer_to_walls);
+  return adds("assemble", {"find_full_nodes", "moments"});
+}
+
+Contribution read_particles(Input&, Scene& scene) {
+  scene.facts.set(LatticePlaces::middle_of_parts);
+  return adds("assemble", {"moments"});
+}
+
+}  // namespace
+
+void add_quadrature(SystemRegistry& registry) {
+  registry.add<FindFullNodes>("find_full_nodes");
+  registry.add<GatherMoments>("moments");
+  registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
+  registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
+  registry.add(choice<Quadrature>("quadrature", "integrals of the balances", "mixed"));
+}
+
+}  // namespace minamo

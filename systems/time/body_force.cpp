@@ -1,0 +1,78 @@
+#include "systems/time/body_force.hpp"
+
+#include "engine/step_control.hpp"
+#include "systems/grid/constraint.hpp"
+#include "systems/transfer/scatter.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
+namespace minamo {
+
+namespace {
+
+/// \param where  the place, if the force depends on it
+[[noreturn]] void refuse(const Instant& instant, const std::string& where) {
+  throw StepRejected(fmt::format("body_force: not finite{} at t = {:.6g} s", where, instant.time));
+}
+
+}  // namespace
+
+template <int Dim>
+void UniformBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+                                       Read<node::Mass> m_i, Write<node::BodyForce<Dim>> b_i) const {
+  const Instant now = instant_of(ode, rates);
+  Arguments arguments(now);
+  const Vec<Dim> everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
+  if (!everywhere.allFinite()) refuse(now, "");
+  for_each_row(b_i.size(), [&](std::size_t i) { b_i[i] = m_i[i] > 0 ? everywhere : Vec<Dim>(Vec<Dim>::Zero()); });
+}
+
+template <int Dim>
+void SampleBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+                                      Read<particle::Configuration<Dim>> y_p,
+                                      Write<particle::BodyForce<Dim>> b_p) const {
+  const Instant now = instant_of(ode, rates);
+  Arguments arguments(now);
+  // One after the other: an expression keeps its variables inside.
+  for (std::size_t p = 0; p < y_p.size(); ++p) {
+    b_p[p] = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(y_p[p]));
+    if (b_p[p].allFinite()) continue;
+    refuse(now, fmt::format(" at ({:.6g}) m", fmt::join(y_p[p].begin(), y_p[p].end(), ", ")));
+  }
+}
+
+template <int Dim>
+void P2GBodyForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                   Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                   Read<particle::BodyForce<Dim>> b_p, Read<node::Mass> m_i,
+                                   Write<node::BodyForce<Dim>> b_i) const {
+  scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, b_p.span(), b_i.span());
+}
+
+template <int Dim>
+void FreeFlight<Dim>::operator()(Read<node::Row> row, Read<node::Constraint> constraint,
+                                 Optional<Read<node::ConstraintFrame<Dim>>> frame,
+                                 Optional<Read<node::ConstraintVelocity<Dim>>> w_i, Read<node::Mass> m_i,
+                                 Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
+                                 Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+                                 Write<node::Displacement<Dim>> u_i) const {
+  const Constraints<Dim> constraints{constraint.span(), frame.span(), w_i.span()};
+  for_each_row(u_i.size(), [&](std::size_t i) {
+    u_i[i].setZero();
+    if (m_i[i] == 0) return;
+    if (row[i] < 0) u_i[i] = (b_i[i] - a_known[i]) / rates->acceleration;
+    hold_displacement<Dim>(constraints, i, rates->velocity, v_known[i], u_i[i]);
+  });
+}
+
+template struct UniformBodyForce<2>;
+template struct UniformBodyForce<3>;
+template struct SampleBodyForce<2>;
+template struct SampleBodyForce<3>;
+template struct P2GBodyForce<2>;
+template struct P2GBodyForce<3>;
+template struct FreeFlight<2>;
+template struct FreeFlight<3>;
+
+}  // namespace minamo

@@ -1,0 +1,52 @@
+#include "systems/time/body_force.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/scene.hpp"
+#include "systems/setup/seed_text.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// The body force must be finite where the liquid starts.
+template <int Dim>
+void check(const BodyForce& force, const Scene& scene, World& world, SeedProblems& problems) {
+  Arguments arguments(scene.start);
+  for (const Vec<Dim>& x : world.column<particle::Position<Dim>>()) {
+    const Vec<Dim> b = vector_at<Dim>(force.of_place_and_time, arguments.at<Dim>(x));
+    if (b.allFinite()) continue;
+    problems.note("/body_force", "not finite", "a finite force per unit mass [m/s^2]",
+                  fmt::format("{} at {}, t = 0", vector_text<Dim>(b), place_text<Dim>(x)));
+    return;
+  }
+}
+
+Contribution read_body_force(Input& input, Scene& scene) {
+  const BodyForce force{
+      read_vector(input, "body_force", scene, {.unit = "m/s^2", .doc = "force per unit mass", .fallback = 0})};
+  scene.facts.set(force);
+  return [force](const Scene&, Recipe& recipe) {
+    if (force.is_uniform()) {
+      recipe.add("forces", "uniform_body_force");
+    } else {
+      recipe.add("forces", "sample_body_force");
+      recipe.add("forces", "p2g_body_force");
+    }
+    recipe.add("ballistic", "free_flight");
+    recipe.constant(force);
+    recipe.seed([force](const Scene& scene, World& world, SeedProblems& problems) {
+      with_dimension(scene.dimension, [&](auto dim) { check<dim()>(force, scene, world, problems); });
+    });
+  };
+}
+
+}  // namespace
+
+void add_body_force(SystemRegistry& registry) {
+  registry.add<UniformBodyForce>("uniform_body_force");
+  registry.add<SampleBodyForce>("sample_body_force");
+  registry.add<P2GBodyForce>("p2g_body_force");
+  registry.add<FreeFlight>("free_flight");
+  registry.add(Part{"body_force", "force per unit mass, uniform or in space and time", read_body_force});
+}
+
+}  // namespace minamo

@@ -1,0 +1,69 @@
+#include "systems/grid/walls.hpp"
+#include "systems/time/configuration.hpp"
+#include "systems/time/damp_divergence.hpp"
+#include "systems/time/midpoint.hpp"
+#include "systems/time/newmark.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/scene.hpp"
+#include "systems/setup/schemes.hpp"
+#include "systems/transfer/scheme.hpp"
+
+namespace minamo {
+
+namespace {
+
+Contribution read_midpoint(Input&, Scene& scene) {
+  scene.facts.set(IntegratorNeeds{.configure_beside = "configure_step_ahead", .gradients_move = true});
+  return [](const Scene&, Recipe& recipe) {
+    recipe.add("configure", "configure_at_middle", When::step);
+    recipe.add("predict", "predict_midpoint", When::step);
+    recipe.add("predict", "predict_backward_euler", When::standing);
+    recipe.add("right_hand_side", "damp_divergence", When::step);
+    recipe.add("correct", "correct_midpoint", When::step);
+  };
+}
+
+Contribution read_newmark(Input& input, Scene& scene) {
+  // The weights lag behind by more than what moving gradients mend.
+  scene.facts.set(IntegratorNeeds{.configure_beside = "configure_step_before", .gradients_move = false});
+  NewmarkParameters parameters;
+  parameters.beta = input.number("beta", {.doc = "Newmark's beta", .fallback = 0.25, .at_most = 0.5, .above = 0});
+  parameters.gamma = input.number("gamma", {.doc = "Newmark's gamma", .fallback = 0.5, .at_least = 0.5, .at_most = 1});
+  return [parameters](const Scene& scene, Recipe& recipe) {
+    const auto& acceleration = scene.facts.get<AccelerationTransfer>();
+    recipe.add("configure", "configure_at_start", When::step);
+    for (const System& system : acceleration.p2g) recipe.add("p2g", system, When::step);
+    recipe.add("boundaries", "apply_wall_condition_acceleration", When::step);
+    recipe.add("predict", "predict_newmark", When::step);
+    recipe.add("predict", "predict_backward_euler", When::standing);
+    recipe.add("correct", "correct_newmark", When::step);
+    for (const System& system : acceleration.g2p) recipe.add("g2p", system, When::step);
+    std::vector<System> after{recipe.make("correct_backward_euler")};
+    after.insert(after.end(), acceleration.g2p.begin(), acceleration.g2p.end());
+    recipe.add_standing_step("configure_step_before", after);
+    recipe.constant(parameters);
+  };
+}
+
+}  // namespace
+
+void add_integrator(SystemRegistry& registry) {
+  registry.add<ConfigureAtStart>("configure_at_start");
+  registry.add<ConfigureAtMiddle>("configure_at_middle");
+  registry.add<ConfigureStepBefore>("configure_step_before");
+  registry.add<ConfigureStepAhead>("configure_step_ahead");
+  registry.add<ApplyWallConditionAcceleration>("apply_wall_condition_acceleration");
+  registry.add<PredictNewmark>("predict_newmark");
+  registry.add<PredictMidpoint>("predict_midpoint");
+  registry.add<PredictBackwardEuler>("predict_backward_euler");
+  registry.add<DampDivergence>("damp_divergence");
+  registry.add<CorrectNewmark>("correct_newmark");
+  registry.add<CorrectMidpoint>("correct_midpoint");
+  registry.add<CorrectBackwardEuler>("correct_backward_euler");
+  registry.add<CorrectBackwardEulerVelocity>("correct_backward_euler_velocity");
+  registry.add(Integrator{{"midpoint", "balances in the middle of the step", read_midpoint}});
+  registry.add(Integrator{{"newmark", "balances at the end of the step, particles carry accelerations", read_newmark}});
+  registry.add(choice<Integrator>("integrator", "time integration", "midpoint"));
+}
+
+}  // namespace minamo

@@ -1,0 +1,31 @@
+#include "systems/time/midpoint.hpp"
+
+#include "engine/parallel.hpp"
+
+namespace minamo {
+
+template <int Dim>
+void PredictMidpoint<Dim>::operator()(Read<Clock> clock, Read<node::Velocity<Dim>> v_i, Write<Rates> rates,
+                                      Write<node::KnownVelocity<Dim>> v_known,
+                                      Write<node::KnownAcceleration<Dim>> a_known) const {
+  const double dt = clock->step;
+  *rates = {.velocity = 1 / dt, .acceleration = 2 / (dt * dt), .time = clock->time + dt / 2};
+  for_each_row(v_i.size(), [&](std::size_t i) {
+    v_known[i].setZero();
+    a_known[i] = -2 / dt * v_i[i];
+  });
+}
+
+template <int Dim>
+void CorrectMidpoint<Dim>::operator()(Read<Clock> clock, Read<node::Displacement<Dim>> u_i,
+                                      Read<node::Velocity<Dim>> v_i, Write<node::NewVelocity<Dim>> v_new) const {
+  const double per_half_step = 2 / clock->step;
+  for_each_row(u_i.size(), [&](std::size_t i) { v_new[i] = per_half_step * u_i[i] - v_i[i]; });
+}
+
+template struct PredictMidpoint<2>;
+template struct PredictMidpoint<3>;
+template struct CorrectMidpoint<2>;
+template struct CorrectMidpoint<3>;
+
+}  // namespace minamo
