@@ -59,7 +59,7 @@ int run_scene(const RunOptions& options, const SystemRegistry& registry) {
                      .beginning = options.resume ? Beginning::continuation : Beginning::start,
                      .quiet = options.quiet,
                      .at_end = {}};
-  const RunResult result = run_into_folder(file, plan, registry, profiler, stop_on_signal());
+  const RunResult result = run_into_folder(file, plan, profiler, stop_on_signal());
   if (options.profile) {
     std::cout << profiler.table(result.loop_seconds);
     profiler.write_trace(options.trace.empty() ? (folder / "trace.json").string() : options.trace);

@@ -81,6 +81,26 @@ void list_components(const SystemRegistry& registry) {
   }
 }
 
+void list_parts(const SystemRegistry& registry) {
+  for (const Part& part : registry.in_order<Part>()) {
+    std::string schemes;
+    if (part.schemes) {
+      for (const auto& [name, doc] : part.schemes(registry)) schemes += (schemes.empty() ? ": " : ", ") + name;
+    }
+    std::cout << fmt::format("{:14} {}{}\n", part.name, part.doc, schemes);
+  }
+}
+
+/// Those of one part, or of all.
+void list_schemes(const SystemRegistry& registry, std::string_view of_part) {
+  for (const Part& part : registry.in_order<Part>()) {
+    if (!part.schemes || (!of_part.empty() && part.name != of_part)) continue;
+    for (const auto& [name, doc] : part.schemes(registry)) {
+      std::cout << fmt::format("{:14} {:10} {}\n", part.name, name, doc);
+    }
+  }
+}
+
 }  // namespace
 
 int list(const std::string& what, const SystemRegistry& registry) {
@@ -88,12 +108,10 @@ int list(const std::string& what, const SystemRegistry& registry) {
     list_systems(registry);
   } else if (what == "components") {
     list_components(registry);
-  } else if (what == "schemes") {
-    for (const auto& [name, scheme] : registry.choices<TransferScheme>())
-      std::cout << fmt::format("{:8} {}\n", name, scheme.doc);
+  } else if (what == "parts") {
+    list_parts(registry);
   } else {
-    std::cout << "block    block elimination and GMRES, preconditioned by sparse Cholesky factors\n"
-                 "umfpack  monolithic sparse LU, the reference\n";
+    list_schemes(registry, what == "solvers" ? "solver" : "");
   }
   return exit_done;
 }

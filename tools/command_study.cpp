@@ -54,7 +54,7 @@ StudyTable empty_table(const Study& study, int threads) {
 }
 
 /// Runs a variant. What goes wrong in it is a row as well.
-StudyRow run_variant(const Study& study, const Variant& variant, const RunPlan& general, const SystemRegistry& registry,
+StudyRow run_variant(const Study& study, const Variant& variant, const RunPlan& general,
                      const std::atomic<bool>& stop) {
   StudyRow row{.values = variant.values, .resolution = variant.resolution, .error = {}, .status = "failed"};
   try {
@@ -63,7 +63,7 @@ StudyRow run_variant(const Study& study, const Variant& variant, const RunPlan& 
     plan.folder /= variant.name;
     plan.at_end = [&](World& world) { farthest = farthest_distance(world, variant.scene.scene.dimension); };
     Profiler profiler;
-    const RunResult result = run_into_folder(variant.scene, plan, registry, profiler, stop);
+    const RunResult result = run_into_folder(variant.scene, plan, profiler, stop);
     row.time_step = variant.scene.scene.time.step.value_or(result.clock.step);
     row.wall_seconds = result.loop_seconds;
     row.steps = result.clock.index;
@@ -119,7 +119,7 @@ int run_study(const StudyOptions& options, const SystemRegistry& registry) {
   StudyTable table = empty_table(study, threads);
   for (const Variant& variant : variants) {
     if (stop) break;
-    table.rows.push_back(run_variant(study, variant, plan, registry, stop));
+    table.rows.push_back(run_variant(study, variant, plan, stop));
     // After every variant, so that a study that is cut off leaves what it has.
     write_text(folder / "study.csv", as_csv(table));
     if (options.quiet) continue;

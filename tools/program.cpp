@@ -98,10 +98,10 @@ void add_showing(CLI::App& app, ShowOptions& options) {
   CLI::App* graph = app.add_subcommand("graph", "show the systems that a scene needs, their data and edges");
   graph->add_option("SCENE", options.scene, "scene file")->required();
   graph->add_option("--format", options.format, "dot or json")->check(CLI::IsMember({"dot", "json"}));
-  CLI::App* listing = app.add_subcommand("list", "list systems, components, schemes or solvers");
-  listing->add_option("WHAT", options.what, "systems, components, schemes or solvers")
+  CLI::App* listing = app.add_subcommand("list", "list parts, schemes, solvers, systems or components");
+  listing->add_option("WHAT", options.what, "parts, schemes, solvers, systems or components")
       ->required()
-      ->check(CLI::IsMember({"systems", "components", "schemes", "solvers"}));
+      ->check(CLI::IsMember({"parts", "schemes", "solvers", "systems", "components"}));
   CLI::App* schema = app.add_subcommand("schema", "print the JSON Schema of a scene");
   schema->add_flag("--table", options.as_table, "print the keys as a Markdown table instead");
 }

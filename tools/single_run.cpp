@@ -119,8 +119,8 @@ void make_output_folder(const fs::path& folder) {
   if (error) refuse_output(folder, fmt::format("cannot be made: {}", error.message()));
 }
 
-RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const SystemRegistry& registry,
-                          Profiler& profiler, const std::atomic<bool>& stop) {
+RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& profiler,
+                          const std::atomic<bool>& stop) {
   const Stopwatch stopwatch;
   const Scene& scene = file.scene;
   World world;

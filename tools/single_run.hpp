@@ -35,8 +35,8 @@ struct RunResult {
 /// Runs the scene and writes all that a run leaves but the trace.
 /// \throws InputError if the scene cannot be seeded, the folder cannot be used or its checkpoint does not fit; nothing
 /// is run then.
-RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, const SystemRegistry& registry,
-                          Profiler& profiler, const std::atomic<bool>& stop);
+RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& profiler,
+                          const std::atomic<bool>& stop);
 
 /// \throws std::runtime_error
 void write_text(const std::filesystem::path& path, const std::string& text);

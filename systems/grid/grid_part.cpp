@@ -42,13 +42,13 @@ Contribution read_grid(Input& input, Scene& scene) {
   scene.grid.periodic.assign(dimension, false);
   input.object("grid", "the box and its cells", Input::Presence::required,
                [&](Input& in) { read_box(in, dimension, scene.grid); });
-  return [](const Scene& scene, Recipe& recipe) {
+  return [](const Scene& of, Recipe& recipe) {
     recipe.add("sort", "bin");
     recipe.add("sort", "number_nodes");
     recipe.add("sort", "find_capacity");
     recipe.add("boundaries", "activate");
     recipe.add("boundaries", "find_neighbours");
-    with_dimension(scene.dimension, [&](auto dim) { recipe.constant(make_grid<dim()>(scene.grid)); });
+    with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_grid<dim()>(of.grid)); });
   };
 }
 

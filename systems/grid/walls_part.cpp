@@ -117,10 +117,9 @@ Walls<Dim> make_walls(const Sides& sides, const SystemRegistry& registry) {
 Contribution read_walls(Input& input, Scene& scene) {
   const Sides sides = read_sides(input, scene.grid.cells, conditions(registry_of(scene)));
   for (std::size_t d = 0; d < sides.size(); ++d) scene.grid.periodic[d] = sides[d][0] == periodic;
-  return [sides](const Scene& scene, Recipe& recipe) {
+  return [sides](const Scene& of, Recipe& recipe) {
     recipe.add("boundaries", "apply_wall_condition");
-    with_dimension(scene.dimension,
-                   [&](auto dim) { recipe.constant(make_walls<dim()>(sides, recipe.registry())); });
+    with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_walls<dim()>(sides, recipe.registry())); });
   };
 }
 

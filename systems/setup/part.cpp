@@ -44,12 +44,6 @@ void Recipe::add_standing_step(const std::string& configure, std::vector<System>
   standing_.push_back({make(configure), std::move(after)});
 }
 
-std::vector<System> Recipe::make(const std::vector<std::string>& systems) const {
-  std::vector<System> made;
-  for (const std::string& system : systems) made.push_back(make(system));
-  return made;
-}
-
 Contribution adds(std::string_view slot, std::vector<std::string> systems) {
   return [slot, systems = std::move(systems)](const Scene&, Recipe& recipe) {
     for (const std::string& system : systems) recipe.add(slot, system);

@@ -53,6 +53,7 @@ class Recipe {
     std::vector<System> after;
   };
 
+  Recipe() = default;
   Recipe(const SystemRegistry& registry, int dimension) : registry_(&registry), dimension_(dimension) {}
 
   /// Adds a registered system at the end of a slot, unless the slot has it already: parts may need the same one.
@@ -74,7 +75,6 @@ class Recipe {
   }
 
   System make(const std::string& system) const { return registry_->make(system, dimension_); }
-  std::vector<System> make(const std::vector<std::string>& systems) const;
   const SystemRegistry& registry() const { return *registry_; }
 
   const std::vector<Placed>& placed() const { return placed_; }
@@ -84,8 +84,8 @@ class Recipe {
   const std::vector<Seed>& seeds() const { return seeds_; }
 
  private:
-  const SystemRegistry* registry_;
-  int dimension_;
+  const SystemRegistry* registry_ = nullptr;
+  int dimension_ = 2;
   std::vector<Placed> placed_;
   std::vector<System> first_;
   std::vector<StandingStep> standing_;

@@ -63,6 +63,7 @@ struct ExtraSystem {
 };
 
 struct Scene {
+  Scene() = default;
   Scene(const SystemRegistry& registry, int dimension_of_space)
       : dimension(dimension_of_space), recipe(registry, dimension_of_space) {}
 

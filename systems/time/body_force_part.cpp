@@ -33,8 +33,8 @@ Contribution read_body_force(Input& input, Scene& scene) {
     }
     recipe.add("ballistic", "free_flight");
     recipe.constant(force);
-    recipe.seed([force](const Scene& scene, World& world, SeedProblems& problems) {
-      with_dimension(scene.dimension, [&](auto dim) { check<dim()>(force, scene, world, problems); });
+    recipe.seed([force](const Scene& of, World& world, SeedProblems& problems) {
+      with_dimension(of.dimension, [&](auto dim) { check<dim()>(force, of, world, problems); });
     });
   };
 }

@@ -24,7 +24,7 @@ void correct_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
   recipe.add("advect", "g2p_force_gradient", When::step);
   recipe.add("right_hand_side", "add_inertia_correction");
   recipe.add_standing_step(integrator.configure_beside,
-                           recipe.make({"correct_backward_euler_velocity", "g2p_force_gradient"}));
+                           {recipe.make("correct_backward_euler_velocity"), recipe.make("g2p_force_gradient")});
 }
 
 Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scene) {
@@ -41,8 +41,8 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
       scheme.carries_gradient &&
       input.choice("inertia", std::vector<std::string>{"corrected", "lumped"},
                    "lumped mass, with or without what it leaves out: (E53), (E62)", "corrected") == "corrected";
-  return [scheme, p2g, g2p, corrected](const Scene& scene, Recipe& recipe) {
-    const auto& integrator = scene.facts.get<IntegratorNeeds>();
+  return [scheme, p2g, g2p, corrected](const Scene& of, Recipe& recipe) {
+    const auto& integrator = of.facts.get<IntegratorNeeds>();
     recipe.add("p2g", "p2g_mass");
     if (corrected || scheme.reads_liquid_share) recipe.add("p2g", "find_liquid");
     if (corrected && integrator.gradients_move) recipe.add("p2g", "carry_gradient_to_middle", When::step);
