@@ -106,8 +106,8 @@ class Figures(unittest.TestCase):
         self.assertEqual((movie["codec_name"], movie["pix_fmt"]), ("h264", "yuv420p"))  # what every player shows
 
     def test_particles_are_drawn_where_they_are(self):
-        self.expect_files(figures("dam_break_tpic", "--times", "0", "--field", "pressure", "--no-movie", "--out", "start"),
-                          "start/pressure.png", "start/history.png", "start/systems.png")
+        done = figures("dam_break_tpic", "--times", "0", "--field", "pressure", "--no-movie", "--out", "start")
+        self.expect_files(done, "start/pressure.png", "start/history.png", "start/systems.png")
         panel = panel_of(WORK / "start/pressure.png")
         where = np.argwhere(np.ptp(panel, axis=2) > 0.1)
         # The column takes a quarter of the width and half of the height of the tank; particles and walls have a width.
@@ -179,7 +179,8 @@ class Figures(unittest.TestCase):
                           "dam_break_tpic", "--times", "0.1,3")
         self.expect_error("dam_break_tpic: no frame at t = 0.056 s; nearest: 0.05 and 0.06 s",
                           "dam_break_tpic", "--times", "0.056")
-        self.expect_error("dam_break_tpic: a run in the plane cannot be cut at z = 0.1 m", "dam_break_tpic", "--slice", "z=0.1")
+        self.expect_error("dam_break_tpic: a run in the plane cannot be cut at z = 0.1 m",
+                          "dam_break_tpic", "--slice", "z=0.1")
         self.expect_error("space: the slice y = 0.4 m misses the box; expected: y between 0 and 0.292 m",
                           "space", "--slice", "y=0.4")
         done = figures("space", "--slice", "w=0.4")

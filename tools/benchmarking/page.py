@@ -19,12 +19,13 @@ HEAD = """# Speed
 [scenes/RESULTS.md](../../scenes/RESULTS.md).
 
 - *Wall* and *CPU*: the whole run with start, steps and output. Medians over the runs; runs of one case take turns.
-- *A step*: from the begin of its first system to the end of its last, without frames. Mean over the steps, median over the
-  runs.
+- *A step*: from the begin of its first system to the end of its last, without frames. Mean over the steps, median over
+  the runs.
 - *Systems*: the three that take the largest shares of the time of all systems.
 - *Peak memory*: that of the process, libraries and work space of the solvers included.
 - *Method*, unless a section says something else: TPIC, midpoint rule, PSPG, volume projection, corrected inertia, block
-  solver. Particles per cell: 2 x 2, in three dimensions 3 x 3 x 3, in the large tank 4 x 4. Dynamic viscosity: 1e-3 Pa s.
+  solver. Particles per cell: 2 x 2, in three dimensions 3 x 3 x 3, in the large tank 4 x 4. Dynamic viscosity: 1e-3
+  Pa s.
 """
 
 

@@ -25,14 +25,14 @@ PEERS = {
     "80": {"interFoam": 23, "apic2d": 0.32, "MLS-MPM": 0.61},
 }
 PEERS_TEXT = """\
-CPU seconds per simulated second, beside three other codes with as many cells and particles: OpenFOAM's interFoam, apic2d
-(APIC, projection, CFL number 3, float) and an explicit, weakly compressible MLS-MPM (CFL number 0.7). Theirs were measured
-once, on one core of an AMD EPYC (Zen 4). A ratio above 1 means that theirs takes longer. More codes are in
+CPU seconds per simulated second, beside three other codes with as many cells and particles: OpenFOAM's interFoam,
+apic2d (APIC, projection, CFL number 3, float) and an explicit, weakly compressible MLS-MPM (CFL number 0.7). Theirs were
+measured once, on one core of an AMD EPYC (Zen 4). A ratio above 1 means that theirs takes longer. More codes are in
 [scenes/COMPARISON.md](../../scenes/COMPARISON.md).
 """
 DISTANCE_TEXT = """\
-Distance from interFoam on 160 x 160 cells (`tools/compare_interfoam.py`: the area that is water in only one of the two, over
-the area of the water), at output times within 2 ms of the reference's:
+Distance from interFoam on 160 x 160 cells (`tools/compare_interfoam.py`: the area that is water in only one of the two,
+over the area of the water), at output times within 2 ms of the reference's:
 """
 ASSEMBLY = ("find_full_nodes", "moments_mixed", "divergence_matrix", "laplacian_matrix", "viscosity_matrix",
             "stabilize_pspg", "right_hand_side_viscous", "add_inertia_correction")
@@ -120,8 +120,8 @@ def below_space(rows: list[Row]) -> str:
 BELOW = {"dam_break": below_dam_break, "threads": below_threads, "solvers": below_solvers, "size": below_size,
          "assembly": below_assembly, "space": below_space}
 KERNEL_HEAD = """
-The bytes and operations that a kernel needs at least, by the formulas in [work.hpp](work.hpp), over its time. *Of triad*:
-share of the bandwidth of a = b + s c over as many bytes. *Of peak*: share of the peak of fused multiply-adds. Both are
-measured in the same run on as many threads. Kernels multiply and add separately, so they can reach half of that peak.
+The bytes and operations that a kernel needs at least, by the formulas in [work.hpp](work.hpp), over its time. *Of
+triad*: share of the bandwidth of a = b + s c over as many bytes. *Of peak*: share of the peak of fused multiply-adds.
+Both are measured in the same run on as many threads. Kernels multiply and add separately, so they can reach half of that peak.
 *Rows* are particles for transfers and moments, nodes for matrices and the solve.
 """

@@ -35,7 +35,8 @@ def _draw_panel(axes, title: str, path: Path) -> None:
         axes.plot(seconds, errors, "o-", color=colour, label=name, linewidth=1.4, markersize=4.5)
         if scheme == "pic":
             for x, y, count in points:
-                axes.annotate(f"{count} cells" if x == seconds[0] else count, (x, y), (0, 6), textcoords="offset points", ha="center", fontsize=8)
+                axes.annotate(f"{count} cells" if x == seconds[0] else count, (x, y), (0, 6),
+                              textcoords="offset points", ha="center", fontsize=8)
     axes.set_title(title, fontsize=9.5, loc="left")
     axes.set_xlabel("wall time on one thread [s]", fontsize=9)
     axes.set_xscale("log")
