@@ -31,4 +31,5 @@ if(NOT status EQUAL 2)
 endif()
 require_in("${message}" "unknown name \"solvrs\"; nearest: solvers")
 
+require_written_page(${PYTHON} ${SOURCE}/tools/benchmarking)
 require_no_program(${bench} --build /nowhere --quick size_40)

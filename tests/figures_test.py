@@ -17,6 +17,13 @@ ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = os.environ["PROGRAM"]
 WORK = Path(os.environ["WORK"])
 SHORT = {"/time/end": 0.1, "/time/step": 0.005, "/output/every": 0.01}
+# Calls that draw pictures of the documents; the scenes that they run, and the picture that each is in.
+PICTURES = {
+    "paper": {"paper/dam_break_pic": "dam_break.png", "paper/dam_break_flip": "dam_break.png",
+              "paper/dam_break_tpic": "dam_break.png", "paper/rotating_square_flip": "rotating_square.png",
+              "paper/rotating_square_tpic": "rotating_square.png"},
+    "readme": {"dam_break": "dam_break.png"},
+}
 COARSE = {"/grid/cells": [16, 8, 16], "/particles/0/per_cell": 2, "/time/end": 0.06, "/time/step": 0.01}
 
 
@@ -72,8 +79,8 @@ class Figures(unittest.TestCase):
     def setUpClass(cls):
         shutil.rmtree(WORK, ignore_errors=True)
         WORK.mkdir(parents=True)
-        for scene in ("dam_break", "dam_break_flip"):
-            assert run_scene(scene, scene, SHORT) == 0
+        for scene in ("dam_break_tpic", "dam_break_flip"):
+            assert run_scene(f"paper/{scene}", scene, SHORT) == 0
         assert run_scene("dam_break_3d", "space", COARSE) == 0
 
     def expect_files(self, done, *paths):
@@ -88,19 +95,19 @@ class Figures(unittest.TestCase):
 
     def test_a_run_gives_strips_histories_and_a_movie_with_all_its_frames(self):
         names = ("speed.png", "pressure.png", "history.png", "systems.png", "speed.mp4")
-        self.expect_files(figures("dam_break"), *(f"dam_break/figures/{name}" for name in names))
+        self.expect_files(figures("dam_break_tpic"), *(f"dam_break_tpic/figures/{name}" for name in names))
         for name in names[:3]:
-            width, height = size_of_png(WORK / "dam_break/figures" / name)
+            width, height = size_of_png(WORK / "dam_break_tpic/figures" / name)
             self.assertEqual(width, 1440)  # 7.2 inches with 200 dots each
             self.assertGreater(height, 500)
-        movie = stream_of(WORK / "dam_break/figures/speed.mp4")
-        self.assertEqual(frames_of("dam_break"), 11)
+        movie = stream_of(WORK / "dam_break_tpic/figures/speed.mp4")
+        self.assertEqual(frames_of("dam_break_tpic"), 11)
         self.assertEqual(int(movie["nb_read_frames"]), 11)
         self.assertEqual((movie["codec_name"], movie["pix_fmt"]), ("h264", "yuv420p"))  # what every player shows
 
     def test_particles_are_drawn_where_they_are(self):
-        self.expect_files(figures("dam_break", "--times", "0", "--field", "pressure", "--no-movie", "--out", "start"),
-                          "start/pressure.png", "start/history.png", "start/systems.png")
+        done = figures("dam_break_tpic", "--times", "0", "--field", "pressure", "--no-movie", "--out", "start")
+        self.expect_files(done, "start/pressure.png", "start/history.png", "start/systems.png")
         panel = panel_of(WORK / "start/pressure.png")
         where = np.argwhere(np.ptp(panel, axis=2) > 0.1)
         # The column takes a quarter of the width and half of the height of the tank; particles and walls have a width.
@@ -108,7 +115,7 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(1 - where[:, 0].min() / panel.shape[0], 0.5, delta=0.015)
 
     def test_runs_stand_side_by_side_with_the_lines_of_a_reference(self):
-        call = ("dam_break", "dam_break_flip", "--times", "0.1", "--field", "speed")
+        call = ("dam_break_tpic", "dam_break_flip", "--times", "0.1", "--field", "speed")
         red = (0.84, 0.15, 0.16)
         reference = ROOT / "scenes/reference/dam_break_interfoam"
         for out, more in (("bare", ["--no-movie"]), ("both", ["--reference", reference])):
@@ -136,16 +143,17 @@ class Figures(unittest.TestCase):
 
     def test_a_run_that_failed_gives_figures_of_what_is_there(self):
         # The force leaves the range of numbers after 0.032 s.
-        status = run_scene("dam_break", "failed", SHORT | {"/body_force": [0, "-9.81/(t < 0.032)"]})
+        status = run_scene("paper/dam_break_tpic", "failed", SHORT | {"/body_force": [0, "-9.81/(t < 0.032)"]})
         self.assertEqual(status, 3)
         names = ("speed.png", "history.png", "systems.png", "speed.mp4")
         self.expect_files(figures("failed", "--field", "speed"), *(f"failed/figures/{name}" for name in names))
         self.assertEqual(int(stream_of(WORK / "failed/figures/speed.mp4")["nb_read_frames"]), frames_of("failed"))
         # Beside a run that went on its panels say that it ended.
-        self.assertEqual(figures("dam_break", "failed", "--times", "0,0.1", "--no-movie", "--out", "beside").stderr, "")
+        done = figures("dam_break_tpic", "failed", "--times", "0,0.1", "--no-movie", "--out", "beside")
+        self.assertEqual(done.stderr, "")
 
     def test_values_beyond_all_numbers_are_magenta_and_do_not_hide_the_others(self):
-        shutil.copytree(WORK / "dam_break", WORK / "diverged")
+        shutil.copytree(WORK / "dam_break_tpic", WORK / "diverged")
         with h5py.File(WORK / "diverged/fields.h5", "r+") as file:
             file["particles/10/velocity"][0] = np.inf
             file["particles/10/velocity"][1] = np.nan
@@ -161,42 +169,49 @@ class Figures(unittest.TestCase):
                           "expected: a folder that `minamo run SCENE --out DIR` wrote", "nowhere")
         empty = WORK / "empty"
         empty.mkdir()
-        shutil.copy(WORK / "dam_break/scene.json", empty)
+        shutil.copy(WORK / "dam_break_tpic/scene.json", empty)
         self.expect_error("empty: no frames to draw; expected: at least one in fields.h5", "empty")
         known = ("speed, pressure, velocity_x, velocity_y, vorticity, velocity_gradient_xx, velocity_gradient_xy, "
                  "velocity_gradient_yx, velocity_gradient_yy, id")
-        self.expect_error(f"dam_break: unknown field \"presure\"; expected one of: {known}; nearest: pressure",
-                          "dam_break", "--field", "presure")
-        self.expect_error("dam_break: t = 3 s is outside the run; expected: between 0 and 0.1 s",
-                          "dam_break", "--times", "0.1,3")
-        self.expect_error("dam_break: no frame at t = 0.056 s; nearest: 0.05 and 0.06 s",
-                          "dam_break", "--times", "0.056")
-        self.expect_error("dam_break: a run in the plane cannot be cut at z = 0.1 m", "dam_break", "--slice", "z=0.1")
+        self.expect_error(f"dam_break_tpic: unknown field \"presure\"; expected one of: {known}; nearest: pressure",
+                          "dam_break_tpic", "--field", "presure")
+        self.expect_error("dam_break_tpic: t = 3 s is outside the run; expected: between 0 and 0.1 s",
+                          "dam_break_tpic", "--times", "0.1,3")
+        self.expect_error("dam_break_tpic: no frame at t = 0.056 s; nearest: 0.05 and 0.06 s",
+                          "dam_break_tpic", "--times", "0.056")
+        self.expect_error("dam_break_tpic: a run in the plane cannot be cut at z = 0.1 m",
+                          "dam_break_tpic", "--slice", "z=0.1")
         self.expect_error("space: the slice y = 0.4 m misses the box; expected: y between 0 and 0.292 m",
                           "space", "--slice", "y=0.4")
         done = figures("space", "--slice", "w=0.4")
         self.assertEqual(done.returncode, 2)
         self.assertIn("argument --slice: expected an axis and a place on it, like z=0.1, got \"w=0.4\"", done.stderr)
 
-    def test_the_pictures_of_the_readme_come_from_one_call_which_runs_what_is_missing(self):
-        (WORK / "scenes").mkdir()
-        for name, cells, step in (("dam_break_pic", 16, 0.02), ("dam_break_flip", 16, 0.02), ("dam_break", 16, 0.02),
-                                  ("rotating_square_flip", 40, 0.02), ("rotating_square", 40, 0.02)):
+    def test_the_pictures_of_the_documents_come_from_one_call_which_runs_what_is_missing(self):
+        for call, names in PICTURES.items():
+            with self.subTest(call=call):
+                self.draw_documents(call, names)
+
+    def draw_documents(self, call, names):
+        scenes, results, out = (WORK / f"{call}_{folder}" for folder in ("scenes", "results", "pictures"))
+        scenes.mkdir()
+        for name in names:
             scene = json.loads((ROOT / f"scenes/{name}.json").read_text())
-            scene["grid"]["cells"] = [cells, cells]
-            scene["time"]["step"] = step
-            (WORK / f"scenes/{name}.json").write_text(json.dumps(scene))
-        call = ("paper", "--scenes", "scenes", "--results", "results", "--out", "readme")
-        self.assertEqual(figures(*call).returncode, 0)
-        for name in ("dam_break.png", "rotating_square.png"):
-            self.assertEqual(size_of_png(WORK / "readme" / name)[0], 1440)
-        written = {path: path.stat().st_mtime_ns for path in (WORK / "results").glob("*/summary.json")}
-        self.assertEqual(len(written), 5)
-        scene["time"]["step"] = 0.04  # of the rotating square
-        (WORK / "scenes/rotating_square.json").write_text(json.dumps(scene))
-        self.assertEqual(figures(*call).returncode, 0)
+            cells = 40 if "rotating" in name else 16
+            scene["grid"]["cells"], scene["time"]["step"] = [cells, cells], 0.02
+            last = scenes / f"{Path(name).name}.json"
+            last.write_text(json.dumps(scene))
+        command = (call, "--scenes", scenes, "--results", results, "--out", out)
+        self.assertEqual(figures(*command).returncode, 0)
+        for picture in set(names.values()):
+            self.assertAlmostEqual(size_of_png(out / picture)[0], 1440, delta=1)
+        written = {path: path.stat().st_mtime_ns for path in results.glob("*/summary.json")}
+        self.assertEqual(len(written), len(names))
+        scene["time"]["step"] = 0.04
+        last.write_text(json.dumps(scene))
+        self.assertEqual(figures(*command).returncode, 0)
         again = [path.parent.name for path, time in written.items() if path.stat().st_mtime_ns != time]
-        self.assertEqual(again, ["rotating_square"])
+        self.assertEqual(again, [last.stem])
 
 
 if __name__ == "__main__":

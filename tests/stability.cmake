@@ -28,4 +28,5 @@ if(NOT status EQUAL 2)
 endif()
 require_in("${message}" "unknown name \"drop_cfl_2\"; nearest: drops_cfl_2")
 
+require_written_page(${PYTHON} ${SOURCE}/tools/hard_cases)
 require_no_program(${stability} --program /nowhere/minamo lone_particle)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """How far the water of a dam break is from that of OpenFOAM's interFoam.
 
-  tools/compare_interfoam.py out/dam_break out/dam_break_flip
+  tools/compare_interfoam.py out/dam_break out/dam_break_pic
 
 Prints the area that is water in one of the two and not in the other, over the area of the column at the start. Water is
 where the volume fraction exceeds 1/2, on a raster of 0.5 mm. That of interFoam (160 x 160 cells) is interpolated between

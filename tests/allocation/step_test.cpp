@@ -78,7 +78,7 @@ bool is_solver(const std::string& name) { return name.starts_with("solve_"); }
 
 Json dam_break(const std::vector<std::string>& overrides) {
   const Json scene = scene_run::with(
-      scene_run::scene_of_file("dam_break.json"),
+      scene_run::scene_of_file("paper/dam_break_tpic.json"),
       {R"(/transfer={"scheme":"tpic"})", R"(/integrator={"scheme":"midpoint"})", R"(/volume={"scheme":"projection"})"});
   return scene_run::with(scene, overrides);
 }

@@ -151,7 +151,8 @@ TEST_CASE("matrices in two dimensions", "[!benchmark][roofline][assembly]") { me
 TEST_CASE("matrices in three dimensions", "[!benchmark][roofline][assembly]") { measure_matrices<3>(); }
 
 TEST_CASE("block solve in two dimensions", "[!benchmark][roofline][solve]") {
-  measure_solve<2>("dam_break.json", {"/grid/cells=[160,160]", "/particles/0/per_cell=4", "/time/step=5e-4"}, 10);
+  measure_solve<2>("paper/dam_break_tpic.json", {"/grid/cells=[160,160]", "/particles/0/per_cell=4", "/time/step=5e-4"},
+                   10);
 }
 
 TEST_CASE("block solve in three dimensions", "[!benchmark][roofline][solve]") {

@@ -17,7 +17,7 @@ using Arguments = std::vector<std::string>;
 /// A dam break of 200 particles with many frames.
 Arguments run_to(const std::string& out, const Arguments& more = {}) {
   Arguments arguments{"run",
-                      std::string(MINAMO_SOURCE_DIR) + "/scenes/dam_break.json",
+                      std::string(MINAMO_SOURCE_DIR) + "/scenes/paper/dam_break_tpic.json",
                       "--out",
                       out,
                       "--threads",

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-Json coarse_dam_break() { return with(scene_of_file("dam_break.json"), {"/grid/cells=[20, 20]"}); }
+Json coarse_dam_break() { return with(scene_of_file("paper/dam_break_tpic.json"), {"/grid/cells=[20, 20]"}); }
 
 void accept(World& world) { make_system<AcceptStep<2>>("accept_step").run(world); }
 

@@ -168,7 +168,7 @@ TEST_CASE("the block solver balances the momentum of a shear flow under gravity"
 }
 
 TEST_CASE("the block solver takes few iterations in a splash", "[property]") {
-  SceneRun run(with(scene_of_file("dam_break.json"),
+  SceneRun run(with(scene_of_file("paper/dam_break_tpic.json"),
                     {"/grid/cells=[20, 20]", "/time/step=4e-3", R"(/integrator={"scheme": "midpoint"})",
                      R"(/volume={"scheme": "projection"})", R"(/solver={"scheme": "block"})"}));
   std::int64_t most = 0;
@@ -217,7 +217,7 @@ TEST_CASE("the block solver gives the steps of UMFPACK around a short periodic a
 TEST_CASE("the block solver takes few iterations, whatever the resolution", "[property]") {
   const int cells = GENERATE(20, 40, 80);
   CAPTURE(cells);
-  SceneRun run(with(scene_of_file("dam_break.json"),
+  SceneRun run(with(scene_of_file("paper/dam_break_tpic.json"),
                     {"/grid/cells=[" + std::to_string(cells) + ", " + std::to_string(cells) + "]",
                      "/time/step=" + std::to_string(0.08 / cells), R"(/integrator={"scheme": "midpoint"})",
                      R"(/solver={"scheme": "block"})"}));
@@ -309,7 +309,7 @@ TEST_CASE("LU within an envelope tells a pivot that has lost its digits", "[prop
 TEST_CASE("pressures are factorized in single precision until spray needs double", "[property]") {
   const bool spray = GENERATE(false, true);
   CAPTURE(spray);
-  Json scene = with(scene_of_file("dam_break.json"),
+  Json scene = with(scene_of_file("paper/dam_break_tpic.json"),
                     {"/grid/cells=[160, 160]", "/time/step=5e-4", R"(/integrator={"scheme": "midpoint"})"});
   // A lone particle has nine pressures and three equations.
   if (spray) {

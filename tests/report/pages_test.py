@@ -56,7 +56,7 @@ class SideBySide(PageTest):
     def setUpClass(cls) -> None:
         super().setUpClass()
         settings = ("/time/end=0.1", "/time/step=0.005", "/output/every=0.02")
-        cls.folders = [RESULTS.run(scene, f"both/{scene}", *settings) for scene in ("dam_break", "dam_break_flip")]
+        cls.folders = [RESULTS.run(scene, f"both/{scene}", *settings) for scene in ("paper/dam_break_tpic", "paper/dam_break_flip")]
         cls.page = RESULTS.page(*cls.folders, name="both.html")
 
     def test_two_runs_move_together(self) -> None:
@@ -91,7 +91,7 @@ class WithCorners(PageTest):
     """The rotating square."""
 
     def test_the_corners_of_the_rotating_square_are_marked_where_theory_has_them(self) -> None:
-        folder = RESULTS.run("rotating_square", "square", "/time/step=0.05", "/grid/cells=[50,50]",
+        folder = RESULTS.run("paper/rotating_square_tpic", "square", "/time/step=0.05", "/grid/cells=[50,50]",
                              "/particles/0/per_cell=3", "/time/end=1")
         self.open(RESULTS.page(folder))
         corners = self.js("report.runs[0].corners")
@@ -119,7 +119,7 @@ class WithoutResults(PageTest):
         (wrong / "scene.json").write_text('{"dimension": 2}')
         (RESULTS.work / "broken_json").mkdir()
         (RESULTS.work / "broken_json/scene.json").write_text("{")
-        good = RESULTS.run("dam_break", "short", "/time/end=0.001")
+        good = RESULTS.run("paper/dam_break_tpic", "short", "/time/end=0.001")
         for arguments, part in (([wrong], "no /grid"), ([RESULTS.work / "broken_json"], "cannot be read as JSON"),
                                 ([good, "--out", RESULTS.work / "no/folder.html"], "no/folder.html")):
             with self.subTest(part):
@@ -128,13 +128,13 @@ class WithoutResults(PageTest):
                 self.assertIn(part, ended.stderr)
 
     def test_a_failed_run_shows_its_message_and_what_it_wrote(self) -> None:
-        folder = RESULTS.run("dam_break", "failed", '/body_force=[0, "-9.81/(t < 0.0032)"]', "/output/every=1e-3")
+        folder = RESULTS.run("paper/dam_break_tpic", "failed", '/body_force=[0, "-9.81/(t < 0.0032)"]', "/output/every=1e-3")
         self.open(RESULTS.page(folder))
         self.assertIn(summary(folder)["message"], self.text("pre.failed"))
         self.assertGreater(self.picture()["drawn"], 5000)
 
     def test_a_run_that_has_written_a_scene_alone_is_shown_as_that(self) -> None:
-        folder = RESULTS.run("dam_break", "bare", "/time/end=0.001")
+        folder = RESULTS.run("paper/dam_break_tpic", "bare", "/time/end=0.001")
         for path in folder.iterdir():
             if path.name != "scene.json":
                 path.unlink()
@@ -145,7 +145,7 @@ class WithoutResults(PageTest):
         self.assertEqual(0, self.js("document.querySelectorAll('canvas').length"))
 
     def test_a_broken_fields_h5_is_named(self) -> None:
-        folder = RESULTS.run("dam_break", "broken", "/time/end=0.01")
+        folder = RESULTS.run("paper/dam_break_tpic", "broken", "/time/end=0.01")
         (folder / "fields.h5").write_bytes(b"not HDF5")
         self.open(RESULTS.page(folder))
         self.assertIn("fields.h5 cannot be read", self.text("p.failed:not(#problem)"))

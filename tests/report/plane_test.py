@@ -17,7 +17,7 @@ class InThePlane(PageTest):
     @classmethod
     def setUpClass(cls) -> None:
         super().setUpClass()
-        cls.folder = RESULTS.run("dam_break", "dam_break", "/time/end=0.1", "/time/step=0.005", "/output/every=0.02")
+        cls.folder = RESULTS.run("paper/dam_break_tpic", "dam_break", "/time/end=0.1", "/time/step=0.005", "/output/every=0.02")
         cls.page = RESULTS.page(cls.folder)
 
     def test_a_page_loads_nothing_but_itself(self) -> None:

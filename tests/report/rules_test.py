@@ -63,7 +63,7 @@ class Choice(unittest.TestCase):
     """Which particles are in a page."""
 
     def test_too_many_particles_are_thinned_and_those_left_are_where_they_were(self) -> None:
-        run = Run(RESULTS.run("dam_break", "thin", "/time/end=0.01", "/output/every=0.005"))
+        run = Run(RESULTS.run("paper/dam_break_tpic", "thin", "/time/end=0.01", "/output/every=0.005"))
         few, all_of_them = Particles.read(run, 100), Particles.read(run, 10**6)
         self.assertEqual((800, 100), (few.count, len(few.chosen)))
         np.testing.assert_array_equal(all_of_them.position[:, few.chosen], few.position)
@@ -72,7 +72,7 @@ class Choice(unittest.TestCase):
 
 
     def test_a_long_history_is_thinned_and_says_so(self) -> None:
-        run = Run(RESULTS.run("dam_break", "long", "/time/end=0.01"))
+        run = Run(RESULTS.run("paper/dam_break_tpic", "long", "/time/end=0.01"))
         rows = 2 * MOST_ROWS + 1
         run.history = {name: np.resize(values, rows) for name, values in run.history.items()}
         packed = packed_history(run, plots([run]), lambda text: 0)
@@ -90,7 +90,7 @@ class Fitting(unittest.TestCase):
         return Run(RESULTS.run(name, folder, "/time/end=0.001", "/time/step=0.001", *settings))
 
     def test_interfoam_fits_the_dam_breaks_it_was_made_for_and_no_others(self) -> None:
-        for name, expected in (("dam_break", True), ("dam_break_pic", True), ("dam_break_large", False),
+        for name, expected in (("dam_break", True), ("paper/dam_break_pic", True), ("dam_break_large", False),
                                ("hydrostatic", False)):
             with self.subTest(scene=name):
                 self.assertEqual(expected, bool(references(self.run_of(name))))
@@ -104,7 +104,7 @@ class Fitting(unittest.TestCase):
                 self.assertEqual(expected, fits({"walls": "slip"}, scene | {"walls": walls}))
 
     def test_only_boxes_in_free_flight_have_exact_corners(self) -> None:
-        for name, expected in (("rotating_square", True), ("ballistic_block", True), ("dam_break", False),
+        for name, expected in (("paper/rotating_square_tpic", True), ("ballistic_block", True), ("dam_break", False),
                                ("elliptical_drop", False), ("gresho", False), ("drop_3d", False)):
             with self.subTest(scene=name):
                 self.assertEqual(expected, corner_paths(self.run_of(name)) is not None)
@@ -115,7 +115,7 @@ class WhileItRuns(unittest.TestCase):
 
     def test_who_reads_does_not_make_the_run_fail(self) -> None:
         folder = RESULTS.work / "live"
-        command = [RESULTS.program, "run", RESULTS.source / "scenes/dam_break.json", "--out", folder, "--quiet",
+        command = [RESULTS.program, "run", RESULTS.source / "scenes/paper/dam_break_tpic.json", "--out", folder, "--quiet",
                    "--threads", "1", "--set", "/time/end=1", "--set", "/output/every=0.01"]
         with subprocess.Popen(command) as going_on, self.fields_of(folder) as file:
             frames = len(file["particles"])
@@ -136,7 +136,7 @@ class Graphs(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls) -> None:
-        cls.run_ = Run(RESULTS.run("dam_break", "graph", "/time/end=0.001"))
+        cls.run_ = Run(RESULTS.run("paper/dam_break_tpic", "graph", "/time/end=0.001"))
 
     def test_it_is_drawn_without_graphviz_too(self) -> None:
         empty = RESULTS.work / "empty"

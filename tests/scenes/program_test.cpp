@@ -17,8 +17,15 @@ using Arguments = std::vector<std::string>;
 
 /// `minamo run` of the dam break on a coarse grid, with more arguments.
 Arguments dam_break(const std::string& out, const Arguments& more) {
-  Arguments arguments{"run",   scene_path("dam_break.json"), "--out", out, "--threads", "1", "--quiet",
-                      "--set", "/grid/cells=[20, 20]"};
+  Arguments arguments{"run",
+                      scene_path("paper/dam_break_tpic.json"),
+                      "--out",
+                      out,
+                      "--threads",
+                      "1",
+                      "--quiet",
+                      "--set",
+                      "/grid/cells=[20, 20]"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -114,8 +121,8 @@ TEST_CASE("a scheme can be overridden alone: keys of the one in the file go with
   const std::string changed = GENERATE(R"(/transfer/scheme="flip")", R"(/transfer/scheme="apic")",
                                        R"(/integrator/scheme="midpoint")", R"(/solver/scheme="umfpack")");
   CAPTURE(changed);
-  REQUIRE(run_program({"run", scene_path("dam_break.json"), "--out", folder / "out", "--steps", "1", "--quiet", "--set",
-                       changed})
+  REQUIRE(run_program({"run", scene_path("paper/dam_break_tpic.json"), "--out", folder / "out", "--steps", "1",
+                       "--quiet", "--set", changed})
               .code == 0);
   // What the new scheme knows, too, stays as it is in the file.
   const Json transfer = json_of(folder / "out/scene.json")["transfer"];
@@ -124,8 +131,9 @@ TEST_CASE("a scheme can be overridden alone: keys of the one in the file go with
 
 TEST_CASE("an override that the new scheme does not know is an error", "[scene]") {
   const Folder folder;
-  const ProgramEnd wrong = run_program({"run", scene_path("dam_break.json"), "--out", folder / "out", "--set",
-                                        R"(/transfer/scheme="flip")", "--set", R"(/transfer/inertia="lumped")"});
+  const ProgramEnd wrong =
+      run_program({"run", scene_path("paper/dam_break_tpic.json"), "--out", folder / "out", "--set",
+                   R"(/transfer/scheme="flip")", "--set", R"(/transfer/inertia="lumped")"});
   CHECK(wrong.code == 2);
   CHECK_THAT(wrong.output, Catch::Contains("/transfer/inertia: unknown key with scheme \"flip\""));
 }
@@ -148,18 +156,19 @@ TEST_CASE("a scene that is not there ends with 2", "[scene]") {
 }
 
 TEST_CASE("an unknown option ends with 2", "[scene]") {
-  CHECK(run_program({"run", scene_path("dam_break.json"), "--nonsense"}).code == 2);
+  CHECK(run_program({"run", scene_path("paper/dam_break_tpic.json"), "--nonsense"}).code == 2);
 }
 
 TEST_CASE("check accepts every scene", "[scene]") {
   Arguments arguments{"check"};
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(MINAMO_SOURCE_DIR) + "/scenes")) {
-    if (entry.path().extension() == ".json" && !json_of(entry.path()).contains("scene"))
-      arguments.push_back(entry.path());
+  for (const std::string folder : {"/scenes", "/scenes/paper"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(MINAMO_SOURCE_DIR + folder)) {
+      if (entry.path().extension() == ".json") arguments.push_back(entry.path());
+    }
   }
   const ProgramEnd end = run_program(arguments);
   CHECK(end.code == 0);
-  CHECK_THAT(end.output, Catch::Contains("dam_break.json: valid, 800 particles"));
+  CHECK_THAT(end.output, Catch::Contains("dam_break.json: valid, 1800 particles"));
 }
 
 TEST_CASE("an exact solution that ends in the course of the run fails it", "[scene]") {
@@ -201,7 +210,7 @@ TEST_CASE("an interrupted run ends with 130 and leaves a checkpoint", "[scene]")
 }
 
 TEST_CASE("graph shows the systems of a scene and what they touch", "[scene]") {
-  const ProgramEnd end = run_program({"graph", scene_path("dam_break_pic.json"), "--format", "json"});
+  const ProgramEnd end = run_program({"graph", scene_path("paper/dam_break_pic.json"), "--format", "json"});
   REQUIRE(end.code == 0);
   const Json graph = Json::parse(end.output);
   CHECK_FALSE(graph["systems"].empty());

@@ -25,7 +25,7 @@ struct RefuseSixth {
 };
 
 std::string history_with(const std::string& after, const std::string& threads, const Folder& folder) {
-  const std::string scene = MINAMO_SOURCE_DIR "/scenes/dam_break.json";
+  const std::string scene = MINAMO_SOURCE_DIR "/scenes/paper/dam_break_tpic.json";
   const std::string out = folder / ("out_" + after + threads);
   const std::string systems = R"(/systems=[{"use": "refuse_sixth", "after": ")" + after + "\"}]";
   const std::vector<const char*> arguments{"minamo", "run",       scene.c_str(), "--steps",

@@ -39,7 +39,7 @@ struct Case {
 
 const Arguments coarse{"/grid/cells=[20, 20]", "/output/every=0.02", "/output/checkpoint=0.03"};
 
-Case coarse_dam_break(const Arguments& overrides) { return {"dam_break.json", with(coarse, overrides)}; }
+Case coarse_dam_break(const Arguments& overrides) { return {"paper/dam_break_tpic.json", with(coarse, overrides)}; }
 
 const std::vector<Case> cases{
     coarse_dam_break({}),
@@ -74,8 +74,8 @@ TEST_CASE("a run that is killed at any moment goes on to the bytes of one that w
   const char* wanted = std::getenv("MINAMO_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 8;
   const Folder folder;
-  const Arguments run = run_of(
-      "dam_break.json", {"/grid/cells=[20, 20]", "/output/every=0.002", "/output/checkpoint=0.003", "/time/end=0.15"});
+  const Arguments run = run_of("paper/dam_break_tpic.json", {"/grid/cells=[20, 20]", "/output/every=0.002",
+                                                             "/output/checkpoint=0.003", "/time/end=0.15"});
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(run_program(with(run, {"--out", folder / "whole"})).code == 0);
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
@@ -102,7 +102,7 @@ TEST_CASE("a run that is killed at any moment goes on to the bytes of one that w
 
 TEST_CASE("a run may go on to a later end", "[scene]") {
   const Folder folder;
-  const Arguments run = run_of("dam_break.json", coarse);
+  const Arguments run = run_of("paper/dam_break_tpic.json", coarse);
   REQUIRE(run_program(with(run, {"--out", folder / "whole", "--set", "/time/end=0.05"})).code == 0);
   REQUIRE(run_program(with(run, {"--out", folder / "parts", "--set", "/time/end=0.03"})).code == 0);
   REQUIRE(run_program(with(run, {"--out", folder / "parts", "--set", "/time/end=0.05", "--resume"})).code == 0);
@@ -111,7 +111,8 @@ TEST_CASE("a run may go on to a later end", "[scene]") {
 
 TEST_CASE("a run that is complete is left alone", "[scene]") {
   const Folder folder;
-  const Arguments run = with(run_of("dam_break.json", with(coarse, {"/time/end=0.005"})), {"--out", folder / "out"});
+  const Arguments run =
+      with(run_of("paper/dam_break_tpic.json", with(coarse, {"/time/end=0.005"})), {"--out", folder / "out"});
   REQUIRE(run_program(run).code == 0);
   const std::string before = text_of(folder / "out/summary.json");
   const ProgramEnd again = run_program(with(run, {"--resume"}));
@@ -122,14 +123,14 @@ TEST_CASE("a run that is complete is left alone", "[scene]") {
 
 TEST_CASE("what does not fit a checkpoint is refused, and nothing is changed", "[scene]") {
   const Folder folder;
-  const Arguments run = with(run_of("dam_break.json", coarse), {"--out", folder / "out"});
+  const Arguments run = with(run_of("paper/dam_break_tpic.json", coarse), {"--out", folder / "out"});
   REQUIRE(run_program(with(run, {"--steps", "5"})).code == 0);
   Arguments more{"--resume"};
   std::string message;
   SECTION("another scene: every difference, and no other") {
     more.insert(more.end(), {"--set", R"(/transfer={"scheme": "flip"})", "--set", "/fluid/density=900", "--set",
                              "/title=\"other\"", "--set", "/output/every=0.5"});
-    message = "dam_break.json: /fluid/density: differs from the scene of the checkpoint\n"
+    message = "dam_break_tpic.json: /fluid/density: differs from the scene of the checkpoint\n"
               "  expected  1000 (number)\n  got       900 (number)\n";
   }
   SECTION("no checkpoint") {

@@ -11,9 +11,11 @@ namespace {
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(MINAMO_SOURCE_DIR) + "/scenes")) {
-    const std::string name = entry.path().filename();
-    if (entry.path().extension() == ".json" && !scene_of_file(name).contains("scene")) names.push_back(name);
+  for (const std::string folder : {"", "paper/"}) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(MINAMO_SOURCE_DIR) + "/scenes/" + folder)) {
+      if (entry.path().extension() == ".json") names.push_back(folder + entry.path().filename().string());
+    }
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -101,7 +103,7 @@ TEST_CASE("the world of a PIC or FLIP scene has no gradient columns", "[scene]")
 }
 
 TEST_CASE("the world of an inviscid scene has no viscosity matrix", "[scene]") {
-  SceneRun run(scene_of_file("rotating_square_flip.json"));
+  SceneRun run(scene_of_file("paper/rotating_square_flip.json"));
   CHECK_FALSE(run.world().has<matrix::Viscosity<2>>());
 }
 

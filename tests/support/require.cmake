@@ -16,3 +16,12 @@ function(require_no_program)
   require_in("${message}" "/nowhere/minamo: No such file or directory\n")
   require_in("${message}" " is as it was.")
 endfunction()
+
+# That RESULTS.md is what the python program in a folder writes of results.json.
+function(require_written_page python folder)
+  set(code "import runpy\nm = runpy.run_path('__main__.py')\nassert m['page'](m['load']()) == m['RESULTS'].read_text()")
+  execute_process(COMMAND ${python} -B -c "${code}" WORKING_DIRECTORY ${folder} RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "RESULTS.md differs from the page of results.json by ${folder}")
+  endif()
+endfunction()

@@ -34,7 +34,8 @@ std::set<std::string> names_in(const std::string& path, const std::string& group
 }
 
 Json small_scene() {
-  return with(scene_of_file("dam_break.json"), {"/grid/cells=[20, 20]", R"(/integrator={"scheme": "newmark"})"});
+  return with(scene_of_file("paper/dam_break_tpic.json"),
+              {"/grid/cells=[20, 20]", R"(/integrator={"scheme": "newmark"})"});
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 /// \file
-/// What the README files say of the program is what the program says of itself. `tools/catalogue` writes it anew.
+/// What the documents say of the program is what the program says of itself, where they point there is something, and
+/// figures that stand twice are the same. `tools/catalogue` writes anew what the program prints.
 
 #include "engine/input_text.hpp"
 #include "support/program_output.hpp"
@@ -54,7 +55,123 @@ std::vector<std::string> first_column(const std::string& table) {
   return column;
 }
 
+/// All documents, by path from the source.
+std::vector<std::string> documents() {
+  namespace fs = std::filesystem;
+  std::vector<std::string> paths;
+  for (fs::recursive_directory_iterator at(source), end; at != end; ++at) {
+    const std::string name = at->path().filename();
+    if (at->is_directory() && (name.starts_with(".") || name == "build" || name == "out"))
+      at.disable_recursion_pending();
+    if (at->path().extension() == ".md") paths.push_back(fs::relative(at->path(), source));
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+/// A Markdown text without its code: blocks, fenced or indented, and what stands in backticks.
+std::string without_code(const std::string& text) {
+  std::istringstream lines(text);
+  std::string rest;
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_fence = line.starts_with("```");
+    if (is_fence) inside = !inside;
+    if (!inside && !is_fence && !line.starts_with("    ")) rest += line + "\n";
+  }
+  return std::regex_replace(rest, std::regex("`[^`]*`"), "");
+}
+
+const std::regex link_target(R"(\]\(([^)\s]+)\))");
+
+/// A group of every match of the pattern.
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern, std::size_t group = 0) {
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at) found.push_back((*at)[group]);
+  return found;
+}
+
+/// The anchors of the headings, as GitHub makes them: small letters, blanks as dashes, no punctuation.
+std::set<std::string> anchors(const std::string& text) {
+  std::set<std::string> anchors;
+  for (const std::string& heading : matches("\n" + text, std::regex(R"(\n#+ ([^\n]+))"), 1)) {
+    std::string anchor;
+    for (const char letter : heading) {
+      const auto byte = static_cast<unsigned char>(letter);
+      if (std::isalnum(byte) != 0 || letter == '-' || letter == '_') anchor += static_cast<char>(std::tolower(byte));
+      if (letter == ' ') anchor += '-';
+    }
+    anchors.insert(anchor);
+  }
+  return anchors;
+}
+
 }  // namespace
+
+TEST_CASE("every link of every document leads to a file, and to a heading in it", "[unit]") {
+  for (const std::string& document : documents()) {
+    for (const std::string& link : matches(without_code(text_of(source + "/" + document)), link_target, 1)) {
+      if (link.starts_with("http")) continue;
+      CAPTURE(document, link);
+      const auto hash = std::min(link.find('#'), link.size());
+      const std::filesystem::path folder = std::filesystem::path(source + "/" + document).parent_path();
+      const auto file = hash == 0 ? std::filesystem::path(source + "/" + document) : folder / link.substr(0, hash);
+      REQUIRE(std::filesystem::exists(file));
+      if (hash < link.size()) CHECK(anchors(text_of(file)).contains(link.substr(hash + 1)));
+    }
+  }
+}
+
+TEST_CASE("the boxes of the step in the README lead to folders", "[unit]") {
+  const auto targets = matches(text_of(source + "/README.md"), std::regex(R"x(  click \w+ "([^"]+)")x"), 1);
+  CHECK(targets.size() >= slot_names().size());
+  for (const std::string& target : targets) {
+    CAPTURE(target);
+    CHECK(std::filesystem::is_directory(source + "/" + target));
+  }
+}
+
+TEST_CASE("the README is read in three minutes", "[unit]") {
+  const std::string text = std::regex_replace(text_of(source + "/README.md"), link_target, "]");
+  std::istringstream words(text);
+  CHECK(std::distance(std::istream_iterator<std::string>(words), {}) <= 900);
+  CHECK(matches(" " + without_code(text), std::regex(R"([^\w.](\d[\d.,]*))")).size() <= 25);
+}
+
+TEST_CASE("the README names the commands, a scene of this tree and code that is built", "[unit]") {
+  const std::string text = text_of(source + "/README.md");
+  CHECK_THAT(text, Catch::Contains("tools/run ") && Catch::Contains("tools/test"));
+  CHECK(code_blocks(text, {"json"}) == std::vector{text_of(source + "/scenes/dam_break.json")});
+  const std::string example = text_of(source + "/tools/example_system/main.cpp");
+  const auto code = code_blocks(text, {"cpp"});
+  CHECK_FALSE(code.empty());
+  for (const std::string& block : code) CHECK_THAT(example, Catch::Contains(block));
+}
+
+TEST_CASE("figures that stand in two documents are the same", "[unit]") {
+  const auto [text, one, other] = GENERATE(table<std::string, std::string, std::string>({
+      // Distance of interFoam's own runs from its finest.
+      {"| 0.008 | 0.018 | 0.031 | 0.051 | 0.093 | 0.137 | 0.207 |", "scenes/RESULTS.md", "interfoam"},
+      {"| 0.005 | 0.008 | 0.014 | 0.038 | 0.062 | 0.097 | 0.176 |", "scenes/RESULTS.md", "interfoam"},
+      // CPU seconds per simulated second: minamo's, then those of the others as they stand before their ratios.
+      {"| 0.577 |", "scenes/COMPARISON.md", "bench"},
+      {"| 0.167 |", "scenes/COMPARISON.md", "bench"},
+      {"| 4.58 |", "scenes/COMPARISON.md", "bench"},
+      {"| 1.22 |", "scenes/COMPARISON.md", "bench"},
+      {"| 2.40", "scenes/COMPARISON.md", "bench"},
+      {"| 23.0", "scenes/COMPARISON.md", "bench"},
+      {"| 0.06", "scenes/COMPARISON.md", "bench"},
+      {"| 0.32", "scenes/COMPARISON.md", "bench"},
+      {"| 0.077", "scenes/COMPARISON.md", "bench"},
+      {"| 0.61", "scenes/COMPARISON.md", "bench"},
+      {" 29.0 ", "scenes/COMPARISON.md", "bench"},
+  }));
+  CAPTURE(text, one);
+  CHECK_THAT(text_of(source + "/" + one), Catch::Contains(text));
+  const std::string file =
+      other == "bench" ? "/tests/bench/RESULTS.md" : "/scenes/reference/dam_break_interfoam/README.md";
+  CHECK_THAT(text_of(source + file), Catch::Contains(text));
+}
 
 TEST_CASE("tables in the README files are those that the program prints", "[unit]") {
   const auto [file, arguments] = GENERATE(table<std::string, std::vector<std::string>>({
@@ -74,7 +191,7 @@ TEST_CASE("the schema that the scenes name is the one that the program prints", 
 }
 
 TEST_CASE("every scene names the schema, which is there", "[unit]") {
-  const std::string folder = GENERATE("/scenes", "/tools/example_system");
+  const std::string folder = GENERATE("/scenes", "/scenes/paper", "/tools/example_system");
   for (const auto& entry : std::filesystem::directory_iterator(source + folder)) {
     if (entry.path().extension() != ".json") continue;
     CAPTURE(entry.path().string());
@@ -138,9 +255,10 @@ TEST_CASE("scenes/README.md names every function of expressions", "[unit]") {
   }
 }
 
-TEST_CASE("scenes/README.md lists every scene", "[unit]") {
-  const std::string text = text_of(source + "/scenes/README.md");
-  for (const auto& entry : std::filesystem::directory_iterator(source + "/scenes")) {
+TEST_CASE("the README of a folder of scenes lists every scene in it", "[unit]") {
+  const std::string folder = GENERATE("/scenes", "/scenes/paper");
+  const std::string text = text_of(source + folder + "/README.md");
+  for (const auto& entry : std::filesystem::directory_iterator(source + folder)) {
     const auto& path = entry.path();
     if (path.extension() != ".json") continue;
     const std::string link = "[" + path.stem().string() + "](" + path.filename().string() + ")";

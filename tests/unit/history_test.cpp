@@ -30,7 +30,7 @@ std::vector<std::vector<std::string>> history(const Json& scene, int steps) {
   return rows;
 }
 
-Json few_cells() { return with(scene_of_file("dam_break.json"), {"/grid/cells=[20, 20]"}); }
+Json few_cells() { return with(scene_of_file("paper/dam_break_tpic.json"), {"/grid/cells=[20, 20]"}); }
 
 constexpr std::size_t columns_2d = 14;
 

@@ -62,8 +62,10 @@ std::vector<std::string> unknown_keys(const std::vector<Json>& schemas, const Js
 
 std::vector<std::string> scene_files() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(MINAMO_SOURCE_DIR) + "/scenes")) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+  for (const std::string folder : {"/scenes", "/scenes/paper"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(MINAMO_SOURCE_DIR + folder)) {
+      if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+    }
   }
   return files;
 }

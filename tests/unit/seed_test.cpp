@@ -32,10 +32,12 @@ std::uint8_t fixed_at(World& world, int i, int j) {
 
 }  // namespace
 
-TEST_CASE("the dam break has 800 particles", "[unit]") { CHECK(places(scene_of_file("dam_break.json")).size() == 800); }
+TEST_CASE("the dam break has 800 particles", "[unit]") {
+  CHECK(places(scene_of_file("paper/dam_break_tpic.json")).size() == 800);
+}
 
 TEST_CASE("the liquid weighs density times area", "[unit]") {
-  SceneRun run(scene_of_file("dam_break.json"));
+  SceneRun run(scene_of_file("paper/dam_break_tpic.json"));
   // 800 equal numbers, a rounding each.
   CHECK(total_mass(run.world()) == Approx(1000 * 0.146 * 0.292).epsilon(1e-13));
 }

@@ -264,7 +264,7 @@ TEST_CASE("a run that ended between two steps goes on to the next of them", "[un
 TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {
   const auto [v, b] = GENERATE(std::pair{"0", "-9.81"}, std::pair{"2", "-9.81"}, std::pair{"2", "0"});
   CAPTURE(v, b);
-  Json json = scene_run::with(scene_run::scene_of_file("dam_break.json"),
+  Json json = scene_run::with(scene_run::scene_of_file("paper/dam_break_tpic.json"),
                               {R"(/time={"end": 5, "cfl": 0.4})", std::string("/body_force=[0, ") + b + "]"});
   json["particles"][0]["velocity"] = {std::atof(v), 0};
   const Scene scene = scene_run::read(json);
@@ -279,7 +279,7 @@ TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {
 TEST_CASE("the step from a CFL number sees the force where the particles are", "[unit]") {
   // None in the middle of the box, where there is no liquid.
   const Scene scene = scene_run::read(
-      scene_run::with(scene_run::scene_of_file("dam_break.json"),
+      scene_run::with(scene_run::scene_of_file("paper/dam_break_tpic.json"),
                       {R"(/time={"end": 5, "cfl": 0.4})", R"b(/body_force=["100*(x - 0.292)", "100*(y - 0.292)"])b"}));
   World world;
   world.resize<Particles>(2);
@@ -292,7 +292,7 @@ TEST_CASE("the step from a CFL number sees the force where the particles are", "
 
 TEST_CASE("no step is chosen from a force that is not finite", "[unit]") {
   const Scene scene =
-      scene_run::read(scene_run::with(scene_run::scene_of_file("dam_break.json"),
+      scene_run::read(scene_run::with(scene_run::scene_of_file("paper/dam_break_tpic.json"),
                                       {R"(/time={"end": 5, "cfl": 0.4})", R"b(/body_force=["1/(x - 0.292)", 0])b"}));
   World world;
   world.resize<Particles>(1);
@@ -303,7 +303,7 @@ TEST_CASE("no step is chosen from a force that is not finite", "[unit]") {
 }
 
 TEST_CASE("the step from a CFL number is at most max_step and the time between frames", "[unit]") {
-  const Json still = scene_run::with(scene_run::scene_of_file("dam_break.json"), {"/body_force=[0, 0]"});
+  const Json still = scene_run::with(scene_run::scene_of_file("paper/dam_break_tpic.json"), {"/body_force=[0, 0]"});
   World world;
   world.resize<Particles>(1);
   world.column<particle::Velocity<2>>();

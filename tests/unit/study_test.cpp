@@ -174,7 +174,8 @@ TEST_CASE("errors are relative to what they should be", "[unit]") {
 }
 
 TEST_CASE("the farthest particle is measured from the centre of mass", "[unit]") {
-  SceneRun run(with(scene_of_file("rotating_square.json"), {"/grid/cells=[20, 20]", "/particles/0/per_cell=2"}));
+  SceneRun run(
+      with(scene_of_file("paper/rotating_square_tpic.json"), {"/grid/cells=[20, 20]", "/particles/0/per_cell=2"}));
   // The outermost particles of the unit square are half a particle spacing, 1/16, inside its corners.
   CHECK(farthest_distance(run.world(), 2) == Approx(std::sqrt(2.0) * (0.5 - 1.0 / 16)));
 }

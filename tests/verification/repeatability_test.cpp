@@ -30,7 +30,7 @@ Json splash_3d() {
   return with(paper(scene_of_file("dam_break_3d.json")), {"/grid/cells=[12, 6, 12]", "/time/step=0.004"});
 }
 
-Json splash_2d() { return with(paper(scene_of_file("dam_break.json")), {"/particles/0/per_cell=4"}); }
+Json splash_2d() { return with(paper(scene_of_file("paper/dam_break_tpic.json")), {"/particles/0/per_cell=4"}); }
 
 }  // namespace
 

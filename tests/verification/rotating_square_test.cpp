@@ -12,7 +12,7 @@ namespace {
 
 /// The rotating square patch on 40 cells across 5 m; 8 cells across the square.
 Json patch(const std::string& integrator) {
-  return with(paper(scene_of_file("rotating_square.json")),
+  return with(paper(scene_of_file("paper/rotating_square_tpic.json")),
               {"/grid/cells=[40, 40]", "/particles/0/per_cell=4", R"(/integrator={"scheme": ")" + integrator + "\"}",
                "/time/step=0.005"});
 }
@@ -37,7 +37,8 @@ TEST_CASE("the rotating square has the exact pressure in its centre after a step
 
 TEST_CASE("the rotating square starts with its exact pressure", "[verification]") {
   const auto error = [](const std::string& cells) {
-    SceneRun run(with(scene_of_file("rotating_square.json"), {"/grid/cells=[" + cells + ", " + cells + "]"}));
+    SceneRun run(
+        with(scene_of_file("paper/rotating_square_tpic.json"), {"/grid/cells=[" + cells + ", " + cells + "]"}));
     run.start();
     return *run.world().resource<measure::Columns>().find("error_pressure");
   };

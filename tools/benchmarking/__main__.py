@@ -79,6 +79,11 @@ def chosen(options: argparse.Namespace) -> list[Case]:
     return cases
 
 
+def load() -> dict:
+    """results.json, if there is one."""
+    return json.loads(NUMBERS.read_text()) if NUMBERS.is_file() else {}
+
+
 def write(path: Path, text: str) -> None:
     """All or nothing."""
     new = path.with_name(path.name + ".new")
@@ -109,7 +114,7 @@ def main() -> None:
     if options.quick:
         print(page(results), end="")
         return
-    known = json.loads(NUMBERS.read_text()) if NUMBERS.is_file() else {}
+    known = load()
     results = {case.name: (known | results)[case.name] for case in CASES if case.name in known | results}
     write(NUMBERS, json.dumps(results, indent=1) + "\n")
     write(RESULTS, page(results))

@@ -14,15 +14,18 @@ Results = dict[str, dict[str, Any]]  # by name of the case: "machine" and "rows"
 
 HEAD = """# Speed
 
-How fast the program was where `tools/bench` ran last. Written by it, not by hand; `tools/bench NAME...` replaces the
-rows of single cases, `tools/bench --list` names them.
+`tools/bench` measured these figures and wrote this page, in a quarter of an hour on two idle cores.
+`tools/bench NAME...` replaces single cases, `tools/bench --list` names them. Accuracy is in
+[scenes/RESULTS.md](../../scenes/RESULTS.md).
 
-- *Wall* and *CPU* are the whole run: start, steps, output. *A step* is from the begin of its first system to the end of
-  its last, mean over the steps, without frames. All are medians over the runs; runs of one case take turns.
-- *Systems* are shares of the time of all systems of the steps.
-- *Peak memory* is that of the process: libraries, and the work space that solvers keep, are in it.
-- Where nothing else is said: TPIC, midpoint, PSPG, volume projection, corrected inertia, block solver; particles per
-  cell 2 x 2, in space 3 x 3 x 3, in the large tank 4 x 4; dynamic viscosity 1e-3 Pa s.
+- *Wall* and *CPU*: the whole run with start, steps and output. Medians over the runs; runs of one case take turns.
+- *A step*: from the begin of its first system to the end of its last, without frames. Mean over the steps, median over
+  the runs.
+- *Systems*: the three that take the largest shares of the time of all systems.
+- *Peak memory*: that of the process, libraries and work space of the solvers included.
+- *Method*, unless a section says something else: TPIC, midpoint rule, PSPG, volume projection, corrected inertia, block
+  solver. Particles per cell: 2 x 2, in three dimensions 3 x 3 x 3, in the large tank 4 x 4. Dynamic viscosity: 1e-3
+  Pa s.
 """
 
 

@@ -10,7 +10,7 @@ from layout import digits, table
 Row = dict[str, Any]
 
 TITLES = {
-    "dam_break": "The dam break of the paper",
+    "dam_break": "Dam break",
     "threads": "Two threads",
     "solvers": "Block solver and UMFPACK",
     "size": "Cost against size",
@@ -25,13 +25,14 @@ PEERS = {
     "80": {"interFoam": 23, "apic2d": 0.32, "MLS-MPM": 0.61},
 }
 PEERS_TEXT = """\
-CPU seconds per simulated second beside those of OpenFOAM's interFoam, of apic2d (APIC, projection, CFL number 3, float)
-and of an explicit weakly compressible MLS-MPM (CFL number 0.7), on as many cells, with as many particles. Theirs were
-measured once, on one core of an AMD EPYC (Zen 4). A ratio above 1: theirs takes longer.
+CPU seconds per simulated second, beside three other codes with as many cells and particles: OpenFOAM's interFoam,
+apic2d (APIC, projection, CFL number 3, float) and an explicit, weakly compressible MLS-MPM (CFL number 0.7). Theirs were
+measured once, on one core of an AMD EPYC (Zen 4). A ratio above 1 means that theirs takes longer. More codes are in
+[scenes/COMPARISON.md](../../scenes/COMPARISON.md).
 """
 DISTANCE_TEXT = """\
-Share of the water that is not where interFoam on 160 x 160 cells has it (`tools/compare_interfoam.py`), at output
-times within 2 ms of the reference's:
+Distance from interFoam on 160 x 160 cells (`tools/compare_interfoam.py`: the area that is water in only one of the two,
+over the area of the water), at output times within 2 ms of the reference's:
 """
 ASSEMBLY = ("find_full_nodes", "moments_mixed", "divergence_matrix", "laplacian_matrix", "viscosity_matrix",
             "stabilize_pspg", "right_hand_side_viscous", "add_inertia_correction")
@@ -106,7 +107,7 @@ def below_assembly(rows: list[Row]) -> str:
     for name in [*names, "all"]:
         costs = [sum(row["systems"][n] for n in (names if name == "all" else [name])) / row["steps"] for row in rows]
         lines.append([name, *(digits(1e6 * cost) for cost in costs), f"{costs[1] / costs[0]:.2f}"])
-    return ("us per step, and what nine times as many particles on the same cells multiply it by:\n\n"
+    return ("Microseconds per step, and the ratio for nine times as many particles on the same cells:\n\n"
             + table(["system", "2 x 2", "6 x 6", "ratio"], lines))
 
 
@@ -119,8 +120,8 @@ def below_space(rows: list[Row]) -> str:
 BELOW = {"dam_break": below_dam_break, "threads": below_threads, "solvers": below_solvers, "size": below_size,
          "assembly": below_assembly, "space": below_space}
 KERNEL_HEAD = """
-What a kernel must move and compute at least, by the formulas in [work.hpp](work.hpp), over the time it takes; as shares
-of the triad a = b + s c over as many bytes, and of the peak of fused multiply-adds, both measured in the same run on as
-many threads. Kernels multiply and add separately, so that half of that peak is the most they could reach. Rows are
-particles for transfers and moments, nodes for matrices and the solve.
+The bytes and operations that a kernel needs at least, by the formulas in [work.hpp](work.hpp), over its time. *Of
+triad*: share of the bandwidth of a = b + s c over as many bytes. *Of peak*: share of the peak of fused multiply-adds.
+Both are measured in the same run on as many threads. Kernels multiply and add separately, so they can reach half of that peak.
+*Rows* are particles for transfers and moments, nodes for matrices and the solve.
 """

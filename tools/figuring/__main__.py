@@ -1,10 +1,11 @@
 """Draws runs for print: strips of particles, histories, times of the systems, and a movie.
 
   tools/figures out/dam_break                      into out/dam_break/figures
-  tools/figures out/dam_break out/dam_break_flip   the same, runs side by side, into the first folder
+  tools/figures out/dam_break out/honey            the same, runs side by side, into the first folder
   tools/figures out/dam_break --times 0.1,0.3,0.6 --field vorticity
   tools/figures out/dam_break_3d --slice y=0.05
-  tools/figures paper                              the figures of the README; runs the scenes that are missing
+  tools/figures readme                             the pictures of the README; runs the scene if its results are missing
+  tools/figures paper                              the figures of scenes/paper, in the same way
 """
 
 from __future__ import annotations
@@ -16,10 +17,10 @@ from pathlib import Path
 
 import numpy as np
 
+from figuring.documents import DOCUMENTS, ROOT, write_pictures
 from figuring.fields import find_field
 from figuring.layout import WIDTH, png
 from figuring.movies import check_ffmpeg, write_movie
-from figuring.paper import FIGURES, ROOT, write_figure
 from figuring.plots import draw_history, draw_systems
 from figuring.strips import Strip, draw_strip
 from figuring.views import Slice, check_slice, read_slice
@@ -77,9 +78,11 @@ def arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def paper_arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="tools/figures paper", description="Draws the figures of the README.")
-    parser.add_argument("--scenes", type=Path, default=ROOT / "scenes", metavar="DIR", help="default: scenes")
+def document_arguments(name: str) -> argparse.Namespace:
+    pictures = DOCUMENTS[name]
+    parser = argparse.ArgumentParser(prog=f"tools/figures {name}", description=f"Draws {pictures.about}.")
+    parser.add_argument("--scenes", type=Path, default=pictures.folder, metavar="DIR",
+                        help=f"default: {pictures.folder.relative_to(ROOT)}")
     parser.add_argument("--results", type=Path, default=ROOT / "out", metavar="DIR",
                         help="finished runs of the same scenes are taken from here, others are run; default: out")
     parser.add_argument("--out", type=Path, metavar="DIR", help="default: the folder of the scenes")
@@ -125,20 +128,20 @@ def figures(options: argparse.Namespace) -> None:
         print(movie)
 
 
-def paper(options: argparse.Namespace) -> None:
-    """All figures of the paper."""
+def document(name: str) -> None:
+    """All pictures of a document."""
+    options = document_arguments(name)
     out = options.out or options.scenes
     out.mkdir(parents=True, exist_ok=True)
-    for figure in FIGURES:
-        picture = write_figure(figure, options.scenes, options.results, out)
+    for picture in write_pictures(DOCUMENTS[name], options.scenes, options.results, out):
         print(min(str(picture), os.path.relpath(picture), key=len))
 
 
 if __name__ == "__main__":
     np.seterr(all="ignore")  # runs that went beyond all numbers are drawn as well
     try:
-        if sys.argv[1:2] == ["paper"]:
-            paper(paper_arguments())
+        if len(sys.argv) > 1 and sys.argv[1] in DOCUMENTS:
+            document(sys.argv[1])
         else:
             figures(arguments())
     except NoResults as problem:

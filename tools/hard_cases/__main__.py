@@ -94,7 +94,7 @@ def judge_all(cases: list[Case], options: argparse.Namespace, folder: Path) -> d
     return results
 
 
-def load(path: Path) -> dict[str, Any]:
+def load(path: Path = NUMBERS) -> dict[str, Any]:
     """results.json, if there is one."""
     known = json.loads(path.read_text()) if path.is_file() else {}
     for result in known.values():

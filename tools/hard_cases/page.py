@@ -62,18 +62,19 @@ def lines_of(case: Case, of_method: dict[str, Judged]) -> list[str]:
     return lines
 
 
-HEAD = """# How hard it can be pushed
+HEAD = """# Robustness tests
 
-What hard cases kept and what they broke, with every transfer scheme, integrator and volume correction. Written by
-`tools/stability`, not by hand; `tools/stability NAME...` replaces single cases or sections, `tools/stability --list`
-names them. What is checked, and why the limits are what they are: [checks.py](../../tools/hard_cases/checks.py).
+Hard cases with every transfer scheme, integrator and volume correction: what they kept, and what they broke.
+`tools/stability` ran them and wrote this page; `tools/stability NAME...` replaces single cases or sections,
+`tools/stability --list` names them. The checks, and the reasons for their limits, are in
+[checks.py](../../tools/hard_cases/checks.py).
 
-- A number is how many of the methods with this scheme (newmark and midpoint, each with volume correction none, delta and
-  projection) kept everything that the case asks for; what the others broke stands below the table.
-- *In silence*: the program said it was done and nothing more, but what it left is not finite, has lost particles, has an
-  absurd speed or pressure or has gained more than 1 % of energy.
+- A number counts the methods with this scheme (newmark and midpoint, each with volume correction none, delta and
+  projection) that kept everything the case asks for. Below the table stands what the others broke.
+- *In silence*: the program reported success, but its results are not finite, have lost particles, have an absurd speed or
+  pressure or have gained more than 1 % of energy.
 - *Stopped*: the program ended by itself, with exit code 3, a message and a checkpoint.
-- *Squeezed* is asked of delta and projection alone; without a volume correction nothing keeps particles apart.
+- *Squeezed* is checked with delta and projection only; without a volume correction nothing keeps particles apart.
 """
 
 

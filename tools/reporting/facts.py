@@ -30,7 +30,7 @@ def messages(runs: list[Run]) -> str:
             found.append(f"<pre class=\"failed\">{escape(str(run.folder))}: {escape(run.summary['message'])}</pre>")
         missing = [*run.problems]
         if not run.summary:
-            missing.append("no summary.json: the run goes on, or was ended from outside")
+            missing.append("no summary.json: the run is still going on, or was killed")
         if len(run.times) == 0 and not run.problems:
             missing.append("no frame in fields.h5: no particles to show")
         if not run.history:

@@ -128,7 +128,7 @@ def _histories_section(described: list[dict[str, Any]]) -> str:
     text = "Point at a plot for its values, click to go to a time, drag over a span to zoom, double click to zoom out."
     for run in described:
         if run["history"] and run["history"]["every"] > 1:
-            text += f" {run['label']}: one of {run['history']['every']} steps is in the page."
+            text += f" {run['label']}: the page has one of {run['history']['every']} steps."
     return f"<h2>History</h2><div id=\"plots\"></div><p class=\"soft\">{escape(text)}</p>"
 
 
@@ -141,13 +141,13 @@ def _stored(described: list[dict[str, Any]]) -> str:
     shown = [run for run in described if run["particles"]]
     step = max(run["particles"]["position"]["step"] for run in shown)
     bits = {field["bits"] for run in shown for field in run["particles"]["fields"]}
-    text = (f"Places are stored to {1e3 * step:.2g} mm (16 bits over their range), quantities in {max(bits)} bits over "
-            "their range; the exact numbers are in fields.h5. While it plays, particles move on smooth curves through "
-            "their places at the output times; a picture that stands still is always that of an output time.")
+    text = (f"Positions are stored to {1e3 * step:.2g} mm (16 bits over their range), other quantities in {max(bits)} "
+            "bits over their range; fields.h5 has the exact numbers. Between output times positions are interpolated "
+            "while the page plays; a still picture always shows an output time.")
     for run in shown:
         if run["particles"]["shown"] < run["particles"]["count"]:
-            text += (f" {run['label']}: {run['particles']['shown']} of {run['particles']['count']} particles, drawn by "
-                     "chance, are in the page, and drawn larger; ranges are those of all.")
+            text += (f" {run['label']}: the page has {run['particles']['shown']} of {run['particles']['count']} "
+                     "particles, chosen at random and drawn larger; ranges are those of all particles.")
     return text
 
 
@@ -157,8 +157,9 @@ def _graph_section(runs: list[Run], program: Path | None) -> str:
     of_which = f": {escape(labels(runs)[0])}" if len(runs) > 1 else ""
     parts = [f"<h2>Systems of a step{of_which}</h2><figure id=\"graph\">"]
     if drawing.svg:
-        parts.append("<p class=\"soft\">Arrows are data that waits for its writer; the warmer a system, the larger its "
-                     f"share of the time. Click one.</p><pre hidden></pre><div class=\"wide\">{drawing.svg}</div>")
+        parts.append("<p class=\"soft\">An arrow leads to a system that waits for the data of another. Warmer colours "
+                     "are larger shares of the time. Click a system for its data.</p><pre hidden></pre>"
+                     f"<div class=\"wide\">{drawing.svg}</div>")
     if drawing.sentence:
         parts.append(f"<p>{escape(drawing.sentence)}</p>")
     if drawing.systems:

@@ -1,4 +1,4 @@
-"""The figures of the paper that tools/figures draws anew from our scenes, and the runs that they need."""
+"""The pictures of the documents, and the scenes that they need."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from figuring.fields import find_field
-from figuring.layout import png
+from figuring.layout import WIDTH, png
 from figuring.strips import Strip, draw_strip
+from figuring.studies import draw_studies
 from reporting.references import read_references
 from reporting.runs import NoResults, Run
 
@@ -20,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 @dataclass(frozen=True)
-class PaperFigure:
+class Figure:
     """A row per scene, a column per time, coloured by speed."""
 
     name: str
@@ -30,15 +31,40 @@ class PaperFigure:
     corners: bool = False
 
 
-FIGURES = (
-    PaperFigure("dam_break", ("dam_break_pic", "dam_break_flip", "dam_break"), (0.3, 0.6, 5.0),
-                reference=ROOT / "scenes/reference/dam_break_interfoam"),
-    PaperFigure("rotating_square", ("rotating_square_flip", "rotating_square"), (1.0, 2.0, 4.0), corners=True),
-)
+INTERFOAM = ROOT / "scenes/reference/dam_break_interfoam"
 
 
-def write_figure(figure: PaperFigure, scenes: Path, results: Path, out: Path) -> Path:
+@dataclass(frozen=True)
+class Pictures:
+    """Pictures that lie beside the scenes that they show."""
+
+    about: str
+    folder: Path
+    figures: tuple[Figure, ...]
+    studies: dict[str, Path] = field(default_factory=dict)  # by title; none of them is run
+
+
+DOCUMENTS = {
+    "readme": Pictures("the pictures of the README", ROOT / "scenes", (
+        Figure("dam_break", ("dam_break",), (0.2, 0.4, 0.6, 0.8), INTERFOAM),), {
+            "Disc stretched to an ellipse": ROOT / "scenes/studies/elliptical_drop.csv",
+            "Taylor-Green vortices": ROOT / "scenes/studies/taylor_green.csv"}),
+    "paper": Pictures("the figures of the paper that scenes/paper reproduces", ROOT / "scenes/paper", (
+        Figure("dam_break", ("dam_break_pic", "dam_break_flip", "dam_break_tpic"), (0.3, 0.6, 5.0), INTERFOAM),
+        Figure("rotating_square", ("rotating_square_flip", "rotating_square_tpic"), (1.0, 2.0, 4.0), corners=True))),
+}
+
+
+def write_pictures(pictures: Pictures, scenes: Path, results: Path, out: Path) -> list[Path]:
     """Runs the scenes whose results are not there, and draws."""
+    written = [_write_figure(figure, scenes, results, out) for figure in pictures.figures]
+    if pictures.studies:
+        written.append(out / "error_against_time.png")
+        written[-1].write_bytes(png(draw_studies(pictures.studies, WIDTH)))
+    return written
+
+
+def _write_figure(figure: Figure, scenes: Path, results: Path, out: Path) -> Path:
     runs = [_run(scenes / f"{name}.json", results / name) for name in figure.scenes]
     references = read_references(figure.reference) if figure.reference else []
     strip = Strip(runs, list(figure.times), find_field(runs, "speed"), references, figure.corners)
