@@ -1,5 +1,6 @@
 // The quick part of tools/stability: scenes that are as hard for a step as they come, a few steps each.
 
+#include "support/extremes.hpp"
 #include "support/scenes.hpp"
 
 #include "components/grid.hpp"
@@ -69,12 +70,12 @@ template <int Dim>
 double largest_gain(SceneRun& run, int steps) {
   run.start();
   const double start = energy<Dim>(run.world());
-  double gain = 0;
+  Largest gain;
   for (int k = 0; k < steps; ++k) {
     run.step();
-    gain = std::max(gain, energy<Dim>(run.world()) / start - 1);
+    gain.add(energy<Dim>(run.world()) / start - 1);
   }
-  return gain;
+  return gain.value();
 }
 
 // The projection of the volume lifts the surface a little; all else is rounding.
