@@ -52,4 +52,6 @@ Contribution adds(std::string_view slot, std::vector<std::string> systems) {
 
 const SystemRegistry& registry_of(const Scene& scene) { return scene.recipe.registry(); }
 
+void note_scheme(Scene& scene, const std::string& part, const std::string& scheme) { scene.schemes[part] = scheme; }
+
 }  // namespace minamo

@@ -139,6 +139,7 @@ Part choice(const std::string& key, const std::string& doc, const std::string& f
 Contribution adds(std::string_view slot, std::vector<std::string> systems);
 
 const SystemRegistry& registry_of(const Scene& scene);
+void note_scheme(Scene& scene, const std::string& part, const std::string& scheme);
 
 template <class SchemeType>
 Part choice(const std::string& key, const std::string& doc, const std::string& fallback,
@@ -150,7 +151,7 @@ Part choice(const std::string& key, const std::string& doc, const std::string& f
       variants.emplace_back(name, [&, &scheme = scheme](Input& in) { contribution = read(scheme, in, scene); });
     }
     input.object(key, doc, Input::Presence::optional,
-                 [&](Input& in) { in.variant("scheme", doc, fallback, variants); });
+                 [&](Input& in) { note_scheme(scene, key, in.variant("scheme", doc, fallback, variants)); });
     return contribution;
   };
   return {key, doc, read_part, schemes_of<SchemeType>};

@@ -29,6 +29,7 @@ Contribution read_newmark(Input& input, Scene& scene) {
   NewmarkParameters parameters;
   parameters.beta = input.number("beta", {.doc = "Newmark's beta", .fallback = 0.25, .at_most = 0.5, .above = 0});
   parameters.gamma = input.number("gamma", {.doc = "Newmark's gamma", .fallback = 0.5, .at_least = 0.5, .at_most = 1});
+  scene.facts.set(parameters);
   return [parameters](const Scene& of, Recipe& recipe) {
     const auto& acceleration = of.facts.get<AccelerationTransfer>();
     recipe.add("configure", "configure_at_start", When::step);

@@ -1,4 +1,5 @@
 #include "support/dense_equations.hpp"
+#include "support/extremes.hpp"
 #include "support/scenes.hpp"
 
 #include "components/grid.hpp"
@@ -57,9 +58,9 @@ template <int Dim>
 double distance(SceneRun& a, SceneRun& b) {
   const auto x_a = by_id<particle::Position<Dim>>(a.world());
   const auto x_b = by_id<particle::Position<Dim>>(b.world());
-  double largest = 0;
-  for (std::size_t p = 0; p < x_a.size(); ++p) largest = std::max(largest, (x_a[p] - x_b[p]).norm());
-  return largest / a.world().resource<Grid<Dim>>().spacing;
+  Largest largest;
+  for (std::size_t p = 0; p < x_a.size(); ++p) largest.add((x_a[p] - x_b[p]).norm());
+  return largest.value() / a.world().resource<Grid<Dim>>().spacing;
 }
 
 /// A matrix with a symmetric pattern of the given half width, its symmetric part positive definite.
@@ -145,11 +146,11 @@ TEMPLATE_TEST_CASE_SIG("the block solver solves the discrete equations", "[prope
   // Row by row, each against the sum of the sizes of its terms.
   const Eigen::VectorXd rest = (equations.right_hand_side - equations.matrix * x).cwiseAbs();
   const Eigen::VectorXd size = equations.matrix.cwiseAbs() * x.cwiseAbs() + equations.right_hand_side.cwiseAbs();
-  double worst = 0;
+  Largest worst;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    if (size[i] > 0) worst = std::max(worst, rest[i] / size[i]);
+    if (size[i] != 0) worst.add(rest[i] / size[i]);
   }
-  CHECK(worst < 1e-7);
+  CHECK(worst.value() < 1e-7);
 }
 
 TEST_CASE("the block solver balances the momentum of a shear flow under gravity", "[property]") {

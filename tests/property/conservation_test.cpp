@@ -1,5 +1,7 @@
+#include "support/rotation.hpp"
 #include "support/scenes.hpp"
 
+#include "components/measure.hpp"
 #include "components/node.hpp"
 
 using namespace minamo;
@@ -102,9 +104,11 @@ TEST_CASE("FLIP with a blend of 0 is PIC", "[property]") {
 }
 
 TEST_CASE("without walls or friction TPIC conserves angular momentum better than PIC", "[property]") {
-  const auto lost = [](const std::string& scheme) {
+  const std::string velocity = GENERATE(R"(["1 - y", "x - 1"])", R"(["y - 1", "1 - x"])");
+  CAPTURE(velocity);
+  const auto lost = [&](const std::string& scheme) {
     SceneRun run(with(flying_2d(), {R"(/transfer={"scheme": ")" + scheme + "\"}", "/fluid/viscosity=0",
-                                    R"(/particles/0/velocity=["1 - y", "x - 1"])"}));
+                                    "/particles/0/velocity=" + velocity}));
     const auto spin = [&] {
       const auto x = by_id<particle::Position<2>>(run.world());
       const auto v = by_id<particle::Velocity<2>>(run.world());
@@ -118,5 +122,49 @@ TEST_CASE("without walls or friction TPIC conserves angular momentum better than
     return 1 - spin() / before;
   };
   // PIC smooths a rotation over a cell in every step; TPIC transfers it exactly.
-  CHECK(lost("tpic") < 0.1 * lost("pic"));
+  CHECK(std::abs(lost("tpic")) < 0.1 * lost("pic"));
+}
+
+namespace {
+
+/// A block of 4 cells across that turns in the middle of a box, inviscid, without gravity.
+template <int Dim>
+Json turning(const RigidRotation<Dim>& rotation) {
+  const auto all = [](auto value) { return std::vector(static_cast<std::size_t>(Dim), value); };
+  Json velocity = all(std::string("0"));
+  const auto [a, b] = turned_by<Dim>(rotation.axis);
+  const auto along = [](int axis) { return std::string(1, "xyz"[axis]); };
+  velocity[static_cast<std::size_t>(b)] = "rate*(" + along(a) + " - 1)";
+  velocity[static_cast<std::size_t>(a)] = "-rate*(" + along(b) + " - 1)";
+  return {
+      {"dimension", Dim},
+      {"constants", {{"rate", rotation.rate}}},
+      {"grid", {{"low", all(0)}, {"high", all(2)}, {"cells", all(16)}}},
+      {"fluid", {{"density", 1000}, {"viscosity", 0}}},
+      {"particles",
+       {{{"shape", {{"box", {{"low", all(0.75)}, {"high", all(1.25)}}}}}, {"per_cell", 2}, {"velocity", velocity}}}},
+      {"time", {{"end", 1}, {"step", 0.01}}}};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a block keeps its angular momentum, whatever axis it turns about, and whichever way",
+                       "[property]", ((int Dim), Dim), 2, 3) {
+  const RigidRotation<Dim> rotation{GENERATE(range(0, rotations<Dim>)), GENERATE(-1.0, 1.0)};
+  const std::string transfer = GENERATE("tpic2", "tpic", "apic");
+  CAPTURE(rotation.axis, rotation.rate, transfer);
+  SceneRun run(with(turning<Dim>(rotation), {R"(/transfer={"scheme": ")" + transfer + "\"}"}));
+  run.start();
+  // rho omega V L^2/6 of the block, less what 8 points across leave out, plus (D_11 + D_22) omega = h^2/2 omega per
+  // mass that the gradients carry.
+  const double mass = 1000 * std::pow(0.5, Dim);
+  const double expected = rotation.rate * mass * (0.25 / 6 * (1 - 1. / 64) + 0.125 * 0.125 / 2);
+  Vec<rotations<Dim>> exact = Vec<rotations<Dim>>::Zero();
+  exact[rotation.axis] = expected;
+  const auto& angular = run.world().template resource<measure::Momentum<Dim>>().angular;
+  CHECK((angular - exact).norm() < 2e-13 * exact.norm());  // roundings of central differences: 2e-14 measured
+  run.step(20);
+  // 5e-5 in the plane. In space 1.24e-3 with three of the schemes, 5e-4 on twice as many cells: along the edges of the
+  // block no node is full enough for the inertia correction, without which 1.3e-4 would be lost in both.
+  CHECK((angular - exact).norm() < (Dim == 2 ? 1e-4 : 2e-3) * exact.norm());
 }

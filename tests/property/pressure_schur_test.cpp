@@ -1,4 +1,5 @@
 #include "support/dense_equations.hpp"
+#include "support/extremes.hpp"
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
@@ -34,13 +35,13 @@ Values random_values(std::size_t count, int seed) {
 
 /// The largest difference, by the largest value of `b`.
 double difference(const Values& a, const Values& b) {
-  double worst = 0;
-  double largest = 0;
+  Largest worst;
+  Largest largest;
   for (std::size_t i = 0; i < b.size(); ++i) {
-    worst = std::max(worst, std::abs(a[i] - b[i]));
-    largest = std::max(largest, std::abs(b[i]));
+    worst.add(std::abs(a[i] - b[i]));
+    largest.add(std::abs(b[i]));
   }
-  return worst / largest;
+  return worst.value() / largest.value();
 }
 
 }  // namespace

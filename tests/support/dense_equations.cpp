@@ -22,9 +22,8 @@ struct Kinematics {
     World& world = run.world();
     const Clock& clock = world.resource<Clock>();  // after the step: time is its end
     const double dt = clock.step;
-    const double beta = run.scene().newmark_beta;
-    const double gamma = run.scene().newmark_gamma;
-    const bool newmark = run.scene().integrator == "newmark";
+    const bool newmark = run.scene().schemes.at("integrator") == "newmark";
+    const auto [beta, gamma] = newmark ? run.scene().facts.get<NewmarkParameters>() : NewmarkParameters{};
     const auto v_n = kernels::on_grid<Dim, node::Velocity<Dim>>(world);
     const auto a_n = newmark ? kernels::on_grid<Dim, node::Acceleration<Dim>>(world) : v_n;
     c_v = newmark ? gamma / (beta * dt) : 1 / dt;
@@ -91,8 +90,8 @@ template <int Dim>
 Sums<Dim> sum_over_points(scene_run::SceneRun& run, double time) {
   World& world = run.world();
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
-  const double viscosity = run.scene().viscosity;
-  const bool mixed = run.scene().quadrature == "mixed";
+  const double viscosity = run.scene().facts.get<Fluid>().viscosity;
+  const bool mixed = run.scene().schemes.at("quadrature") == "mixed";
   const auto theta = mixed ? kernels::on_grid<Dim, node::Fullness>(world) : std::vector<double>{};
   Sums<Dim> s = no_sums<Dim>(grid);
   const auto y_p = world.column<particle::Configuration<Dim>>();
@@ -102,12 +101,12 @@ Sums<Dim> sum_over_points(scene_run::SceneRun& run, double time) {
     std::array<double, 4> xyzt{0, 0, 0, time};
     for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = y_p[p][d];
     Vec<Dim> b;
-    for (int d = 0; d < Dim; ++d) b[d] = run.scene().body_force[static_cast<std::size_t>(d)](xyzt);
+    for (int d = 0; d < Dim; ++d) b[d] = run.scene().facts.get<BodyForce>().of_place_and_time[static_cast<std::size_t>(d)](xyzt);
     for (std::size_t i = 0; i < w.value.size(); ++i) {
       s.mass[static_cast<Eigen::Index>(i)] += m_p[p] * w.value[i];
       s.force[i] += m_p[p] * w.value[i] * b;
     }
-    add_point<Dim>((1 - theta_at<Dim>(theta, w)) * m_p[p] / run.scene().density, w, viscosity, s);
+    add_point<Dim>((1 - theta_at<Dim>(theta, w)) * m_p[p] / run.scene().facts.get<Fluid>().density, w, viscosity, s);
   }
   if (!mixed) return s;
   kernels::for_each_gauss_point<Dim>(grid, [&](double V, const Vec<Dim>& x) {
@@ -126,7 +125,7 @@ Eigen::VectorXd divergence_at_start(scene_run::SceneRun& run, const Sums<Dim>& s
   const auto v_n = kernels::on_grid<Dim, node::Velocity<Dim>>(world);
   const auto sites = world.column<node::Site<Dim>>();
   const double tau = world.resource<Clock>().step / 2;
-  const double rho = run.scene().density;
+  const double rho = run.scene().facts.get<Fluid>().density;
   // The dual cell of a node on a wall has the wall and the next two.
   const auto middle = [&](const Index<Dim>& site, std::size_t d) { return std::clamp(site[d], 1, grid.cells[d] - 1); };
   Eigen::VectorXd e = Eigen::VectorXd::Zero(s.mass.size());
@@ -174,11 +173,11 @@ Equations assemble(scene_run::SceneRun& run) {
   const auto fixed = kernels::on_grid<Dim, node::Constraint>(world);
   const double dt = world.resource<Clock>().step;
   const double h = run.scene().grid.spacing;
-  const double rho = run.scene().density;
-  const double tau = 1 / std::sqrt(std::pow(2 * rho / dt, 2) + std::pow(4 * run.scene().viscosity / (h * h), 2));
+  const double rho = run.scene().facts.get<Fluid>().density;
+  const double tau = 1 / std::sqrt(std::pow(2 * rho / dt, 2) + std::pow(4 * run.scene().facts.get<Fluid>().viscosity / (h * h), 2));
   const double e = 1e-6 * dt / (rho * rho * h * h);
   Eigen::VectorXd let_out = Eigen::VectorXd::Zero(s.mass.size());
-  if (run.scene().integrator == "midpoint") let_out = 0.1 * divergence_at_start<Dim>(run, s);
+  if (run.scene().schemes.at("integrator") == "midpoint") let_out = 0.1 * divergence_at_start<Dim>(run, s);
 
   const auto unknowns = static_cast<Eigen::Index>(world.rows<ActiveNodes>() * (Dim + 1));
   Equations eq{Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns)};

@@ -1,4 +1,5 @@
 #include "support/kernels.hpp"
+#include "support/rotation.hpp"
 
 #include "components/measure.hpp"
 #include "systems/measure/conservation.hpp"
@@ -7,6 +8,8 @@
 #include "systems/volume/projection.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <numeric>
 
 using namespace minamo;
 using namespace minamo::kernels;
@@ -71,6 +74,43 @@ TEST_CASE("a velocity gradient adds the spin of its support", "[unit]") {
   run<MeasureMomentum<2>>(world);
   const double spin = world.resource<measure::Momentum<2>>().angular[0] - without;
   CHECK(spin == Approx((1 + 3) * 0.25 / 4 * 4).epsilon(1e-14));  // a few roundings
+}
+
+TEMPLATE_TEST_CASE_SIG("angular momentum follows the right hand about every axis, clockwise and counter-clockwise",
+                       "[unit]", ((int Dim), Dim), 2, 3) {
+  const int axis = GENERATE(range(0, rotations<Dim>));
+  const double rate = GENERATE(-2.0, 2.0);
+  CAPTURE(axis, rate);
+  World world;
+  fill<Dim>(world, 200, 31);
+  const RigidRotation<Dim> rotation{axis, rate};
+  const auto m_p = world.column<particle::Mass>();
+  const auto x_p = world.column<particle::Position<Dim>>();
+  const auto y_p = world.column<particle::Configuration<Dim>>();
+  std::copy(y_p.begin(), y_p.end(), x_p.begin());
+  const Vec<Dim> centre =
+      std::inner_product(m_p.begin(), m_p.end(), x_p.begin(), Vec<Dim>(Vec<Dim>::Zero()), std::plus<>(),
+                         [](double m, const Vec<Dim>& x) { return Vec<Dim>(m * x); }) /
+      std::accumulate(m_p.begin(), m_p.end(), 0.0);
+  const auto [a, b] = turned_by<Dim>(axis);
+  double of_velocities = 0;
+  double of_gradients = 0;
+  for (std::size_t p = 0; p < x_p.size(); ++p) {
+    const Vec<Dim> r = x_p[p] - centre;
+    world.column<particle::Velocity<Dim>>()[p] = rotation(r);
+    world.column<particle::VelocityGradient<Dim>>()[p] = rotation.gradient();
+    of_velocities += rate * m_p[p] * (r[a] * r[a] + r[b] * r[b]);
+    const PlainWeights<Dim> weights(small_grid<Dim>(), x_p[p]);
+    for (std::size_t i = 0; i < weights.value.size(); ++i) {
+      const Vec<Dim> to_node = node_position<Dim>(small_grid<Dim>(), i) - x_p[p];
+      of_gradients += rate * m_p[p] * weights.value[i] * (to_node[a] * to_node[a] + to_node[b] * to_node[b]);
+    }
+  }
+  const auto& momentum = world.resource<measure::Momentum<Dim>>();
+  run<MeasureMomentum<Dim>>(world);
+  CHECK(momentum.angular[axis] == Approx(of_velocities).epsilon(1e-13));  // some hundred roundings
+  run<MeasureMomentumAffine<Dim>>(world);
+  CHECK(momentum.angular[axis] == Approx(of_velocities + of_gradients).epsilon(1e-13));
 }
 
 TEST_CASE("the largest speed is that of the fastest particle", "[unit]") {

@@ -69,7 +69,7 @@ TEST_CASE("a registry contains what was added and nothing else", "[unit]") {
 
 namespace {
 
-struct Recipe {
+struct Drink {
   std::string name;
   int spoons = 0;
 };
@@ -81,10 +81,10 @@ struct Tool {
 
 TEST_CASE("what is chosen by name is kept by its type, in alphabetical order", "[unit]") {
   SystemRegistry registry = two_systems();
-  registry.add(Recipe{"tea", 2});
-  registry.add(Recipe{"coffee", 3});
+  registry.add(Drink{"tea", 2});
+  registry.add(Drink{"coffee", 3});
   registry.add(Tool{"tea"});
-  const auto& recipes = registry.choices<Recipe>();
+  const auto& recipes = registry.choices<Drink>();
   CHECK(recipes.size() == 2);
   CHECK(recipes.begin()->first == "coffee");
   CHECK(recipes.at("tea").spoons == 2);
@@ -93,14 +93,14 @@ TEST_CASE("what is chosen by name is kept by its type, in alphabetical order", "
 }
 
 TEST_CASE("there are no choices of a type of which none was added", "[unit]") {
-  CHECK(two_systems().choices<Recipe>().empty());
+  CHECK(two_systems().choices<Drink>().empty());
 }
 
 TEST_CASE("a choice cannot be added twice, and the first one stays", "[unit][error]") {
   SystemRegistry registry;
-  registry.add(Recipe{"tea", 2});
-  CHECK_THROWS_WITH(registry.add(Recipe{"tea", 3}), "\"tea\" is registered twice");
-  CHECK(registry.choices<Recipe>().at("tea").spoons == 2);
+  registry.add(Drink{"tea", 2});
+  CHECK_THROWS_WITH(registry.add(Drink{"tea", 3}), "\"tea\" is registered twice");
+  CHECK(registry.choices<Drink>().at("tea").spoons == 2);
 }
 
 TEST_CASE("an unknown name is answered with the known ones and the closest", "[unit][error]") {

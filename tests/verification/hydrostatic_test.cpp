@@ -1,3 +1,4 @@
+#include "support/extremes.hpp"
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
@@ -28,21 +29,21 @@ Json column(const std::string& gravity) {
 double pressure_error(World& world, double up_to) {
   const Grid<2>& grid = world.resource<Grid<2>>();
   const auto p_i = kernels::on_grid<2, node::Pressure>(world);
-  double worst = 0;
+  Largest worst;
   for (int j = 0; j <= grid.cells[1]; ++j) {
     for (int i = 0; i <= grid.cells[0]; ++i) {
       const Vec<2> x = grid.position({i, j});
       if (x[1] > up_to) continue;
-      worst = std::max(worst, std::abs(p_i[grid.row({i, j})] - density * g * (still_depth - x[1])));
+      worst.add(std::abs(p_i[grid.row({i, j})] - density * g * (still_depth - x[1])));
     }
   }
-  return worst / (density * g * still_depth);
+  return worst.value() / (density * g * still_depth);
 }
 
 double largest_speed(World& world) {
-  double largest = 0;
-  for (const Vec<2>& v : world.column<particle::Velocity<2>>()) largest = std::max(largest, v.norm());
-  return largest;
+  Largest largest;
+  for (const Vec<2>& v : world.column<particle::Velocity<2>>()) largest.add(v.norm());
+  return largest.value();
 }
 
 }  // namespace
