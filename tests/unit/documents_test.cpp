@@ -201,7 +201,7 @@ TEST_CASE("every scene names the schema, which is there", "[unit]") {
 }
 
 TEST_CASE("systems/README.md has the slots of a step in order", "[unit]") {
-  CHECK(first_column(block(text_of(source + "/systems/README.md"), "<!-- slots -->")) == slot_names());
+  CHECK(first_column(block(text_of(source + "/systems/README.md"), "<!-- slots -->")) == slot_names);
 }
 
 TEST_CASE("the code in systems/README.md is that of the examples, which are built and run", "[unit]") {
