@@ -52,7 +52,7 @@ bool has_light_nodes(World& world) {
 
 TEST_CASE("a step in free space conserves linear momentum while no node is light", "[property]") {
   SceneRun run(any_method(flying_2d()));
-  CAPTURE(run.scene().transfer, run.scene().integrator);
+  CAPTURE(run.scene().schemes);
   run.start();
   const Vec<2> before = momentum<2>(run.world());
   run.step(3);
@@ -63,7 +63,7 @@ TEST_CASE("a step in free space conserves linear momentum while no node is light
 
 TEST_CASE("a step in free space conserves linear momentum while no node is light, in space", "[property]") {
   SceneRun run(any_method(flying_3d()));
-  CAPTURE(run.scene().transfer, run.scene().integrator);
+  CAPTURE(run.scene().schemes);
   run.start();
   const Vec<3> before = momentum<3>(run.world());
   run.step(2);
@@ -73,7 +73,7 @@ TEST_CASE("a step in free space conserves linear momentum while no node is light
 
 TEST_CASE("light nodes take little linear momentum away", "[property]") {
   SceneRun run(any_method(flying_2d()));
-  CAPTURE(run.scene().transfer, run.scene().integrator);
+  CAPTURE(run.scene().schemes);
   run.start();
   const Vec<2> before = momentum<2>(run.world());
   bool light = false;

@@ -1,6 +1,7 @@
 #include "support/dense_equations.hpp"
 #include "support/extremes.hpp"
 
+#include "components/fluid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "engine/clock.hpp"

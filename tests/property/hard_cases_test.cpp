@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/node.hpp"
+#include "systems/transfer/scheme.hpp"
 
 using namespace minamo;
 using namespace minamo::scene_run;

@@ -13,11 +13,11 @@ using namespace minamo;
 
 namespace {
 
-using Arguments = std::vector<std::string>;
+using CommandLine = std::vector<std::string>;
 
 /// `minamo run` of the dam break on a coarse grid, with more arguments.
-Arguments dam_break(const std::string& out, const Arguments& more) {
-  Arguments arguments{"run",
+CommandLine dam_break(const std::string& out, const CommandLine& more) {
+  CommandLine arguments{"run",
                       scene_path("paper/dam_break_tpic.json"),
                       "--out",
                       out,
@@ -106,7 +106,7 @@ TEST_CASE("a summary has the keys of the interface", "[scene]") {
 
 TEST_CASE("the scene as run has defaults and overrides, and gives the same bits again", "[scene]") {
   const Folder folder;
-  const Arguments more{"--steps", "5", "--set", R"(/output={"every": 0.002})"};
+  const CommandLine more{"--steps", "5", "--set", R"(/output={"every": 0.002})"};
   REQUIRE(run_program(dam_break(folder / "first", more)).code == 0);
   CHECK(json_of(folder / "first/scene.json")["grid"]["cells"] == Json({20, 20}));
   REQUIRE(run_program({"run", folder / "first/scene.json", "--out", folder / "second", "--threads", "2", "--steps", "5",
@@ -160,7 +160,7 @@ TEST_CASE("an unknown option ends with 2", "[scene]") {
 }
 
 TEST_CASE("check accepts every scene", "[scene]") {
-  Arguments arguments{"check"};
+  CommandLine arguments{"check"};
   for (const std::string folder : {"/scenes", "/scenes/paper"}) {
     for (const auto& entry : std::filesystem::directory_iterator(MINAMO_SOURCE_DIR + folder)) {
       if (entry.path().extension() == ".json") arguments.push_back(entry.path());

@@ -16,30 +16,30 @@ using namespace minamo;
 
 namespace {
 
-using Arguments = std::vector<std::string>;
+using CommandLine = std::vector<std::string>;
 
-Arguments run_of(const std::string& scene_name, const Arguments& overrides) {
-  Arguments arguments{"run", scene_path(scene_name), "--threads", "1", "--quiet"};
+CommandLine run_of(const std::string& scene_name, const CommandLine& overrides) {
+  CommandLine arguments{"run", scene_path(scene_name), "--threads", "1", "--quiet"};
   for (const std::string& assignment : overrides) arguments.insert(arguments.end(), {"--set", assignment});
   return arguments;
 }
 
-Arguments with(Arguments arguments, const Arguments& more) {
+CommandLine with(CommandLine arguments, const CommandLine& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
 
 /// What must come out byte for byte the same.
-const Arguments output{"history.csv", "fields.h5", "fields.xdmf", "scene.json", "checkpoint.h5"};
+const CommandLine output{"history.csv", "fields.h5", "fields.xdmf", "scene.json", "checkpoint.h5"};
 
 struct Case {
   std::string scene;
-  Arguments overrides;
+  CommandLine overrides;
 };
 
-const Arguments coarse{"/grid/cells=[20, 20]", "/output/every=0.02", "/output/checkpoint=0.03"};
+const CommandLine coarse{"/grid/cells=[20, 20]", "/output/every=0.02", "/output/checkpoint=0.03"};
 
-Case coarse_dam_break(const Arguments& overrides) { return {"paper/dam_break_tpic.json", with(coarse, overrides)}; }
+Case coarse_dam_break(const CommandLine& overrides) { return {"paper/dam_break_tpic.json", with(coarse, overrides)}; }
 
 const std::vector<Case> cases{
     coarse_dam_break({}),
@@ -61,7 +61,7 @@ TEST_CASE("a run that goes on ends with the bytes of one that never stopped", "[
   const Case& of = GENERATE(from_range(cases));
   CAPTURE(of.scene, of.overrides);
   const Folder folder;
-  const Arguments run = run_of(of.scene, of.overrides);
+  const CommandLine run = run_of(of.scene, of.overrides);
   REQUIRE(run_program(with(run, {"--out", folder / "whole", "--steps", "12"})).code == 0);
   REQUIRE(run_program(with(run, {"--out", folder / "parts", "--steps", "5"})).code == 0);
   REQUIRE(run_program(with(run, {"--out", folder / "parts", "--steps", "9", "--resume"})).code == 0);
@@ -74,7 +74,7 @@ TEST_CASE("a run that is killed at any moment goes on to the bytes of one that w
   const char* wanted = std::getenv("MINAMO_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 8;
   const Folder folder;
-  const Arguments run = run_of("paper/dam_break_tpic.json", {"/grid/cells=[20, 20]", "/output/every=0.002",
+  const CommandLine run = run_of("paper/dam_break_tpic.json", {"/grid/cells=[20, 20]", "/output/every=0.002",
                                                              "/output/checkpoint=0.003", "/time/end=0.15"});
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(run_program(with(run, {"--out", folder / "whole"})).code == 0);
@@ -88,7 +88,7 @@ TEST_CASE("a run that is killed at any moment goes on to the bytes of one that w
     std::this_thread::sleep_for(share(random) * duration);
     program.send(SIGKILL);
     program.wait();
-    Arguments again = with(run, {"--out", folder / "parts"});
+    CommandLine again = with(run, {"--out", folder / "parts"});
     if (std::filesystem::exists(folder / "parts/checkpoint.h5")) again.emplace_back("--resume");
     resumed += again.back() == "--resume" ? 1 : 0;
     REQUIRE(run_program(again).code == 0);
@@ -102,7 +102,7 @@ TEST_CASE("a run that is killed at any moment goes on to the bytes of one that w
 
 TEST_CASE("a run may go on to a later end", "[scene]") {
   const Folder folder;
-  const Arguments run = run_of("paper/dam_break_tpic.json", coarse);
+  const CommandLine run = run_of("paper/dam_break_tpic.json", coarse);
   REQUIRE(run_program(with(run, {"--out", folder / "whole", "--set", "/time/end=0.05"})).code == 0);
   REQUIRE(run_program(with(run, {"--out", folder / "parts", "--set", "/time/end=0.03"})).code == 0);
   REQUIRE(run_program(with(run, {"--out", folder / "parts", "--set", "/time/end=0.05", "--resume"})).code == 0);
@@ -111,7 +111,7 @@ TEST_CASE("a run may go on to a later end", "[scene]") {
 
 TEST_CASE("a run that is complete is left alone", "[scene]") {
   const Folder folder;
-  const Arguments run =
+  const CommandLine run =
       with(run_of("paper/dam_break_tpic.json", with(coarse, {"/time/end=0.005"})), {"--out", folder / "out"});
   REQUIRE(run_program(run).code == 0);
   const std::string before = text_of(folder / "out/summary.json");
@@ -123,9 +123,9 @@ TEST_CASE("a run that is complete is left alone", "[scene]") {
 
 TEST_CASE("what does not fit a checkpoint is refused, and nothing is changed", "[scene]") {
   const Folder folder;
-  const Arguments run = with(run_of("paper/dam_break_tpic.json", coarse), {"--out", folder / "out"});
+  const CommandLine run = with(run_of("paper/dam_break_tpic.json", coarse), {"--out", folder / "out"});
   REQUIRE(run_program(with(run, {"--steps", "5"})).code == 0);
-  Arguments more{"--resume"};
+  CommandLine more{"--resume"};
   std::string message;
   SECTION("another scene: every difference, and no other") {
     more.insert(more.end(), {"--set", R"(/transfer={"scheme": "flip"})", "--set", "/fluid/density=900", "--set",

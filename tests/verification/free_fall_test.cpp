@@ -50,7 +50,7 @@ constexpr double solver_rounding = 1e-12;
 TEST_CASE("a single particle falls as Galileo says", "[verification]") {
   SceneRun run(
       any_method(falling(2, R"({"box": {"low": [1.6, 2.6], "high": [1.7, 2.7]}})", "[1, 0.5]", "[0.5, -9.75]")));
-  CAPTURE(run.scene().transfer, run.scene().integrator);
+  CAPTURE(run.scene().schemes);
   REQUIRE(run.world().rows<Particles>() == 1);
   const Errors<2> error(run, {1, 0.5}, {0.5, -9.75});
   CHECK(error.position.value() < solver_rounding);
@@ -60,7 +60,7 @@ TEST_CASE("a single particle falls as Galileo says", "[verification]") {
 TEST_CASE("a blob falls without changing its shape", "[verification]") {
   SceneRun run(
       any_method(falling(2, R"({"ball": {"center": [1.6, 2.6], "radius": 0.7}})", "[1, 0.5]", "[0.5, -9.75]")));
-  CAPTURE(run.scene().transfer, run.scene().integrator);
+  CAPTURE(run.scene().schemes);
   const Errors<2> error(run, {1, 0.5}, {0.5, -9.75});
   CHECK(error.position.value() < solver_rounding);
   CHECK(error.velocity.value() < solver_rounding);
@@ -69,7 +69,7 @@ TEST_CASE("a blob falls without changing its shape", "[verification]") {
 TEST_CASE("a ball in space falls without changing its shape", "[verification]") {
   SceneRun run(any_method(
       falling(3, R"({"ball": {"center": [1.6, 1.6, 2.6], "radius": 0.4}})", "[1, 0, 0.5]", "[0.5, -1, -9.75]")));
-  CAPTURE(run.scene().transfer, run.scene().integrator);
+  CAPTURE(run.scene().schemes);
   const Errors<3> error(run, {1, 0, 0.5}, {0.5, -1, -9.75});
   CHECK(error.position.value() < solver_rounding);
   CHECK(error.velocity.value() < solver_rounding);
@@ -78,7 +78,7 @@ TEST_CASE("a ball in space falls without changing its shape", "[verification]") 
 TEST_CASE("a blob in free fall has no pressure", "[verification]") {
   SceneRun run(
       any_method(falling(2, R"({"ball": {"center": [1.6, 2.6], "radius": 0.7}})", "[1, 0.5]", "[0.5, -9.75]")));
-  CAPTURE(run.scene().transfer, run.scene().integrator);
+  CAPTURE(run.scene().schemes);
   run.step(steps);
   Largest largest;
   for (const double p : run.world().column<node::Pressure>()) largest.add(std::abs(p));

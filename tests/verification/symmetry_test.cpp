@@ -59,9 +59,9 @@ Vec<2> way_round(const Vec<2>& a, const Vec<2>& b) {
 
 TEST_CASE("a mirrored scene gives the mirrored result", "[verification]") {
   SceneRun left(any_method(collapse()));
-  CAPTURE(left.scene().transfer, left.scene().integrator);
-  SceneRun right(with(mirrored(), {"/transfer=" + Json{{"scheme", left.scene().transfer}}.dump(),
-                                   "/integrator=" + Json{{"scheme", left.scene().integrator}}.dump()}));
+  CAPTURE(left.scene().schemes);
+  SceneRun right(with(mirrored(), {"/transfer=" + Json{{"scheme", left.scene().schemes.at("transfer")}}.dump(),
+                                   "/integrator=" + Json{{"scheme", left.scene().schemes.at("integrator")}}.dump()}));
   left.step(40);
   right.step(40);
   // Who is whose mirror image: rows of the lattice run the other way.
@@ -116,7 +116,7 @@ TEST_CASE("a flow does not know where the ends of a periodic axis are", "[verifi
   across.step(8);
   const auto x = by_id<particle::Position<2>>(inside.world());
   const auto x_across = by_id<particle::Position<2>>(across.world());
-  CAPTURE(inside.scene().transfer, inside.scene().integrator);
+  CAPTURE(inside.scene().schemes);
   const Vec<2> shift(2, 0);
   Largest worst;
   for (std::size_t p = 0; p < x.size(); ++p) {
