@@ -1,5 +1,9 @@
 #include "systems/pipeline.hpp"
 
+#include "systems/solve/scheme.hpp"
+
+#include <algorithm>
+
 namespace minamo {
 
 namespace {
@@ -9,13 +13,18 @@ struct Slot {
   std::vector<std::string> systems;
 };
 
+LinearSolver solver_named(const std::string& name) {
+  const auto solvers = built_in_linear_solvers();
+  return *std::find_if(solvers.begin(), solvers.end(), [&](const LinearSolver& solver) { return solver.name == name; });
+}
+
 /// What a scene needs, asked of the scene once.
 struct Needs {
   const TransferScheme& transfer;
   std::string quadrature;
   std::string stabilization;
   std::string volume;
-  std::string solver;
+  LinearSolver solver;
   bool newmark;
   bool corrected_inertia;
   bool viscous;
@@ -31,7 +40,7 @@ struct Needs {
         quadrature(scene.quadrature),
         stabilization(scene.stabilization),
         volume(scene.volume),
-        solver(scene.solver),
+        solver(solver_named(scene.solver)),
         newmark(scene.integrator == "newmark"),
         corrected_inertia(scene.corrected_inertia),
         viscous(scene.viscosity > 0),
@@ -42,6 +51,10 @@ struct Needs {
         exact_pressure(scene.exact.pressure.has_value()),
         probes(!scene.probes.empty()) {}
 };
+
+void append(std::vector<std::string>& systems, const std::vector<std::string>& more) {
+  systems.insert(systems.end(), more.begin(), more.end());
+}
 
 std::vector<std::string> force_systems(const Needs& needs) {
   if (needs.uniform_force) return {needs.ode ? "uniform_body_force_ode" : "uniform_body_force", "free_flight"};
@@ -65,15 +78,14 @@ std::vector<std::string> assemble_systems(const Needs& needs) {
   systems.push_back("stabilize_" + needs.stabilization);
   const std::string viscous = needs_viscosity_matrix(needs) ? "_viscous" : "";
   systems.push_back("right_hand_side" + viscous);
-  if (needs.solver == "umfpack") systems.push_back("assemble_monolithic" + viscous);
   if (needs.corrected_inertia) systems.emplace_back("add_inertia_correction");
   return systems;
 }
 
 std::vector<std::string> solve_systems(const Needs& needs) {
-  const bool block = needs.solver == "block";
-  std::vector<std::string> systems{"solve_" + needs.solver + (block && needs_viscosity_matrix(needs) ? "_viscous" : ""),
-                                   "unpack_solution"};
+  std::vector<std::string> systems = needs.solver.prepare;
+  append(systems, needs.solver.solve);
+  systems.emplace_back("unpack_solution");
   if (needs.stabilization == "oss") systems.emplace_back("g2p_pressure_gradient");
   return systems;
 }
@@ -97,7 +109,9 @@ bool limits_shift(const Needs& needs) { return needs.volume == "projection" && n
 
 std::vector<std::string> volume_systems(const Needs& needs) {
   if (needs.volume == "projection") {
-    std::vector<std::string> systems{"gather_node_volume", "find_volume_excess", "solve_volume_" + needs.solver};
+    std::vector<std::string> systems{"gather_node_volume", "find_volume_excess", "volume_source"};
+    append(systems, needs.solver.solve_volume);
+    systems.emplace_back("unpack_shift");
     if (limits_shift(needs)) systems.emplace_back("limit_shift");
     systems.emplace_back("shift_particles");
     return systems;
@@ -110,10 +124,6 @@ std::vector<std::string> volume_systems(const Needs& needs) {
 std::vector<std::string> with(std::vector<std::string> systems, bool needed, const std::string& more) {
   if (needed) systems.push_back(more);
   return systems;
-}
-
-void append(std::vector<std::string>& systems, const std::vector<std::string>& more) {
-  systems.insert(systems.end(), more.begin(), more.end());
 }
 
 /// Not with newmark, whose configuration lags behind by more than what this mends.

@@ -25,6 +25,7 @@
 #include "systems/solve/monolithic.hpp"
 #include "systems/solve/neighbours.hpp"
 #include "systems/solve/right_hand_side.hpp"
+#include "systems/solve/scheme.hpp"
 #include "systems/solve/stabilization.hpp"
 #include "systems/solve/umfpack.hpp"
 #include "systems/solve/vms.hpp"
@@ -96,15 +97,18 @@ void register_systems(SystemRegistry& registry) {
   registry.add<G2PPressureGradient>("g2p_pressure_gradient");
   registry.add<P2GPressureGradient>("p2g_pressure_gradient");
   registry.add<AssembleMonolithic>("assemble_monolithic");
-  registry.add<AssembleMonolithicViscous>("assemble_monolithic_viscous");
   registry.add<FindLiquid>("find_liquid");
   registry.add<CarryGradient>("carry_gradient_to_middle");
   registry.add<CarryGradient>("carry_gradient_to_end");
   registry.add<AddInertiaCorrection>("add_inertia_correction");
   registry.add<DampDivergence>("damp_divergence");
-  registry.add<SolveUmfpack>("solve_umfpack");
+  registry.add<AssembleSchur>("assemble_schur");
+  registry.add<ApproximateSchur>("approximate_schur");
+  registry.add<FactorizeVelocity>("factorize_velocity");
+  registry.add<FactorizePressure>("factorize_pressure");
   registry.add<SolveBlock>("solve_block");
-  registry.add<SolveBlockViscous>("solve_block_viscous");
+  registry.add<FactorizeUmfpack>("factorize_umfpack");
+  registry.add<SolveUmfpack>("solve_umfpack");
   registry.add<FillRightHandSide>("right_hand_side");
   registry.add<FillRightHandSideViscous>("right_hand_side_viscous");
   registry.add<UnpackSolution>("unpack_solution");
@@ -126,8 +130,10 @@ void register_systems(SystemRegistry& registry) {
 
   registry.add<GatherNodeVolume>("gather_node_volume");
   registry.add<FindVolumeExcess>("find_volume_excess");
+  registry.add<FillVolumeSource>("volume_source");
   registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
   registry.add<SolveVolumeBlock>("solve_volume_block");
+  registry.add<UnpackShift>("unpack_shift");
   registry.add<KeepKineticEnergy>("keep_kinetic_energy");
   registry.add<LimitShift>("limit_shift");
   registry.add<ShiftParticles>("shift_particles");

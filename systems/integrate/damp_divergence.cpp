@@ -2,7 +2,6 @@
 
 #include "engine/parallel.hpp"
 #include "systems/grid/liquid.hpp"
-#include "systems/solve/equations.hpp"
 #include "systems/solve/neighbours.hpp"
 #include "systems/transfer/carry_gradient.hpp"
 
@@ -35,8 +34,7 @@ template <int Dim>
 void DampDivergence<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid,
                                      Read<node::Site<Dim>> site, Read<node::Mass> m_i, Read<node::Velocity<Dim>> v_i,
                                      Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
-                                     Read<matrix::Divergence<Dim>> divergence,
-                                     Update<matrix::RightHandSide> right_hand_side) const {
+                                     Read<matrix::Divergence<Dim>> divergence, Update<matrix::Mass> g) const {
   const double tau = 0.5 * clock->step;
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
@@ -56,7 +54,7 @@ void DampDivergence<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
           const double liquid = liquid_around<Dim>(*grid, site[node[r]], fluid->density, neighbour[r], m_i.span());
           e += liquid * resolved * tau * per_volume * (slope * slope).trace();
         }
-        right_hand_side->values[unknowns_per_row(Dim) * r + Dim] += kappa * e;
+        g[r] += kappa * e;
       },
       rows_per_task);
 }

@@ -1,7 +1,6 @@
 #include "systems/solve/right_hand_side.hpp"
 
 #include "engine/parallel.hpp"
-#include "systems/solve/equations.hpp"
 #include "systems/solve/neighbours.hpp"
 
 namespace minamo {
@@ -26,7 +25,7 @@ struct KnownTerms {
 
 /// Right-hand sides of (E25) and (E26) for one row.
 template <int Dim>
-void fill_row(const KnownTerms<Dim>& t, std::size_t r, double* out) {
+void fill_row(const KnownTerms<Dim>& t, std::size_t r, Vec<Dim>& f, double& g) {
   const std::uint32_t i = t.node[r];
   Vec<Dim> momentum = t.m_i[i] * (t.b_i[i] - t.a_known[i]);
   double mass = t.source[r];
@@ -42,20 +41,15 @@ void fill_row(const KnownTerms<Dim>& t, std::size_t r, double* out) {
       }
     }
   });
-  for (std::size_t d = 0; d < Dim; ++d) {
-    out[d] = t.fixed[i] >> d & 1 ? 0 : momentum[static_cast<Eigen::Index>(d)];
-  }
-  out[Dim] = mass;
+  for (int d = 0; d < Dim; ++d) f[d] = t.fixed[i] >> d & 1 ? 0 : momentum[d];
+  g = mass;
 }
 
 template <int Dim>
-void fill(const KnownTerms<Dim>& terms, std::vector<double>& right_hand_side) {
-  right_hand_side.resize(unknowns_per_row(Dim) * terms.node.size());
+void fill(const KnownTerms<Dim>& terms, std::span<Vec<Dim>> f, std::span<double> g) {
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
-      terms.node.size(),
-      [&](std::size_t r) { fill_row<Dim>(terms, r, right_hand_side.data() + unknowns_per_row(Dim) * r); },
-      rows_per_task);
+      terms.node.size(), [&](std::size_t r) { fill_row<Dim>(terms, r, f[r], g[r]); }, rows_per_task);
 }
 
 }  // namespace
@@ -66,8 +60,8 @@ void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Fixed> fix
                                         Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
                                         Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                                         Read<matrix::Divergence<Dim>> divergence,
-                                        Read<matrix::StabilizationSource> source,
-                                        Write<matrix::RightHandSide> right_hand_side) const {
+                                        Read<matrix::StabilizationSource> source, Write<matrix::Momentum<Dim>> f,
+                                        Write<matrix::Mass> g) const {
   fill<Dim>({rates->velocity,
              fixed.span(),
              m_i.span(),
@@ -80,7 +74,7 @@ void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Fixed> fix
              divergence.span(),
              source.span(),
              {}},
-            right_hand_side->values);
+            f.span(), g.span());
 }
 
 template <int Dim>
@@ -89,10 +83,10 @@ void FillRightHandSideViscous<Dim>::operator()(
     Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
     Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
     Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
-    Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::RightHandSide> right_hand_side) const {
+    Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::Momentum<Dim>> f, Write<matrix::Mass> g) const {
   fill<Dim>({rates->velocity, fixed.span(), m_i.span(), b_i.span(), v_known.span(), a_known.span(), u_i.span(),
              node.span(), neighbour.span(), divergence.span(), source.span(), viscosity.span()},
-            right_hand_side->values);
+            f.span(), g.span());
 }
 
 template struct FillRightHandSide<2>;

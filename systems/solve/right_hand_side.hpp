@@ -19,7 +19,7 @@ struct FillRightHandSide {
                   Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
                   Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
-                  Write<matrix::RightHandSide> right_hand_side) const;
+                  Write<matrix::Momentum<Dim>> f, Write<matrix::Mass> g) const;
 };
 
 template <int Dim>
@@ -29,7 +29,7 @@ struct FillRightHandSideViscous {
                   Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
                   Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
-                  Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::RightHandSide> right_hand_side) const;
+                  Read<matrix::Viscosity<Dim>> viscosity, Write<matrix::Momentum<Dim>> f, Write<matrix::Mass> g) const;
 };
 
 }  // namespace minamo
