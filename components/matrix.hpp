@@ -66,31 +66,46 @@ struct StabilizationScale {
   static constexpr ComponentInfo info{"matrix.stabilization_scale", "tau, g", "m^3 s/kg, s", Lifetime::scratch};
 };
 
-/// Where the monolithic matrix has entries: compressed columns, (d + 1) unknowns per row of the tables, pressure last.
-struct Pattern {
-  std::vector<int> outer;       ///< start of every column, and the end
-  std::vector<int> inner;       ///< row of every entry, rising within a column
-  std::int64_t revision = 0;    ///< grows by one whenever the pattern is another than in the step before
-  std::vector<int> next_outer;  ///< work space of the assembly
-  std::vector<int> next_inner;
-  static constexpr ComponentInfo info{"matrix.pattern", "", "1", Lifetime::cache};
+/// Right-hand side f_I of the momentum balance (E25); zero towards walls. [N]
+template <int Dim>
+struct Momentum : Column<ActiveNodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"matrix.momentum", "f_I", "N", Lifetime::scratch};
 };
 
-/// The entries of the monolithic matrix, in the order of Pattern::inner.
-struct Values {
-  std::vector<double> values;
-  static constexpr ComponentInfo info{"matrix.values", "", "", Lifetime::scratch};
+/// Right-hand side g_I of the mass balance (E26). [m^d/s]
+struct Mass : Column<ActiveNodes, double> {
+  static constexpr ComponentInfo info{"matrix.mass", "g_I", "m^d/s", Lifetime::scratch};
 };
 
-struct RightHandSide {
-  std::vector<double> values;
-  static constexpr ComponentInfo info{"matrix.right_hand_side", "", "", Lifetime::scratch};
+/// The displacement that solves (E25), (E26). [m]
+template <int Dim>
+struct Displacement : Column<ActiveNodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"matrix.displacement", "u_I", "m", Lifetime::scratch};
 };
 
-/// Displacement and pressure per row of the tables.
-struct Solution {
+/// The pressure that solves (E25), (E26). [Pa]
+struct Pressure : Column<ActiveNodes, double> {
+  static constexpr ComponentInfo info{"matrix.pressure", "p_I", "Pa", Lifetime::scratch};
+};
+
+/// Right-hand side of the mass balance of (E37), whose momentum balance has none. [m^d/s]
+struct VolumeSource : Column<ActiveNodes, double> {
+  static constexpr ComponentInfo info{"matrix.volume_source", "c_v r E_I", "m^d/s", Lifetime::scratch};
+};
+
+/// The displacement that solves (E37). [m]
+template <int Dim>
+struct Shift : Column<ActiveNodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"matrix.shift", "d_I", "m", Lifetime::scratch};
+};
+
+/// The equations of a step as one sparse matrix in compressed columns.
+struct Monolithic {
+  std::vector<int> outer;  ///< start of every column, and the end
+  std::vector<int> inner;  ///< row of every entry, rising within a column
   std::vector<double> values;
-  static constexpr ComponentInfo info{"matrix.solution", "", "", Lifetime::scratch};
+  using rows_of = ActiveNodes;
+  static constexpr ComponentInfo info{"matrix.monolithic", "", "", Lifetime::scratch};
 };
 
 }  // namespace matrix

@@ -4,8 +4,6 @@
 
 #include "engine/component.hpp"
 
-#include <vector>
-
 namespace minamo {
 
 /// How velocity and acceleration in the balances follow from the displacement: v = c_v u + v^, a = c_a u + a^.
@@ -33,13 +31,6 @@ struct VolumeRate {
 struct EnergyBefore {
   double kinetic = 0;
   static constexpr ComponentInfo info{"step.energy_before", "K^n", "J", Lifetime::scratch};
-};
-
-/// Right-hand side and solution of (E37), kept so that a step does not allocate.
-struct VolumeEquations {
-  std::vector<double> right_hand_side;
-  std::vector<double> solution;
-  static constexpr ComponentInfo info{"volume.equations", "", "", Lifetime::cache};
 };
 
 /// Where an iterative solver stops: residual over right-hand side. [1]

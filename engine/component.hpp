@@ -44,7 +44,8 @@ concept ColumnComponent = Described<C> && requires {
   typename C::value_type;
 };
 
-/// One value per world, of the component's own type.
+/// One value per world, of the component's own type. What it holds for the rows of a table means nothing any more when
+/// that table is resized: `using rows_of = Table;` says so to the schedule.
 template <class C>
 concept ResourceComponent = Described<C> && !ColumnComponent<C> && std::default_initializable<C>;
 

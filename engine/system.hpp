@@ -25,7 +25,7 @@ enum class Mode {
 struct Access {
   Mode mode;
   std::string_view component;  ///< empty for Mode::resize
-  std::string_view table;      ///< empty for a resource
+  std::string_view table;      ///< whose rows it has or, as a resource, belongs to; empty for other resources
   const ComponentInfo* info;   ///< null for Mode::resize
   bool optional = false;       ///< a read of what need not be there
 };
@@ -39,6 +39,8 @@ template <Described C>
 constexpr Access access_to(Mode mode) {
   if constexpr (ColumnComponent<C>) {
     return {mode, C::info.name, C::table::name, &C::info};
+  } else if constexpr (requires { typename C::rows_of; }) {
+    return {mode, C::info.name, C::rows_of::name, &C::info};
   } else {
     return {mode, C::info.name, {}, &C::info};
   }

@@ -59,7 +59,7 @@ void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> st
                                            Read<node::Row> row, Read<node::Constraint> constraint,
                                            Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
                                            Read<matrix::Node> node, Write<node::InertiaCorrection<Dim>> c_i,
-                                           Update<matrix::RightHandSide> right_hand_side) const {
+                                           Update<matrix::Momentum<Dim>> f) const {
   scatter_first_moment<Dim>(*grid, *cells, fluid->density, *moments, m_p.span(), grad_f_p.span(), *liquid, c_i.span());
   const double share = std::min(1.0, step->seconds / clock->step);
   const double light = light_mass(m_i.span());
@@ -75,8 +75,7 @@ void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> st
   });
   for_each_row(node.size(), [&](std::size_t r) {
     const std::uint32_t i = node[r];
-    double* momentum = right_hand_side->values.data() + (Dim + 1) * r;
-    for (int d = 0; d < Dim; ++d) momentum[d] += m_i[i] * c_i[i][d];
+    f[r] += m_i[i] * c_i[i];
   });
 }
 

@@ -34,7 +34,7 @@ struct AddInertiaCorrection {
                   Read<Fluid> fluid, Read<Moments<Dim>> moments, Read<LiquidShare> liquid, Read<particle::Mass> m_p,
                   Read<particle::ForceGradient<Dim>> grad_f_p, Read<node::Row> row, Read<node::Constraint> constraint,
                   Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i, Read<matrix::Node> node,
-                  Write<node::InertiaCorrection<Dim>> c_i, Update<matrix::RightHandSide> right_hand_side) const;
+                  Write<node::InertiaCorrection<Dim>> c_i, Update<matrix::Momentum<Dim>> f) const;
 };
 
 /// (E54)

@@ -3,7 +3,6 @@
 #include "engine/parallel.hpp"
 #include "systems/assemble/neighbours.hpp"
 #include "systems/grid/constraint.hpp"
-#include "systems/solve/equations.hpp"
 
 namespace minamo {
 
@@ -27,7 +26,7 @@ struct KnownTerms {
 
 /// Right-hand sides of (E25) and (E26) for one row.
 template <int Dim>
-void fill_row(const KnownTerms<Dim>& t, std::size_t r, double* out) {
+void fill_row(const KnownTerms<Dim>& t, std::size_t r, Vec<Dim>& f, double& g) {
   const std::uint32_t i = t.node[r];
   Vec<Dim> momentum = t.m_i[i] * (t.b_i[i] - t.a_known[i]);
   double mass = t.source[r];
@@ -44,18 +43,15 @@ void fill_row(const KnownTerms<Dim>& t, std::size_t r, double* out) {
     }
   });
   hold_at_rest<Dim>(t.constraints, i, momentum);
-  for (std::size_t d = 0; d < Dim; ++d) out[d] = momentum[static_cast<Eigen::Index>(d)];
-  out[Dim] = mass;
+  f = momentum;
+  g = mass;
 }
 
 template <int Dim>
-void fill(const KnownTerms<Dim>& terms, std::vector<double>& right_hand_side) {
-  right_hand_side.resize(unknowns_per_row(Dim) * terms.node.size());
+void fill(const KnownTerms<Dim>& terms, std::span<Vec<Dim>> f, std::span<double> g) {
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
-      terms.node.size(),
-      [&](std::size_t r) { fill_row<Dim>(terms, r, right_hand_side.data() + unknowns_per_row(Dim) * r); },
-      rows_per_task);
+      terms.node.size(), [&](std::size_t r) { fill_row<Dim>(terms, r, f[r], g[r]); }, rows_per_task);
 }
 
 }  // namespace
@@ -69,7 +65,7 @@ void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Constraint
                                         Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::StabilizationSource> source,
                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                                        Write<matrix::RightHandSide> right_hand_side) const {
+                                        Write<matrix::Momentum<Dim>> f, Write<matrix::Mass> g) const {
   fill<Dim>({rates->velocity,
              {constraint.span(), frame.span()},
              m_i.span(),
@@ -82,7 +78,7 @@ void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Constraint
              divergence.span(),
              source.span(),
              viscosity.span()},
-            right_hand_side->values);
+            f.span(), g.span());
 }
 
 template struct FillRightHandSide<2>;

@@ -21,7 +21,8 @@ struct FillRightHandSide {
                   Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
                   Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
-                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Write<matrix::RightHandSide> right_hand_side) const;
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Write<matrix::Momentum<Dim>> f,
+                  Write<matrix::Mass> g) const;
 };
 
 }  // namespace minamo

@@ -26,14 +26,13 @@ struct WallCondition {
   std::function<std::uint8_t(int dimension, int axis)> held;
 };
 
-/// A linear solver: three lists of systems. `prepare` makes factors of the operators, `solve` gives displacement and
-/// pressure, `solve_volume` solves for another right-hand side, that of the volume projection, with the same factors.
+/// A linear solver is three lists of systems.
 struct LinearSolver {
   std::string name;
   std::string doc;
-  std::vector<std::string> prepare;
-  std::vector<std::string> solve;
-  std::vector<std::string> solve_volume;
+  std::vector<std::string> prepare;  ///< what they write, solve and solve_volume read
+  std::vector<std::string> solve;    ///< matrix.displacement, matrix.pressure from matrix.momentum, matrix.mass
+  std::vector<std::string> solve_volume;  ///< matrix.shift from matrix.volume_source
   std::function<Contribution(Input&, Scene&)> read = {};  ///< its options; may be empty
   /// Largest memory that matrices and factors take per node with a row. [byte]
   std::function<double(const Scene&, double nodes)> bytes_per_node;

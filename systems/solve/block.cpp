@@ -1,43 +1,11 @@
 #include "systems/solve/block.hpp"
 
-#include "systems/solve/compact_pressure.hpp"
-#include "systems/solve/equations.hpp"
 #include "systems/solve/monolithic.hpp"
-#include "systems/solve/pressure_preconditioner.hpp"
-#include "systems/solve/pressure_schur.hpp"
-#include "systems/solve/umfpack.hpp"
-#include "systems/solve/velocity_block.hpp"
 
 #include <algorithm>
 #include <limits>
 
 namespace minamo {
-
-template <int Dim>
-struct BlockFactors<Dim>::Impl {
-  EquationTerms<Dim> terms{};
-  PressureSchur<Dim> schur;
-  CompactPressure<Dim> compact;
-  VelocityBlock<Dim> velocity_block;
-  PressurePreconditioner<Dim> preconditioner;
-  Gmres gmres;
-  UmfpackFactors direct;
-  matrix::Pattern direct_pattern;
-  std::vector<double> direct_values;
-  bool is_direct = false;  ///< whether it was UMFPACK that solved the step
-  Values momentum;         ///< right-hand sides
-  Values mass;
-  Values displacement;
-  Values pressure;
-  // Work space.
-  Values more_displacement, f, of_velocity;
-  Values more_pressure, g, zero, unscaled;
-};
-
-template <int Dim>
-BlockFactors<Dim>::BlockFactors() : impl(std::make_unique<Impl>()) {}
-template <int Dim>
-BlockFactors<Dim>::~BlockFactors() = default;
 
 namespace {
 
@@ -50,56 +18,77 @@ std::int64_t most_iterations(const PressurePreconditioner<Dim>& preconditioner) 
   return Dim == 3 && !preconditioner.is_incomplete() ? 500 : 100;
 }
 
+/// What the solves of a step look at.
 template <int Dim>
-using Impl = typename BlockFactors<Dim>::Impl;
+struct BlockSystem {
+  const PressureSchur<Dim>& schur;
+  const CompactPressure<Dim>& approximation;
+  const VelocityBlock<Dim>& velocity;
+  typename VelocityBlock<Dim>::Matrix of_velocity;
+  PressurePreconditioner<Dim>& preconditioner;
+  BlockWork<Dim>& work;
+
+  /// u = A^-1 u
+  void solve_for_velocity(Values& u, double target) const { velocity.solve(of_velocity, u, target, work.velocity); }
+};
+
+template <int Dim>
+void prepare(const PressureSchur<Dim>& schur, BlockWork<Dim>& w) {
+  const std::size_t n = schur.rows();
+  schur.start(w.products);
+  for (Values* v : {&w.mass, &w.pressure, &w.more_pressure, &w.g, &w.zero, &w.unscaled}) v->resize(n);
+  std::fill(w.zero.begin(), w.zero.end(), 0.0);
+  for (Values* v : {&w.momentum, &w.displacement, &w.more_displacement, &w.f, &w.of_velocity}) v->resize(Dim * n);
+}
 
 /// Solves s S p = g, s the scale of a residual, and sets u = A^-1 (f + D^T p), with A as the velocity block solves
 /// with. \param target  for the residual
 template <int Dim>
-Gmres::Report eliminate(Impl<Dim>& s, const Values& f, const Values& g, double target, Gmres::Start start, Values& u,
-                        Values& p) {
-  auto& schur = s.schur;
+Gmres::Report eliminate(const BlockSystem<Dim>& s, const Values& f, const Values& g, double target, Gmres::Start start,
+                        Values& u, Values& p) {
+  const Values& scale = s.approximation.scale();
   const auto apply = [&](const Values& x, Values& out, double allowed) {
-    if (s.velocity_block.is_mobility()) {
-      schur.apply_with_mobility(x, out);
+    if (s.velocity.is_mobility()) {
+      s.schur.apply_with_mobility(x, s.work.products, out);
     } else {
-      schur.push(x, s.of_velocity);
+      s.schur.apply_gradient(x, s.work.products, s.work.of_velocity);
       // An error r of momentum becomes one of s B A^-1 r, B about c_v D, and s S s, S about B A^-1 D^T, about one.
-      s.velocity_block.solve(s.of_velocity, allowed / std::sqrt(s.terms.c_v));
-      schur.spread(s.of_velocity, x, out);
+      s.solve_for_velocity(s.work.of_velocity, allowed / std::sqrt(s.schur.coefficients().c_v));
+      s.schur.apply_divergence(s.work.of_velocity, x, s.work.products, out);
     }
-    for_each_row(out.size(), [&](std::size_t r) { out[r] *= s.compact.scale()[r]; });
+    for_each_row(out.size(), [&](std::size_t r) { out[r] *= scale[r]; });
   };
   const auto precondition = [&](const Values& r, Values& out) {
-    for_each_row(r.size(), [&](std::size_t i) { s.unscaled[i] = r[i] / s.compact.scale()[i]; });
-    s.preconditioner.solve(s.unscaled, out);
+    for_each_row(r.size(), [&](std::size_t i) { s.work.unscaled[i] = r[i] / scale[i]; });
+    s.preconditioner.solve(s.work.unscaled, out);
   };
-  const auto report = s.gmres.solve(apply, precondition, g, target, most_iterations(s.preconditioner), start, p);
-  schur.push(p, u);
+  const auto report = s.work.gmres.solve(apply, precondition, g, target, most_iterations(s.preconditioner), start, p);
+  s.schur.apply_gradient(p, s.work.products, u);
   add_scaled(1, f, u);
-  s.velocity_block.solve(u, 0);
+  s.solve_for_velocity(u, 0);
   return report;
 }
 
 /// g = s (mass - B (u + A^-1 f) - T p)
 template <int Dim>
-void reduce(Impl<Dim>& s, const Values& f, const Values& u, const Values& p, Values& g) {
-  s.of_velocity = f;
-  s.velocity_block.solve(s.of_velocity, 0);
-  add_scaled(1, u, s.of_velocity);
-  s.schur.spread(s.of_velocity, p, g);
-  for_each_row(g.size(), [&](std::size_t r) { g[r] = s.compact.scale()[r] * (s.mass[r] - g[r]); });
+void reduce(const BlockSystem<Dim>& s, const Values& f, const Values& u, const Values& p, Values& g) {
+  Values& v = s.work.of_velocity;
+  v = f;
+  s.solve_for_velocity(v, 0);
+  add_scaled(1, u, v);
+  s.schur.apply_divergence(v, p, s.work.products, g);
+  for_each_row(g.size(), [&](std::size_t r) { g[r] = s.approximation.scale()[r] * (s.work.mass[r] - g[r]); });
 }
 
 /// The square of the motion that a momentum is worth, f A^-1 f with the mobility for A^-1.
 template <int Dim>
-double motion_by(const Impl<Dim>& s, const Values& f) {
+double motion_by(const BlockSystem<Dim>& s, const Values& f) {
   return weighted_square(s.schur.mobility(), f);
 }
 
 /// u A u. Walls hold what has no mobility.
 template <int Dim>
-double motion_of(const Impl<Dim>& s, const Values& u) {
+double motion_of(const BlockSystem<Dim>& s, const Values& u) {
   const Values& mobility = s.schur.mobility();
   return reduce_rows(
       u.size(), 0.0, [&](std::size_t i) { return mobility[i] > 0 ? u[i] * u[i] / mobility[i] : 0; }, std::plus<>());
@@ -111,192 +100,216 @@ double motion_of(const Impl<Dim>& s, const Values& u) {
 /// Iterations are followed by passes, too, until what they have left is found to be small; it may stop falling above
 /// the target where nearly all of the motion is free of divergence, so that rounding is what the target is a part of.
 template <int Dim>
-Gmres::Report solve_blocks(Impl<Dim>& s, double tolerance, Gmres::Start start) {
-  std::fill(s.displacement.begin(), s.displacement.end(), 0.0);
-  if (std::all_of(s.momentum.begin(), s.momentum.end(), [](double f) { return f == 0; })) {
-    for_each_row(s.g.size(), [&](std::size_t r) { s.g[r] = s.compact.scale()[r] * s.mass[r]; });
+Gmres::Report solve_blocks(const BlockSystem<Dim>& s, double tolerance, Gmres::Start start) {
+  BlockWork<Dim>& w = s.work;
+  std::fill(w.displacement.begin(), w.displacement.end(), 0.0);
+  if (std::all_of(w.momentum.begin(), w.momentum.end(), [](double f) { return f == 0; })) {
+    for_each_row(w.g.size(), [&](std::size_t r) { w.g[r] = s.approximation.scale()[r] * w.mass[r]; });
   } else {
-    reduce<Dim>(s, s.momentum, s.displacement, s.zero, s.g);
+    reduce<Dim>(s, w.momentum, w.displacement, w.zero, w.g);
   }
-  const double norm = std::sqrt(dot(s.g, s.g));
-  const double left_by_block = s.velocity_block.error();
+  const double norm = std::sqrt(dot(w.g, w.g));
+  const double left_by_block = s.velocity.error();
   const double target = tolerance * norm;
   Gmres::Report report =
-      eliminate<Dim>(s, s.momentum, s.g, std::max(target, left_by_block * norm), start, s.displacement, s.pressure);
-  s.more_displacement = s.displacement;
-  const double all_motion = left_by_block > 0 ? motion_by<Dim>(s, s.momentum) + motion_of<Dim>(s, s.displacement) : 0;
+      eliminate<Dim>(s, w.momentum, w.g, std::max(target, left_by_block * norm), start, w.displacement, w.pressure);
+  w.more_displacement = w.displacement;
+  const double all_motion = left_by_block > 0 ? motion_by<Dim>(s, w.momentum) + motion_of<Dim>(s, w.displacement) : 0;
   const double motion_target = tolerance * tolerance * all_motion;
   double left_before = std::numeric_limits<double>::infinity();
   for (int pass = 0; left_by_block > 0 && report.converged; ++pass) {
-    s.velocity_block.find_rest(s.more_displacement, s.f);
-    reduce<Dim>(s, s.f, s.displacement, s.pressure, s.g);
-    const double left = std::sqrt(dot(s.g, s.g));
-    const double left_of_motion = motion_by<Dim>(s, s.f);
+    s.velocity.residual(s.of_velocity, w.more_displacement, w.velocity, w.f);
+    reduce<Dim>(s, w.f, w.displacement, w.pressure, w.g);
+    const double left = std::sqrt(dot(w.g, w.g));
+    const double left_of_motion = motion_by<Dim>(s, w.f);
     const bool is_as_small_as_it_gets = left <= target || left > 0.5 * left_before;
-    if (s.velocity_block.is_iteration() && left_of_motion <= motion_target && is_as_small_as_it_gets) {
-      s.displacement = s.of_velocity;  // whose balance that is
+    if (s.velocity.is_iteration() && left_of_motion <= motion_target && is_as_small_as_it_gets) {
+      w.displacement = w.of_velocity;  // whose balance that is
       report.residual = left;
       break;
     }
     left_before = left;
-    const auto more = eliminate<Dim>(s, s.f, s.g, std::max(target, left_by_block * left), Gmres::Start::zero,
-                                     s.more_displacement, s.more_pressure);
-    add_scaled(1, s.more_displacement, s.displacement);
-    add_scaled(1, s.more_pressure, s.pressure);
+    const auto more = eliminate<Dim>(s, w.f, w.g, std::max(target, left_by_block * left), Gmres::Start::zero,
+                                     w.more_displacement, w.more_pressure);
+    add_scaled(1, w.more_displacement, w.displacement);
+    add_scaled(1, w.more_pressure, w.pressure);
     report.iterations += more.iterations;
     report.residual = more.residual;
     const double rest = left_by_block * left_by_block * left_of_motion;
     const bool is_balanced = left_by_block * left <= target && rest <= motion_target;
-    if (more.converged && is_balanced && !s.velocity_block.is_iteration()) break;
+    if (more.converged && is_balanced && !s.velocity.is_iteration()) break;
     report.converged = more.converged && pass < most_passes;
   }
   if (norm > 0) report.residual /= norm;
   return report;
 }
 
-template <int Dim>
-void prepare(Impl<Dim>& s, const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
-             const matrix::StabilizationScale& scale, const Rates& rates, WholeFactors& whole) {
-  s.schur.assemble(terms, grid);
-  s.compact.assemble(terms, grid, fluid, laplacian_factor(rates, fluid, scale), s.schur);
-  s.velocity_block.prepare(terms, s.schur);
-  s.preconditioner.prepare(s.compact, s.schur, terms, viscous_part<Dim>(terms, grid, fluid, scale), whole);
-  const std::size_t n = s.schur.rows();
-  for (Values* v : {&s.mass, &s.pressure, &s.more_pressure, &s.g, &s.zero, &s.unscaled}) v->resize(n);
-  std::fill(s.zero.begin(), s.zero.end(), 0.0);
-  for (Values* v : {&s.momentum, &s.displacement, &s.more_displacement, &s.f, &s.of_velocity}) v->resize(Dim * n);
-}
-
-template <int Dim>
-void take_right_hand_side(Impl<Dim>& s, const std::vector<double>& b) {
-  for_each_row(s.mass.size(), [&](std::size_t r) {
-    const double* row = b.data() + unknowns_per_row(Dim) * r;
-    for (std::size_t d = 0; d < Dim; ++d) s.momentum[Dim * r + d] = row[d];
-    s.mass[r] = row[Dim];
-  });
-}
-
-template <int Dim>
-void give_solution(const Impl<Dim>& s, std::vector<double>& x) {
-  x.resize(unknowns_per_row(Dim) * s.mass.size());
-  for_each_row(s.mass.size(), [&](std::size_t r) {
-    double* row = x.data() + unknowns_per_row(Dim) * r;
-    for (std::size_t d = 0; d < Dim; ++d) row[d] = s.displacement[Dim * r + d];
-    row[Dim] = s.pressure[r];
-  });
-}
-
-/// The monolithic system, where the iteration has failed: rare, and what UMFPACK is for.
-template <int Dim>
-SolveReport solve_directly(const Grid<Dim>& grid, const EquationTerms<Dim>& terms, const std::vector<double>& b,
-                           Impl<Dim>& s, std::vector<double>& x) {
-  fill_monolithic<Dim>(terms, grid, s.direct_pattern, s.direct_values);
-  return solve_monolithic(s.direct, s.direct_pattern, s.direct_values, b, x);
-}
-
 bool is_solved(const Gmres::Report& report) { return report.converged && std::isfinite(report.residual); }
 
 template <int Dim>
-SolveReport solve(const Grid<Dim>& grid, const Fluid& fluid, double tolerance, const matrix::StabilizationScale& scale,
-                  const Rates& rates, const EquationTerms<Dim>& terms, std::span<const double> p_i,
-                  const std::vector<double>& b, WholeFactors& whole, Impl<Dim>& s, std::vector<double>& x) {
-  s.terms = terms;
-  s.is_direct = false;
-  prepare<Dim>(s, terms, grid, fluid, scale, rates, whole);
-  take_right_hand_side<Dim>(s, b);
-  // The pressure of the step before is near.
-  for_each_row(s.pressure.size(), [&](std::size_t r) { s.pressure[r] = p_i[terms.node[r]]; });
-  Gmres::Report done = solve_blocks<Dim>(s, tolerance, Gmres::Start::x);
-  if (!is_solved(done) && s.preconditioner.complete(s.compact, s.schur, whole)) {
-    const std::int64_t before = done.iterations;
-    done = solve_blocks<Dim>(s, tolerance, Gmres::Start::zero);
-    done.iterations += before;
-  }
-  if (!is_solved(done)) {
-    s.is_direct = true;
-    SolveReport report = solve_directly<Dim>(grid, terms, b, s, x);
-    report.iterations = done.iterations;
-    return report;
-  }
-  give_solution<Dim>(s, x);
-  return {.unknowns = static_cast<std::int64_t>(b.size()), .iterations = done.iterations, .residual = done.residual};
+void take_displacement(const Values& from, std::span<Vec<Dim>> u) {
+  for_each_row(u.size(), [&](std::size_t r) {
+    for (int d = 0; d < Dim; ++d) u[r][d] = from[Dim * r + static_cast<std::size_t>(d)];
+  });
 }
+
+template <int Dim>
+void fall_back(const Operators<Dim>& operators, const Grid<Dim>& grid, Fallback& to) {
+  fill_monolithic<Dim>(operators, grid, to.matrix);
+  to.factors.factorize(to.matrix);
+}
+
+/// A shift is a correction: three digits less of it do no harm.
+double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2, 1000 * tolerance.relative); }
 
 }  // namespace
 
 template <int Dim>
-void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const Grid<Dim>& grid, double tolerance,
-                 std::vector<double>& x) {
-  Impl<Dim>& s = *factors.impl;
-  if (s.is_direct) return solve_again(s.direct, b, x);
-  take_right_hand_side<Dim>(s, b);
-  if (is_solved(solve_blocks<Dim>(s, tolerance, Gmres::Start::zero))) {
-    give_solution<Dim>(s, x);
-  } else {
-    solve_directly<Dim>(grid, s.terms, b, s, x);
+void AssembleSchur<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
+                                    Read<node::Row> row, Read<node::Constraint> fixed, Read<node::Mass> m_i,
+                                    Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                    Read<matrix::Divergence<Dim>> divergence,
+                                    Read<matrix::Stabilization<Dim>> stabilization,
+                                    Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                                    Write<PressureSchur<Dim>> schur) const {
+  const double e = pressure_per_mass(clock->step, fluid->density, grid->spacing);
+  schur->assemble({{rates->velocity, rates->acceleration, e},
+                   row.span(),
+                   fixed.span(),
+                   m_i.span(),
+                   site.span(),
+                   &*rows,
+                   node.span(),
+                   divergence.span(),
+                   stabilization.span(),
+                   viscosity.span()},
+                  *grid);
+}
+
+template <int Dim>
+void ApproximateSchur<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
+                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows,
+                                       Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                       Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
+                                       Read<PressureSchur<Dim>> schur,
+                                       Write<CompactPressure<Dim>> approximation) const {
+  approximation->assemble({schur->coefficients(),
+                           row.span(),
+                           fixed.span(),
+                           m_i.span(),
+                           site.span(),
+                           &*rows,
+                           node.span(),
+                           divergence.span(),
+                           {},
+                           {}},
+                          *grid, *fluid, laplacian_factor(schur->coefficients(), *fluid, *scale), *schur);
+}
+
+template <int Dim>
+void FactorizeVelocity<Dim>::operator()(Read<node::Mass> m_i, Read<matrix::Node> node,
+                                        Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                                        Read<PressureSchur<Dim>> schur, Write<VelocityBlock<Dim>> factors) const {
+  factors->prepare({schur->coefficients(), {}, {}, m_i.span(), {}, nullptr, node.span(), {}, {}, viscosity.span()},
+                   *schur);
+}
+
+template <int Dim>
+void FactorizePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Mass> m_i,
+                                        Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                        Read<matrix::StabilizationScale> scale,
+                                        Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                                        Read<PressureSchur<Dim>> schur, Read<CompactPressure<Dim>> approximation,
+                                        Update<WholeFactors> whole, Write<PressurePreconditioner<Dim>> factors) const {
+  const double of_viscosity = viscosity ? viscous_part<Dim>(schur->coefficients(), *grid, *fluid, *scale) : 0;
+  factors->prepare(*approximation, *schur,
+                   {schur->coefficients(), {}, {}, m_i.span(), site.span(), nullptr, node.span(), {}, {}, {}},
+                   of_viscosity, *whole);
+}
+
+template <int Dim>
+void SolveBlock<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
+    Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+    Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+    Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<PressureSchur<Dim>> schur,
+    Read<CompactPressure<Dim>> approximation, Read<VelocityBlock<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f,
+    Read<matrix::Mass> g, Update<PressurePreconditioner<Dim>> pressure_factors, Update<WholeFactors> whole,
+    Update<BlockWork<Dim>> work, Write<Fallback> fallback, Write<matrix::Displacement<Dim>> u,
+    Write<matrix::Pressure> p, Write<SolveReport> report) const {
+  const BlockSystem<Dim> system{
+      *schur, *approximation, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};
+  prepare<Dim>(*schur, *work);
+  for_each_row(g.size(), [&](std::size_t r) {
+    for (std::size_t d = 0; d < Dim; ++d) work->momentum[Dim * r + d] = f[r][static_cast<Eigen::Index>(d)];
+    work->mass[r] = g[r];
+    // The pressure of the step before is near.
+    work->pressure[r] = p_i[node[r]];
+  });
+  fallback->is_used = false;
+  Gmres::Report done = solve_blocks<Dim>(system, tolerance->relative, Gmres::Start::x);
+  if (!is_solved(done) && pressure_factors->complete(*approximation, *schur, *whole)) {
+    const std::int64_t before = done.iterations;
+    done = solve_blocks<Dim>(system, tolerance->relative, Gmres::Start::zero);
+    done.iterations += before;
   }
+  if (is_solved(done)) {
+    take_displacement<Dim>(work->displacement, u.span());
+    std::copy(work->pressure.begin(), work->pressure.end(), p.begin());
+    *report = {.unknowns = static_cast<std::int64_t>((Dim + 1) * g.size()),
+               .iterations = done.iterations,
+               .residual = done.residual};
+    return;
+  }
+  fallback->is_used = true;
+  fall_back<Dim>({schur->coefficients(), row.span(), fixed.span(), m_i.span(), site.span(), &*rows, node.span(),
+                  divergence.span(), stabilization.span(), viscosity.span()},
+                 *grid, *fallback);
+  pack<Dim>(f.span(), g.span(), fallback->packed.b);
+  *report = fallback->factors.solve(fallback->packed.b, fallback->packed.x);
+  report->iterations = done.iterations;
+  unpack<Dim>(fallback->packed.x, u.span(), p.span());
 }
 
 template <int Dim>
-void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                                 Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                                 Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows,
-                                 Read<node::Site<Dim>> site, Read<matrix::Node> node,
-                                 Read<matrix::Divergence<Dim>> divergence,
-                                 Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
-                                 Read<matrix::RightHandSide> right_hand_side, Update<WholeFactors> whole,
-                                 Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
-                                 Write<SolveReport> report) const {
-  const EquationTerms<Dim> terms{rates->velocity,
-                                 rates->acceleration,
-                                 pressure_per_mass(clock->step, fluid->density, grid->spacing),
-                                 row.span(),
-                                 fixed.span(),
-                                 m_i.span(),
-                                 site.span(),
-                                 &*rows,
-                                 node.span(),
-                                 divergence.span(),
-                                 stabilization.span(),
-                                 {}};
-  *report = solve<Dim>(*grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(), right_hand_side->values,
-                       *whole, *factors->impl, solution->values);
+void SolveVolumeBlock<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
+    Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+    Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<PressureSchur<Dim>> schur,
+    Read<CompactPressure<Dim>> approximation, Read<VelocityBlock<Dim>> velocity_factors, Read<matrix::VolumeSource> g,
+    Update<PressurePreconditioner<Dim>> pressure_factors, Update<BlockWork<Dim>> work, Update<Fallback> fallback,
+    Write<matrix::Shift<Dim>> d) const {
+  if (!fallback->is_used) {
+    const BlockSystem<Dim> system{
+        *schur, *approximation, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};
+    prepare<Dim>(*schur, *work);
+    std::fill(work->momentum.begin(), work->momentum.end(), 0.0);
+    std::copy(g.begin(), g.end(), work->mass.begin());
+    if (is_solved(solve_blocks<Dim>(system, shift_tolerance(*tolerance), Gmres::Start::zero))) {
+      take_displacement<Dim>(work->displacement, d.span());
+      return;
+    }
+    fall_back<Dim>({schur->coefficients(), row.span(), fixed.span(), m_i.span(), site.span(), &*rows, node.span(),
+                    divergence.span(), stabilization.span(), viscosity.span()},
+                   *grid, *fallback);
+  }
+  pack<Dim>({}, g.span(), fallback->packed.b);
+  fallback->factors.solve(fallback->packed.b, fallback->packed.x);
+  unpack<Dim>(fallback->packed.x, d.span(), {});
 }
 
-template <int Dim>
-void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                                        Read<SolverTolerance> tolerance, Read<node::Row> row,
-                                        Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<node::Pressure> p_i,
-                                        Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
-                                        Read<matrix::Divergence<Dim>> divergence,
-                                        Read<matrix::Stabilization<Dim>> stabilization,
-                                        Read<matrix::StabilizationScale> scale, Read<matrix::Viscosity<Dim>> viscosity,
-                                        Read<matrix::RightHandSide> right_hand_side, Update<WholeFactors> whole,
-                                        Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
-                                        Write<SolveReport> report) const {
-  const EquationTerms<Dim> terms{rates->velocity,
-                                 rates->acceleration,
-                                 pressure_per_mass(clock->step, fluid->density, grid->spacing),
-                                 row.span(),
-                                 fixed.span(),
-                                 m_i.span(),
-                                 site.span(),
-                                 &*rows,
-                                 node.span(),
-                                 divergence.span(),
-                                 stabilization.span(),
-                                 viscosity.span()};
-  *report = solve<Dim>(*grid, *fluid, tolerance->relative, *scale, *rates, terms, p_i.span(), right_hand_side->values,
-                       *whole, *factors->impl, solution->values);
-}
-
-template struct BlockFactors<2>;
-template struct BlockFactors<3>;
+template struct AssembleSchur<2>;
+template struct AssembleSchur<3>;
+template struct ApproximateSchur<2>;
+template struct ApproximateSchur<3>;
+template struct FactorizeVelocity<2>;
+template struct FactorizeVelocity<3>;
+template struct FactorizePressure<2>;
+template struct FactorizePressure<3>;
 template struct SolveBlock<2>;
 template struct SolveBlock<3>;
-template struct SolveBlockViscous<2>;
-template struct SolveBlockViscous<3>;
-template void solve_again(BlockFactors<2>&, const std::vector<double>&, const Grid<2>&, double, std::vector<double>&);
-template void solve_again(BlockFactors<3>&, const std::vector<double>&, const Grid<3>&, double, std::vector<double>&);
+template struct SolveVolumeBlock<2>;
+template struct SolveVolumeBlock<3>;
 
 }  // namespace minamo

@@ -14,56 +14,103 @@
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
-
-#include <memory>
+#include "systems/solve/compact_pressure.hpp"
+#include "systems/solve/pressure_preconditioner.hpp"
+#include "systems/solve/pressure_schur.hpp"
+#include "systems/solve/umfpack.hpp"
+#include "systems/solve/velocity_block.hpp"
 
 namespace minamo {
 
-/// Operators and factors of the last step, and work space.
-template <int Dim>
-struct BlockFactors {
-  BlockFactors();
-  ~BlockFactors();
-  BlockFactors(const BlockFactors&) = delete;
-  BlockFactors& operator=(const BlockFactors&) = delete;
-  struct Impl;
-  std::unique_ptr<Impl> impl;
-  static constexpr ComponentInfo info{"solve.block_factors", "", "", Lifetime::cache};
+/// The monolithic system, where iterations fail: rare, and what UMFPACK is for.
+struct Fallback {
+  bool is_used = false;  ///< whether it has solved the step
+  matrix::Monolithic matrix;
+  UmfpackFactors factors;
+  PackedVectors packed;
+  using rows_of = ActiveNodes;
+  static constexpr ComponentInfo info{"solve.fallback", "", "", Lifetime::scratch};
 };
 
-/// Sets x to the solution for another right-hand side b, with the operators and factors of the last solve, in the same
-/// step. \throws StepRejected as SolveBlock.
+/// Room for a solve.
 template <int Dim>
-void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const Grid<Dim>& grid, double tolerance,
-                 std::vector<double>& x);
+struct BlockWork {
+  Gmres gmres;
+  SlotValues products;
+  typename VelocityBlock<Dim>::Work velocity;
+  Values momentum, mass;  ///< right-hand sides
+  Values displacement, pressure;
+  Values more_displacement, f, of_velocity;
+  Values more_pressure, g, zero, unscaled;
+  static constexpr ComponentInfo info{"solve.block_work", "", "", Lifetime::cache};
+};
 
+template <int Dim>
+struct AssembleSchur {
+  static constexpr std::string_view doc = "(E55) operator of the pressure";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                  Write<PressureSchur<Dim>> schur) const;
+};
+
+template <int Dim>
+struct ApproximateSchur {
+  static constexpr std::string_view doc = "(E56) matrix near the operator of the pressure";
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row, Read<node::Constraint> fixed,
+                  Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
+                  Read<PressureSchur<Dim>> schur, Write<CompactPressure<Dim>> approximation) const;
+};
+
+template <int Dim>
+struct FactorizeVelocity {
+  static constexpr std::string_view doc = "(E60) factors of the velocity block";
+  /// \throws StepRejected if there are none.
+  void operator()(Read<node::Mass> m_i, Read<matrix::Node> node, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                  Read<PressureSchur<Dim>> schur, Write<VelocityBlock<Dim>> factors) const;
+};
+
+template <int Dim>
+struct FactorizePressure {
+  static constexpr std::string_view doc = "(E56) (E57) factors of the preconditioner of the pressure";
+  /// \throws StepRejected if there are none.
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Mass> m_i, Read<node::Site<Dim>> site,
+                  Read<matrix::Node> node, Read<matrix::StabilizationScale> scale,
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<PressureSchur<Dim>> schur,
+                  Read<CompactPressure<Dim>> approximation, Update<WholeFactors> whole,
+                  Write<PressurePreconditioner<Dim>> factors) const;
+};
+
+/// The operators are read for products with the viscous part, and for the fallback.
 template <int Dim>
 struct SolveBlock {
-  static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, inviscid";
+  static constexpr std::string_view doc = "(E55) block elimination and GMRES";
   /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size, or if iterations for the
   ///   velocities of a stiff liquid do not converge, which shorter steps help.
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
+  void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
                   Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
-                  Read<matrix::RightHandSide> right_hand_side, Update<WholeFactors> whole,
-                  Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution, Write<SolveReport> report) const;
+                  Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                  Read<PressureSchur<Dim>> schur, Read<CompactPressure<Dim>> approximation,
+                  Read<VelocityBlock<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
+                  Update<PressurePreconditioner<Dim>> pressure_factors, Update<WholeFactors> whole,
+                  Update<BlockWork<Dim>> work, Write<Fallback> fallback, Write<matrix::Displacement<Dim>> u,
+                  Write<matrix::Pressure> p, Write<SolveReport> report) const;
 };
 
 template <int Dim>
-struct SolveBlockViscous {
-  static constexpr std::string_view doc = "(E55) (E56) block elimination and GMRES, viscous";
-  /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size, or if iterations for the
-  ///   velocities of a stiff liquid do not converge, which shorter steps help.
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
-                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
-                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
-                  Read<matrix::Viscosity<Dim>> viscosity, Read<matrix::RightHandSide> right_hand_side,
-                  Update<WholeFactors> whole, Update<BlockFactors<Dim>> factors, Write<matrix::Solution> solution,
-                  Write<SolveReport> report) const;
+struct SolveVolumeBlock {
+  static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
+  /// \throws StepRejected as SolveBlock.
+  void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
+                  Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<PressureSchur<Dim>> schur,
+                  Read<CompactPressure<Dim>> approximation, Read<VelocityBlock<Dim>> velocity_factors,
+                  Read<matrix::VolumeSource> g, Update<PressurePreconditioner<Dim>> pressure_factors,
+                  Update<BlockWork<Dim>> work, Update<Fallback> fallback, Write<matrix::Shift<Dim>> d) const;
 };
 
 }  // namespace minamo

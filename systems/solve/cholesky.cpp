@@ -100,7 +100,7 @@ bool SparseCholesky::factorize(Kind kind) {
   return s.incomplete.info() == Eigen::Success;
 }
 
-void SparseCholesky::solve(Values& b) {
+void SparseCholesky::solve(Values& b) const {
   Eigen::Map<Eigen::VectorXd> x(b.data(), static_cast<Eigen::Index>(b.size()));
   if (impl_->kind == Kind::complete) {
     x = impl_->complete.solve(x).eval();

@@ -26,7 +26,7 @@ class SparseCholesky {
   /// \throws std::bad_alloc if the factors do not fit into memory.
   bool factorize(Kind kind = Kind::complete);
   /// Overwrites b with the solution.
-  void solve(Values& b);
+  void solve(Values& b) const;
 
  private:
   struct Impl;

@@ -69,7 +69,7 @@ constexpr std::optional<std::size_t> line_in(std::size_t to_k, std::size_t from_
 template <int Dim>
 class WideStencil {
  public:
-  WideStencil(const EquationTerms<Dim>& t, const Grid<Dim>& grid, std::size_t row) : t_(t), find_(*t.rows_of_sites) {
+  WideStencil(const Operators<Dim>& t, const Grid<Dim>& grid, std::size_t row) : t_(t), find_(*t.rows_of_sites) {
     const Index<Dim>& own = t.site[t.node[row]];
     for (int d = 0; d < Dim; ++d) {
       const auto axis = static_cast<std::size_t>(d);
@@ -93,7 +93,7 @@ class WideStencil {
   }
 
  private:
-  const EquationTerms<Dim>& t_;
+  const Operators<Dim>& t_;
   typename SiteRows<Dim>::Finder find_;
   std::array<std::array<std::optional<typename SiteRows<Dim>::Address>, 9>, Dim> part_;  ///< none outside the grid
 };
@@ -157,7 +157,7 @@ void CompactPressure<Dim>::add_surface(const From& from, const Block& block, Lan
 
 template <int Dim>
 void CompactPressure<Dim>::fill_block(const From& from, const Block& block) {
-  const EquationTerms<Dim>& t = from.terms;
+  const Operators<Dim>& t = from.terms;
   constexpr std::size_t own = stencil_size<Dim> / 2;
   const auto of_row = [](std::int32_t row) { return static_cast<std::size_t>(row); };
   const bool reaches_beyond =
@@ -232,7 +232,7 @@ void CompactPressure<Dim>::fill_beyond(const From& from, const Block& block, con
 
 template <int Dim>
 void CompactPressure<Dim>::fill_rows(const From& from, const Fluid& fluid) {
-  const EquationTerms<Dim>& t = from.terms;
+  const Operators<Dim>& t = from.terms;
   const RowBlocks<Dim>& blocks = from.schur.blocks();
   const bool may_be_whole = wide_stencil_fits(from.grid);
   per_mass_.assign(Dim * blocks.slots(), 0.0);
@@ -249,7 +249,7 @@ void CompactPressure<Dim>::fill_rows(const From& from, const Fluid& fluid) {
 }
 
 template <int Dim>
-void CompactPressure<Dim>::assemble(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
+void CompactPressure<Dim>::assemble(const Operators<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
                                     double of_laplacian, const PressureSchur<Dim>& schur) {
   const From from{t, grid, schur, of_laplacian};
   entries_.resize(schur.blocks(), stencil_size<Dim>);

@@ -15,14 +15,17 @@ namespace minamo {
 template <int Dim>
 class CompactPressure {
  public:
+  using rows_of = ActiveNodes;
+  static constexpr ComponentInfo info{"solve.schur_approximation", "P", "", Lifetime::scratch};
+
   struct Entry {
     std::uint32_t row;
     double value;
   };
 
   /// \param of_laplacian  the factor of T
-  /// \param schur         assembled from the same terms; kept by reference
-  void assemble(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid, double of_laplacian,
+  /// \param schur         assembled from the same terms
+  void assemble(const Operators<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid, double of_laplacian,
                 const PressureSchur<Dim>& schur);
 
   std::size_t rows() const { return scale_.size(); }
@@ -30,17 +33,18 @@ class CompactPressure {
   const Values& scale() const { return scale_; }
 
   /// Calls body(row of the neighbour, entry) for the entries of a row within the stencil.
+  /// \param blocks  of the rows, those of the Schur complement
   template <class Body>
-  void for_each_near(std::size_t row, const Body& body) const {
-    entries_.for_each_neighbour(row, 0, 1, [&](std::size_t, std::size_t other, double value) {
+  void for_each_near(const RowBlocks<Dim>& blocks, std::size_t row, const Body& body) const {
+    entries_.for_each_neighbour(blocks, row, 0, 1, [&](std::size_t, std::size_t other, double value) {
       if (value != 0) body(other, value);
     });
   }
   /// Calls body(row of the neighbour, entry, entry of the way back).
   template <class Body>
-  void for_each_near_pair(std::size_t row, const Body& body) const {
-    entries_.for_each_neighbour(row, 0, 1, [&](std::size_t k, std::size_t other, double value) {
-      const double back = entries_.of(other, stencil_size<Dim> - 1 - k);
+  void for_each_near_pair(const RowBlocks<Dim>& blocks, std::size_t row, const Body& body) const {
+    entries_.for_each_neighbour(blocks, row, 0, 1, [&](std::size_t k, std::size_t other, double value) {
+      const double back = entries_.at(blocks.slot(other))[(stencil_size<Dim> - 1 - k) * RowBlocks<Dim>::width];
       if (value != 0 || back != 0) body(other, value, back);
     });
   }
@@ -51,7 +55,7 @@ class CompactPressure {
  private:
   using Block = typename RowBlocks<Dim>::Block;
   struct From {
-    const EquationTerms<Dim>& terms;
+    const Operators<Dim>& terms;
     const Grid<Dim>& grid;
     const PressureSchur<Dim>& schur;
     double of_laplacian;

@@ -2,7 +2,6 @@
 
 #include "engine/parallel.hpp"
 #include "systems/assemble/stencil.hpp"
-#include "systems/solve/equations.hpp"
 
 namespace minamo {
 
@@ -12,7 +11,7 @@ namespace {
 /// value. The pressure term alone does not tell: one particle in the middle of every cell makes it cancel for
 /// neighbours along an axis.
 template <int Dim>
-bool coupled(const EquationTerms<Dim>& t, std::size_t r_i, std::size_t to_j, std::size_t r_j) {
+bool coupled(const Operators<Dim>& t, std::size_t r_i, std::size_t to_j, std::size_t r_j) {
   if (t.stabilization[r_i][(Dim + 1) * to_j + Dim] != 0) return true;
   const std::size_t to_i = stencil_size<Dim> - 1 - to_j;
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -22,13 +21,13 @@ bool coupled(const EquationTerms<Dim>& t, std::size_t r_i, std::size_t to_j, std
 }
 
 template <int Dim>
-bool is_fixed(const EquationTerms<Dim>& t, std::uint32_t i, std::size_t d) {
+bool is_fixed(const Operators<Dim>& t, std::uint32_t i, std::size_t d) {
   return t.fixed[i] >> d & 1;
 }
 
 /// Calls emit(row, value) for the entries of the column of a displacement component, rows rising.
 template <int Dim, class Emit>
-void displacement_column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, std::size_t d,
+void displacement_column(const Operators<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, std::size_t d,
                          const Emit& emit) {
   const std::uint32_t j = t.node[r_j];
   const std::size_t column = unknowns_per_row(Dim) * r_j + d;
@@ -53,7 +52,7 @@ void displacement_column(const EquationTerms<Dim>& t, const Stencil<Dim>& stenci
 
 /// The same for the column of a pressure.
 template <int Dim, class Emit>
-void pressure_column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, const Emit& emit) {
+void pressure_column(const Operators<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, const Emit& emit) {
   const std::uint32_t j = t.node[r_j];
   stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
     const std::int32_t row = t.row[i];
@@ -70,7 +69,7 @@ void pressure_column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, s
 }
 
 template <int Dim, class Emit>
-void column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_t column, const Emit& emit) {
+void column(const Operators<Dim>& t, const Stencil<Dim>& stencil, std::size_t column, const Emit& emit) {
   const std::size_t r = column / unknowns_per_row(Dim);
   const std::size_t d = column % unknowns_per_row(Dim);
   if (d < Dim) {
@@ -83,41 +82,36 @@ void column(const EquationTerms<Dim>& t, const Stencil<Dim>& stencil, std::size_
 }  // namespace
 
 template <int Dim>
-void fill_monolithic(const EquationTerms<Dim>& t, const Grid<Dim>& grid, matrix::Pattern& pattern,
-                     std::vector<double>& values) {
+void fill_monolithic(const Operators<Dim>& t, const Grid<Dim>& grid, matrix::Monolithic& matrix) {
   const Stencil<Dim> stencil(grid, *t.rows_of_sites, t.site);
+  auto& [outer, inner, values] = matrix;
   const std::size_t columns = unknowns_per_row(Dim) * t.node.size();
-  pattern.next_outer.assign(columns + 1, 0);
+  outer.assign(columns + 1, 0);
   constexpr std::size_t columns_per_task = 256;
   for_each_row(
-      columns,
-      [&](std::size_t c) { column<Dim>(t, stencil, c, [&](std::size_t, double) { ++pattern.next_outer[c + 1]; }); },
+      columns, [&](std::size_t c) { column<Dim>(t, stencil, c, [&](std::size_t, double) { ++outer[c + 1]; }); },
       columns_per_task);
-  for (std::size_t c = 0; c < columns; ++c) pattern.next_outer[c + 1] += pattern.next_outer[c];
-  const auto entries = static_cast<std::size_t>(pattern.next_outer.back());
-  pattern.next_inner.resize(entries);
+  for (std::size_t c = 0; c < columns; ++c) outer[c + 1] += outer[c];
+  const auto entries = static_cast<std::size_t>(outer.back());
+  inner.resize(entries);
   values.resize(entries);
   for_each_row(
       columns,
       [&](std::size_t c) {
-        const auto first = static_cast<std::size_t>(pattern.next_outer[c]);
+        const auto first = static_cast<std::size_t>(outer[c]);
         auto at = first;
         column<Dim>(t, stencil, c, [&](std::size_t row, double value) {
           // Neighbours come with rising rows but across the ends of periodic axes.
           auto place = at++;
-          for (; place > first && pattern.next_inner[place - 1] > static_cast<int>(row); --place) {
-            pattern.next_inner[place] = pattern.next_inner[place - 1];
+          for (; place > first && inner[place - 1] > static_cast<int>(row); --place) {
+            inner[place] = inner[place - 1];
             values[place] = values[place - 1];
           }
-          pattern.next_inner[place] = static_cast<int>(row);
+          inner[place] = static_cast<int>(row);
           values[place] = value;
         });
       },
       columns_per_task);
-  if (pattern.next_outer == pattern.outer && pattern.next_inner == pattern.inner) return;
-  pattern.outer.swap(pattern.next_outer);
-  pattern.inner.swap(pattern.next_inner);
-  ++pattern.revision;
 }
 
 template <int Dim>
@@ -126,10 +120,10 @@ void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid
                                          Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                          Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
-                                         Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
-  fill_monolithic<Dim>({rates->velocity,
-                        rates->acceleration,
-                        pressure_per_mass(clock->step, fluid->density, grid->spacing),
+                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                                         Write<matrix::Monolithic> matrix) const {
+  const double e = pressure_per_mass(clock->step, fluid->density, grid->spacing);
+  fill_monolithic<Dim>({{rates->velocity, rates->acceleration, e},
                         row.span(),
                         fixed.span(),
                         m_i.span(),
@@ -138,28 +132,13 @@ void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid
                         node.span(),
                         divergence.span(),
                         stabilization.span(),
-                        {}},
-                       *grid, *pattern, values->values);
-}
-
-template <int Dim>
-void AssembleMonolithicViscous<Dim>::operator()(
-    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-    Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
-    Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-    Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
-  fill_monolithic<Dim>({rates->velocity, rates->acceleration,
-                        pressure_per_mass(clock->step, fluid->density, grid->spacing), row.span(), fixed.span(),
-                        m_i.span(), site.span(), &*rows, node.span(), divergence.span(), stabilization.span(),
                         viscosity.span()},
-                       *grid, *pattern, values->values);
+                       *grid, *matrix);
 }
 
-template void fill_monolithic<2>(const EquationTerms<2>&, const Grid<2>&, matrix::Pattern&, std::vector<double>&);
-template void fill_monolithic<3>(const EquationTerms<3>&, const Grid<3>&, matrix::Pattern&, std::vector<double>&);
+template void fill_monolithic<2>(const Operators<2>&, const Grid<2>&, matrix::Monolithic&);
+template void fill_monolithic<3>(const Operators<3>&, const Grid<3>&, matrix::Monolithic&);
 template struct AssembleMonolithic<2>;
 template struct AssembleMonolithic<3>;
-template struct AssembleMonolithicViscous<2>;
-template struct AssembleMonolithicViscous<3>;
 
 }  // namespace minamo

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// The equations of a step as one unsymmetric sparse system in displacement and pressure.
-/// Unknowns are numbered as equations.hpp says.
+/// Unknown (d + 1) r + i of row r is component i of the displacement, and the pressure for i = d.
 ///
 /// (E25) Momentum, active I:  (m_I c_a + c_v K_II) u_I + c_v sum_J K_IJ u_J - sum_J D_JI p_J
 ///                            = m_I (b_I - a^_I) - sum_J K_IJ v'_J
@@ -20,33 +20,23 @@
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
-#include "systems/solve/equations.hpp"
+#include "systems/solve/operators.hpp"
 
 namespace minamo {
 
-/// Fills pattern and values; tells a new pattern by its revision.
+constexpr std::size_t unknowns_per_row(int dim) { return static_cast<std::size_t>(dim) + 1; }
+
 template <int Dim>
-void fill_monolithic(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, matrix::Pattern& pattern,
-                     std::vector<double>& values);
+void fill_monolithic(const Operators<Dim>& operators, const Grid<Dim>& grid, matrix::Monolithic& matrix);
 
 template <int Dim>
 struct AssembleMonolithic {
-  static constexpr std::string_view doc = "(E25) (E26) (E27) matrix, inviscid";
+  static constexpr std::string_view doc = "(E25) (E26) (E27) as one matrix";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows,
-                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Update<matrix::Pattern> pattern,
-                  Write<matrix::Values> values) const;
-};
-
-template <int Dim>
-struct AssembleMonolithicViscous {
-  static constexpr std::string_view doc = "(E25) (E26) (E27) matrix, viscous";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows,
-                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::Viscosity<Dim>> viscosity,
-                  Update<matrix::Pattern> pattern, Write<matrix::Values> values) const;
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                  Write<matrix::Monolithic> matrix) const;
 };
 
 }  // namespace minamo

@@ -39,19 +39,19 @@ double value_of(const Entries& entries, std::size_t row) {
 
 }  // namespace
 
-double laplacian_factor(const Rates& rates, const Fluid& fluid, const matrix::StabilizationScale& scale) {
-  const double of_velocity = rates.velocity - rates.acceleration * scale.acceleration;
-  return 1 + std::max(0.0, of_velocity) / (rates.acceleration * fluid.density * scale.pressure);
+double laplacian_factor(const Coefficients& c, const Fluid& fluid, const matrix::StabilizationScale& scale) {
+  const double of_velocity = c.c_v - c.c_a * scale.acceleration;
+  return 1 + std::max(0.0, of_velocity) / (c.c_a * fluid.density * scale.pressure);
 }
 
 template <int Dim>
-double viscous_part(const EquationTerms<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
+double viscous_part(const Coefficients& c, const Grid<Dim>& grid, const Fluid& fluid,
                     const matrix::StabilizationScale& scale) {
-  const double of_velocity = t.c_v - t.c_a * scale.acceleration;
-  if (t.viscosity.empty() || of_velocity <= 0) return 0;
+  const double of_velocity = c.c_v - c.c_a * scale.acceleration;
+  if (of_velocity <= 0) return 0;
   const double k2 = 4 / (grid.spacing * grid.spacing);
-  const double a = fluid.density * t.c_a / of_velocity;
-  const double mu = t.c_v * fluid.viscosity / of_velocity;
+  const double a = fluid.density * c.c_a / of_velocity;
+  const double mu = c.c_v * fluid.viscosity / of_velocity;
   const double inverse = 1 / (1 / (a / k2 + mu) + scale.pressure * k2);
   const double of_compact = 1 / ((1 / a + scale.pressure) * k2);
   return fluid.density * std::max(0.0, inverse - of_compact);
@@ -75,7 +75,7 @@ void PressurePreconditioner<Dim>::sort_along(std::size_t axis, const std::array<
 
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
-void PressurePreconditioner<Dim>::find_order(const EquationTerms<Dim>& t) {
+void PressurePreconditioner<Dim>::find_order(const Operators<Dim>& t) {
   std::array<std::array<int, 2>, Dim> range;
   range.fill({std::numeric_limits<int>::max(), -1});
   site_.resize(t.node.size());
@@ -155,8 +155,8 @@ void PressurePreconditioner<Dim>::find_envelope(const CompactPressure<Dim>& comp
 
 template <int Dim>
 template <class Scalar>
-bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>& compact, double least,
-                                                     TwoEndedLu<Scalar>& factors) {
+bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks,
+                                                     double least, TwoEndedLu<Scalar>& factors) {
   factors.start(envelope_);
   for_each_row(
       order_.size(),
@@ -164,7 +164,7 @@ bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>&
         const auto add = [&](std::size_t r_j, double value) {
           factors.at(place_[r], place_[r_j]) += static_cast<Scalar>(value);
         };
-        compact.for_each_near(r, add);
+        compact.for_each_near(blocks, r, add);
         for (const auto& entry : compact.beyond(r)) add(entry.row, entry.value);
       },
       rows_per_task);
@@ -172,15 +172,16 @@ bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>&
 }
 
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_narrow(const CompactPressure<Dim>& compact, WholeFactors& whole) {
+bool PressurePreconditioner<Dim>::factorize_narrow(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks,
+                                                   WholeFactors& whole) {
   const double cost = envelope_cost(envelope_.first);
   if (whole.steps == 0 && cost > narrowest_single && cost < widest_single) {
     kind_ = Kind::single_envelope;
-    if (factorize_envelope(compact, least_pivot, single_)) return true;
+    if (factorize_envelope(compact, blocks, least_pivot, single_)) return true;
     whole.steps = steps_with_whole_factors;
   }
   kind_ = Kind::double_envelope;
-  return cost < widest_double && factorize_envelope(compact, 0, double_);
+  return cost < widest_double && factorize_envelope(compact, blocks, 0, double_);
 }
 
 /// Entries beyond the stencil above the diagonal that have none across from them, by the row across: a thin row has
@@ -203,12 +204,13 @@ void PressurePreconditioner<Dim>::find_one_sided(const CompactPressure<Dim>& com
 
 /// The symmetric part of the compact matrix.
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_symmetric(const CompactPressure<Dim>& compact) {
+bool PressurePreconditioner<Dim>::factorize_symmetric(const CompactPressure<Dim>& compact,
+                                                      const RowBlocks<Dim>& blocks) {
   find_one_sided(compact);
   auto next = one_sided_.begin();
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    compact.for_each_near_pair(r, [&](std::size_t r_j, double value, double back) {
+    compact.for_each_near_pair(blocks, r, [&](std::size_t r_j, double value, double back) {
       if (r_j <= r) sparse_.add(r, r_j, (value + back) / 2);
     });
     for (const auto& entry : compact.beyond(r)) {
@@ -226,9 +228,11 @@ bool PressurePreconditioner<Dim>::factorize_pressure(const CompactPressure<Dim>&
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
     const double more = 1e-6 / (compact.scale()[r] * compact.scale()[r]);
-    schur.spread_entries().for_each_neighbour(r, Dim, Dim + 1, [&](std::size_t, std::size_t r_j, double value) {
-      if (r_j <= r && value != 0) sparse_.add(r, r_j, value + (r_j == r ? more : 0));
-    });
+    schur.spread_entries().for_each_neighbour(schur.blocks(), r, Dim, Dim + 1,
+                                              [&](std::size_t, std::size_t r_j, double value) {
+                                                if (r_j <= r && value != 0)
+                                                  sparse_.add(r, r_j, value + (r_j == r ? more : 0));
+                                              });
   }
   return sparse_.factorize(is_incomplete() ? SparseCholesky::Kind::incomplete : SparseCholesky::Kind::complete);
 }
@@ -237,18 +241,18 @@ template <int Dim>
 void PressurePreconditioner<Dim>::factorize_sparse(const CompactPressure<Dim>& compact,
                                                    const PressureSchur<Dim>& schur) {
   // The symmetric part can be indefinite in spray.
-  if (factorize_symmetric(compact) || factorize_pressure(compact, schur)) return;
+  if (factorize_symmetric(compact, schur.blocks()) || factorize_pressure(compact, schur)) return;
   throw StepRejected("solve: the pressure matrix is not positive definite");
 }
 
 template <int Dim>
 void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur,
-                                          const EquationTerms<Dim>& terms, double viscous_part, WholeFactors& whole) {
+                                          const Operators<Dim>& terms, double viscous_part, WholeFactors& whole) {
   find_order(terms);
   find_envelope(compact, schur.blocks());
   ordered_.resize(order_.size());
   const bool has_whole = whole.steps > 0;
-  const bool is_narrow = factorize_narrow(compact, whole);
+  const bool is_narrow = factorize_narrow(compact, schur.blocks(), whole);
   if (has_whole) --whole.steps;
   if (!is_narrow) {
     kind_ = Dim == 3 && order_.size() > most_complete && !has_whole ? Kind::incomplete : Kind::complete;
@@ -282,10 +286,8 @@ void PressurePreconditioner<Dim>::solve(const Values& r, Values& out) {
   for (std::size_t i = 0; i < of_mass_.size(); ++i) out[i] += of_mass_[i] * r[i];
 }
 
-template double viscous_part<2>(const EquationTerms<2>&, const Grid<2>&, const Fluid&,
-                                const matrix::StabilizationScale&);
-template double viscous_part<3>(const EquationTerms<3>&, const Grid<3>&, const Fluid&,
-                                const matrix::StabilizationScale&);
+template double viscous_part<2>(const Coefficients&, const Grid<2>&, const Fluid&, const matrix::StabilizationScale&);
+template double viscous_part<3>(const Coefficients&, const Grid<3>&, const Fluid&, const matrix::StabilizationScale&);
 template class PressurePreconditioner<2>;
 template class PressurePreconditioner<3>;
 

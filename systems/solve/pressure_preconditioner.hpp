@@ -14,19 +14,22 @@
 namespace minamo {
 
 /// The factor of T in (E56).
-double laplacian_factor(const Rates& rates, const Fluid& fluid, const matrix::StabilizationScale& scale);
+double laplacian_factor(const Coefficients& coefficients, const Fluid& fluid, const matrix::StabilizationScale& scale);
 
 /// b of (E57). With wave number k, inside the liquid, 1/S = 1/(1/(a/k^2 + mu') + tau k^2), a = rho c_a/c',
 /// mu' = c_v mu/c', c' = c_v - c_a g; b/rho is what it has beyond P^-1 at k = 2/h.
 template <int Dim>
-double viscous_part(const EquationTerms<Dim>& terms, const Grid<Dim>& grid, const Fluid& fluid,
+double viscous_part(const Coefficients& coefficients, const Grid<Dim>& grid, const Fluid& fluid,
                     const matrix::StabilizationScale& scale);
 
 template <int Dim>
 class PressurePreconditioner {
  public:
+  using rows_of = ActiveNodes;
+  static constexpr ComponentInfo info{"solve.pressure_factors", "P^-1", "", Lifetime::scratch};
+
   /// \throws StepRejected if the matrix cannot be factorized, std::bad_alloc if its factors do not fit into memory.
-  void prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, const EquationTerms<Dim>& terms,
+  void prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, const Operators<Dim>& terms,
                double viscous_part, WholeFactors& whole);
   /// Whole factors in the place of incomplete ones, with which GMRES may not converge where few particles have many
   /// nodes. \return whether they were incomplete. \throws as prepare()
@@ -36,16 +39,17 @@ class PressurePreconditioner {
   void solve(const Values& r, Values& out);
 
  private:
-  void find_order(const EquationTerms<Dim>& terms);
+  void find_order(const Operators<Dim>& terms);
   void sort_along(std::size_t axis, const std::array<int, 2>& range);
   void find_neighbours(const RowBlocks<Dim>& blocks);
   void find_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks);
   template <class Scalar>
-  bool factorize_envelope(const CompactPressure<Dim>& compact, double least_pivot, TwoEndedLu<Scalar>& factors);
-  bool factorize_narrow(const CompactPressure<Dim>& compact, WholeFactors& whole);
+  bool factorize_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks, double least_pivot,
+                          TwoEndedLu<Scalar>& factors);
+  bool factorize_narrow(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks, WholeFactors& whole);
   void find_one_sided(const CompactPressure<Dim>& compact);
   void factorize_sparse(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
-  bool factorize_symmetric(const CompactPressure<Dim>& compact);
+  bool factorize_symmetric(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks);
   bool factorize_pressure(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
 
   std::vector<Index<Dim>> site_;      ///< of the rows

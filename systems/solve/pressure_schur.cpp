@@ -46,12 +46,11 @@ bool are_near(const std::array<Lanes, N>& values, const double* there, const std
 }  // namespace
 
 template <int Dim>
-void PressureSchur<Dim>::fill_mobility(const EquationTerms<Dim>& t) {
+void PressureSchur<Dim>::fill_mobility(const Operators<Dim>& t) {
   constexpr std::size_t own = stencil_size<Dim> / 2;
   const std::size_t slots = blocks_.slots();
   mobility_.resize(Dim * rows());
-  for (Values* v : {&velocity_, &slot_mobility_}) v->assign(Dim * slots, 0.0);
-  pressure_.assign(slots, 0.0);
+  slot_mobility_.assign(Dim * slots, 0.0);
   for_each_row(rows(), [&](std::size_t r) {
     const std::uint32_t i = t.node[r];
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -64,7 +63,7 @@ void PressureSchur<Dim>::fill_mobility(const EquationTerms<Dim>& t) {
 }
 
 template <int Dim>
-auto PressureSchur<Dim>::entries(const EquationTerms<Dim>& t, const Block& block, std::size_t k) const -> Entries {
+auto PressureSchur<Dim>::entries(const Operators<Dim>& t, const Block& block, std::size_t k) const -> Entries {
   const std::size_t back = stencil_size<Dim> - 1 - k;
   std::array<const double*, RowBlocks<Dim>::width> to_other, from_other, stabilization;
   for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
@@ -87,7 +86,7 @@ auto PressureSchur<Dim>::entries(const EquationTerms<Dim>& t, const Block& block
 
 /// Whether the rows of a block have all their neighbours and are alike. If so, inner_ becomes what they have.
 template <int Dim>
-bool PressureSchur<Dim>::take_inner(const EquationTerms<Dim>& t, const Block& block) {
+bool PressureSchur<Dim>::take_inner(const Operators<Dim>& t, const Block& block) {
   if (!blocks_.is_whole(block)) return false;
   inner_.push_tolerance.fill(0);
   inner_.spread_tolerance.fill(0);
@@ -118,7 +117,7 @@ bool PressureSchur<Dim>::is_inner(const Entries& found, std::size_t k) const {
 }
 
 template <int Dim>
-void PressureSchur<Dim>::fill_block(const EquationTerms<Dim>& t, std::size_t b) {
+void PressureSchur<Dim>::fill_block(const Operators<Dim>& t, std::size_t b) {
   const Block& block = blocks_.blocks()[b];
   double* push = push_.at(block.slot);
   double* spread = spread_.at(block.slot);
@@ -151,7 +150,8 @@ void PressureSchur<Dim>::fill_margins() {
 }
 
 template <int Dim>
-void PressureSchur<Dim>::assemble(const EquationTerms<Dim>& t, const Grid<Dim>& grid) {
+void PressureSchur<Dim>::assemble(const Operators<Dim>& t, const Grid<Dim>& grid) {
+  coefficients_ = t;
   blocks_.build(grid, t.site, t.node);
   push_.resize(blocks_, Dim * stencil_size<Dim>);
   spread_.resize(blocks_, (Dim + 1) * stencil_size<Dim>);
@@ -170,19 +170,26 @@ std::size_t PressureSchur<Dim>::inner_blocks() const {
 }
 
 template <int Dim>
-void PressureSchur<Dim>::take_pressure(const Values& p) {
-  for_each_row(rows(), [&](std::size_t r) { pressure_[blocks_.slot(r)] = p[r]; });
-  blocks_.fill_images(pressure_.data());
+void PressureSchur<Dim>::start(SlotValues& work) const {
+  work.pressure.assign(blocks_.slots(), 0.0);
+  work.velocity.assign(Dim * blocks_.slots(), 0.0);
+}
+
+template <int Dim>
+void PressureSchur<Dim>::take_pressure(const Values& p, SlotValues& work) const {
+  for_each_row(rows(), [&](std::size_t r) { work.pressure[blocks_.slot(r)] = p[r]; });
+  blocks_.fill_images(work.pressure.data());
 }
 
 template <int Dim>
 template <class Source>
-auto PressureSchur<Dim>::push_lines(const Block& block, const Source& entries) const -> std::array<Lanes, Dim> {
+auto PressureSchur<Dim>::push_lines(const Block& block, const Source& entries, const SlotValues& work) const
+    -> std::array<Lanes, Dim> {
   std::array<Lanes, Dim> sum;
   sum.fill(Lanes::Zero());
   for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line) {
     if (blocks_.is_beyond(block.beside[line])) continue;
-    const double* p = pressure_.data() + block.line(line);
+    const double* p = work.pressure.data() + block.line(line);
     for (std::size_t d = 0; d < Dim; ++d) sum[d] += line_sum(entries, 5 * Dim * line + d, Dim, p);
   }
   return sum;
@@ -190,45 +197,45 @@ auto PressureSchur<Dim>::push_lines(const Block& block, const Source& entries) c
 
 /// D^T p for the rows of a block.
 template <int Dim>
-auto PressureSchur<Dim>::push_block(std::size_t b) const -> std::array<Lanes, Dim> {
+auto PressureSchur<Dim>::push_block(std::size_t b, const SlotValues& work) const -> std::array<Lanes, Dim> {
   const Block& block = blocks_.blocks()[b];
-  if (is_inner_[b]) return push_lines(block, Alike{inner_.push.data()});
-  return push_lines(block, Stored{push_.at(block.slot)});
+  if (is_inner_[b]) return push_lines(block, Alike{inner_.push.data()}, work);
+  return push_lines(block, Stored{push_.at(block.slot)}, work);
 }
 
 template <int Dim>
 template <class Source>
-Lanes PressureSchur<Dim>::spread_lines(const Block& block, const Source& entries) const {
+Lanes PressureSchur<Dim>::spread_lines(const Block& block, const Source& entries, const SlotValues& work) const {
   Lanes sum = Lanes::Zero();
   for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line) {
     if (blocks_.is_beyond(block.beside[line])) continue;
     const std::size_t there = block.line(line);
     const std::size_t first = 5 * (Dim + 1) * line;
-    for (std::size_t d = 0; d < Dim; ++d) sum += line_sum(entries, first + d, Dim + 1, velocity(d) + there);
-    sum += line_sum(entries, first + Dim, Dim + 1, pressure_.data() + there);
+    for (std::size_t d = 0; d < Dim; ++d) sum += line_sum(entries, first + d, Dim + 1, velocity(work, d) + there);
+    sum += line_sum(entries, first + Dim, Dim + 1, work.pressure.data() + there);
   }
   return sum;
 }
 
 /// B w + (T + e) p of the pressure and velocity in the slots of a block.
 template <int Dim>
-Lanes PressureSchur<Dim>::spread_block(std::size_t b) const {
+Lanes PressureSchur<Dim>::spread_block(std::size_t b, const SlotValues& work) const {
   const Block& block = blocks_.blocks()[b];
   const Stored stored{spread_.at(block.slot)};
-  if (!is_inner_[b]) return spread_lines(block, stored);
+  if (!is_inner_[b]) return spread_lines(block, stored, work);
   // e goes with the mass of a node, which is its own.
   const Lanes e = stored(own_pressure) - inner_.spread[own_pressure];
-  return spread_lines(block, Alike{inner_.spread.data()}) + e * load(pressure_.data() + block.slot);
+  return spread_lines(block, Alike{inner_.spread.data()}, work) + e * load(work.pressure.data() + block.slot);
 }
 
 template <int Dim>
-void PressureSchur<Dim>::spread_blocks(Values& out) {
-  for (std::size_t d = 0; d < Dim; ++d) blocks_.fill_images(velocity(d));
+void PressureSchur<Dim>::spread_blocks(SlotValues& work, Values& out) const {
+  for (std::size_t d = 0; d < Dim; ++d) blocks_.fill_images(velocity(work, d));
   const auto& blocks = blocks_.blocks();
   for_each_row(
       blocks.size(),
       [&](std::size_t b) {
-        const Lanes sum = spread_block(b);
+        const Lanes sum = spread_block(b, work);
         for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
           if (blocks[b].row[lane] >= 0)
             out[static_cast<std::size_t>(blocks[b].row[lane])] = sum[static_cast<Eigen::Index>(lane)];
@@ -238,13 +245,13 @@ void PressureSchur<Dim>::spread_blocks(Values& out) {
 }
 
 template <int Dim>
-void PressureSchur<Dim>::push(const Values& p, Values& out) {
-  take_pressure(p);
+void PressureSchur<Dim>::apply_gradient(const Values& p, SlotValues& work, Values& out) const {
+  take_pressure(p, work);
   const auto& blocks = blocks_.blocks();
   for_each_row(
       blocks.size(),
       [&](std::size_t b) {
-        const auto sum = push_block(b);
+        const auto sum = push_block(b, work);
         for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
           if (blocks[b].row[lane] < 0) continue;
           double* row = out.data() + Dim * static_cast<std::size_t>(blocks[b].row[lane]);
@@ -255,29 +262,29 @@ void PressureSchur<Dim>::push(const Values& p, Values& out) {
 }
 
 template <int Dim>
-void PressureSchur<Dim>::spread(const Values& w, const Values& p, Values& out) {
-  take_pressure(p);
+void PressureSchur<Dim>::apply_divergence(const Values& w, const Values& p, SlotValues& work, Values& out) const {
+  take_pressure(p, work);
   for_each_row(rows(), [&](std::size_t r) {
-    for (std::size_t d = 0; d < Dim; ++d) velocity(d)[blocks_.slot(r)] = w[Dim * r + d];
+    for (std::size_t d = 0; d < Dim; ++d) velocity(work, d)[blocks_.slot(r)] = w[Dim * r + d];
   });
-  spread_blocks(out);
+  spread_blocks(work, out);
 }
 
 template <int Dim>
-void PressureSchur<Dim>::apply_with_mobility(const Values& p, Values& out) {
-  take_pressure(p);
+void PressureSchur<Dim>::apply_with_mobility(const Values& p, SlotValues& work, Values& out) const {
+  take_pressure(p, work);
   const auto& blocks = blocks_.blocks();
   for_each_row(
       blocks.size(),
       [&](std::size_t b) {
-        const auto sum = push_block(b);
+        const auto sum = push_block(b, work);
         for (std::size_t d = 0; d < Dim; ++d) {
           store(sum[d] * load(slot_mobility_.data() + d * blocks_.slots() + blocks[b].slot),
-                velocity(d) + blocks[b].slot);
+                velocity(work, d) + blocks[b].slot);
         }
       },
       blocks_per_task);
-  spread_blocks(out);
+  spread_blocks(work, out);
 }
 
 template class PressureSchur<2>;

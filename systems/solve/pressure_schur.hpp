@@ -8,15 +8,24 @@
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
-#include "systems/solve/equations.hpp"
+#include "systems/solve/operators.hpp"
 #include "systems/solve/row_blocks.hpp"
 
 namespace minamo {
 
+/// Pressures and displacements where products look for them, per slot, one direction after the other.
+struct SlotValues {
+  Values pressure, velocity;
+};
+
 template <int Dim>
 class PressureSchur {
  public:
-  void assemble(const EquationTerms<Dim>& terms, const Grid<Dim>& grid);
+  using rows_of = ActiveNodes;
+  static constexpr ComponentInfo info{"solve.schur", "S", "", Lifetime::scratch};
+
+  void assemble(const Operators<Dim>& terms, const Grid<Dim>& grid);
+  const Coefficients& coefficients() const { return coefficients_; }
 
   const RowBlocks<Dim>& blocks() const { return blocks_; }
   std::size_t rows() const { return blocks_.rows(); }
@@ -30,12 +39,14 @@ class PressureSchur {
   /// Blocks whose rows are read once for all.
   std::size_t inner_blocks() const;
 
+  /// Room for products: zeros, which stay where there is no row.
+  void start(SlotValues& work) const;
   /// out = D^T p, at [Dim r + d].
-  void push(const Values& p, Values& out);
+  void apply_gradient(const Values& p, SlotValues& work, Values& out) const;
   /// out = B w + (T + e) p, w at [Dim r + d].
-  void spread(const Values& w, const Values& p, Values& out);
+  void apply_divergence(const Values& w, const Values& p, SlotValues& work, Values& out) const;
   /// out = S p with the mobility for A^-1.
-  void apply_with_mobility(const Values& p, Values& out);
+  void apply_with_mobility(const Values& p, SlotValues& work, Values& out) const;
 
  private:
   using Block = typename RowBlocks<Dim>::Block;
@@ -53,22 +64,24 @@ class PressureSchur {
     std::array<double, Dim + 1> spread_tolerance;
   };
 
-  void fill_mobility(const EquationTerms<Dim>& terms);
-  Entries entries(const EquationTerms<Dim>& terms, const Block& block, std::size_t place) const;
-  bool take_inner(const EquationTerms<Dim>& terms, const Block& block);
+  void fill_mobility(const Operators<Dim>& terms);
+  Entries entries(const Operators<Dim>& terms, const Block& block, std::size_t place) const;
+  bool take_inner(const Operators<Dim>& terms, const Block& block);
   bool is_inner(const Entries& found, std::size_t place) const;
-  void fill_block(const EquationTerms<Dim>& terms, std::size_t b);
+  void fill_block(const Operators<Dim>& terms, std::size_t b);
   void fill_margins();
   template <class Source>
-  std::array<Lanes, Dim> push_lines(const Block& block, const Source& entries) const;
+  std::array<Lanes, Dim> push_lines(const Block& block, const Source& entries, const SlotValues& work) const;
   template <class Source>
-  Lanes spread_lines(const Block& block, const Source& entries) const;
-  std::array<Lanes, Dim> push_block(std::size_t b) const;
-  Lanes spread_block(std::size_t b) const;
-  void spread_blocks(Values& out);
-  void take_pressure(const Values& p);
-  double* velocity(std::size_t d) { return velocity_.data() + d * blocks_.slots(); }
-  const double* velocity(std::size_t d) const { return velocity_.data() + d * blocks_.slots(); }
+  Lanes spread_lines(const Block& block, const Source& entries, const SlotValues& work) const;
+  std::array<Lanes, Dim> push_block(std::size_t b, const SlotValues& work) const;
+  Lanes spread_block(std::size_t b, const SlotValues& work) const;
+  void spread_blocks(SlotValues& work, Values& out) const;
+  void take_pressure(const Values& p, SlotValues& work) const;
+  double* velocity(SlotValues& work, std::size_t d) const { return work.velocity.data() + d * blocks_.slots(); }
+  const double* velocity(const SlotValues& work, std::size_t d) const {
+    return work.velocity.data() + d * blocks_.slots();
+  }
 
   RowBlocks<Dim> blocks_;
   BlockEntries<Dim> push_;
@@ -77,8 +90,8 @@ class PressureSchur {
   bool has_inner_ = false;
   std::vector<std::uint8_t> is_inner_;  // of every block
   Values mobility_;
-  // Per slot: pressure; displacement and mobility, one direction after the other.
-  Values pressure_, velocity_, slot_mobility_;
+  Values slot_mobility_;  ///< per slot, one direction after the other
+  Coefficients coefficients_;
 };
 
 }  // namespace minamo

@@ -125,7 +125,6 @@ class BlockEntries {
   static constexpr std::size_t width = RowBlocks<Dim>::width;
 
   void resize(const RowBlocks<Dim>& blocks, std::size_t entries) {
-    blocks_ = &blocks;
     entries_ = entries;
     values_.resize(entries * blocks.slots());
   }
@@ -133,19 +132,17 @@ class BlockEntries {
   double* at(std::size_t slot) { return values_.data() + place(slot); }
   const double* at(std::size_t slot) const { return values_.data() + place(slot); }
   std::size_t to_next() const { return width * entries_; }
-  double of(std::size_t row, std::size_t entry) const { return at(blocks_->slot(row))[entry * width]; }
   /// Calls body(place in the stencil, row of the neighbour, entry) for the neighbours of a row, whose entries are every
   /// `step`-th from the first.
   template <class Body>
-  void for_each_neighbour(std::size_t row, std::size_t first, std::size_t step, const Body& body) const {
-    const double* entry = at(blocks_->slot(row)) + first * width;
-    blocks_->for_each_neighbour(row,
-                                [&](std::size_t k, std::size_t other) { body(k, other, entry[k * step * width]); });
+  void for_each_neighbour(const RowBlocks<Dim>& blocks, std::size_t row, std::size_t first, std::size_t step,
+                          const Body& body) const {
+    const double* entry = at(blocks.slot(row)) + first * width;
+    blocks.for_each_neighbour(row, [&](std::size_t k, std::size_t other) { body(k, other, entry[k * step * width]); });
   }
 
  private:
   std::size_t place(std::size_t slot) const { return slot / width * to_next() + slot % width; }
-  const RowBlocks<Dim>* blocks_ = nullptr;
   std::size_t entries_ = 0;
   Values values_;
 };

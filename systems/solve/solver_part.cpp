@@ -7,8 +7,8 @@
 #include "systems/solve/block.hpp"
 #include "systems/solve/monolithic.hpp"
 #include "systems/solve/umfpack.hpp"
+#include "systems/solve/unpack.hpp"
 #include "systems/solve/velocity_block.hpp"
-#include "systems/volume/projection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +53,7 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
     for (const auto* systems : {&solver.prepare, &solver.solve}) {
       for (const std::string& system : *systems) recipe.add("solve", system);
     }
+    recipe.add("solve", "unpack_solution");
     if (options) options(of, recipe);
   };
 }
@@ -61,22 +62,28 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
 
 void add_solver(SystemRegistry& registry) {
   registry.add<AssembleMonolithic>("assemble_monolithic");
+  registry.add<FactorizeUmfpack>("factorize_umfpack");
   registry.add<SolveUmfpack>("solve_umfpack");
   registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
+  registry.add<AssembleSchur>("assemble_schur");
+  registry.add<ApproximateSchur>("approximate_schur");
+  registry.add<FactorizeVelocity>("factorize_velocity");
+  registry.add<FactorizePressure>("factorize_pressure");
   registry.add<SolveBlock>("solve_block");
   registry.add<SolveVolumeBlock>("solve_volume_block");
   registry.add<UnpackSolution>("unpack_solution");
   registry.add(LinearSolver{.name = "block",
-                            .doc = "block elimination and GMRES, preconditioned by sparse factors",
-                            .prepare = {},
-                            .solve = {"solve_block", "unpack_solution"},
+                            .doc = "block elimination and GMRES, (E55) to (E60)",
+                            .prepare = {"assemble_schur", "approximate_schur", "factorize_velocity",
+                                        "factorize_pressure"},
+                            .solve = {"solve_block"},
                             .solve_volume = {"solve_volume_block"},
                             .read = read_tolerance,
                             .bytes_per_node = block_bytes_per_node});
   registry.add(LinearSolver{.name = "umfpack",
-                            .doc = "monolithic sparse LU, the reference",
-                            .prepare = {"assemble_monolithic"},
-                            .solve = {"solve_umfpack", "unpack_solution"},
+                            .doc = "sparse LU of all equations at once, the reference",
+                            .prepare = {"assemble_monolithic", "factorize_umfpack"},
+                            .solve = {"solve_umfpack"},
                             .solve_volume = {"solve_volume_umfpack"},
                             .bytes_per_node = umfpack_bytes_per_node,
                             .leaner = "block"});

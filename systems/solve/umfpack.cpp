@@ -7,6 +7,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <new>
+
 namespace minamo {
 
 namespace {
@@ -27,69 +30,102 @@ static_assert(SparseBackend<Backend, Matrix>);
 }  // namespace
 
 struct UmfpackFactors::Impl {
+  matrix::Monolithic matrix;
   Backend backend;
-  std::int64_t revision = 0;  ///< of the pattern that was analyzed
+  bool is_analyzed = false;  ///< for the pattern of the matrix
+
+  Eigen::Map<const Matrix> view() const {
+    const auto size = static_cast<Eigen::Index>(matrix.outer.size()) - 1;
+    return {size,
+            size,
+            static_cast<Eigen::Index>(matrix.values.size()),
+            matrix.outer.data(),
+            matrix.inner.data(),
+            matrix.values.data()};
+  }
 };
 
-UmfpackFactors::UmfpackFactors() : impl(std::make_unique<Impl>()) {}
+UmfpackFactors::UmfpackFactors() : impl_(std::make_unique<Impl>()) {}
 UmfpackFactors::~UmfpackFactors() = default;
 
-SolveReport solve_monolithic(UmfpackFactors& factors, const matrix::Pattern& pattern, const std::vector<double>& values,
-                             const std::vector<double>& right_hand_side, std::vector<double>& solution) {
-  const auto size = static_cast<Eigen::Index>(right_hand_side.size());
-  const Eigen::Map<const Matrix> matrix(size, size, static_cast<Eigen::Index>(values.size()), pattern.outer.data(),
-                                        pattern.inner.data(), values.data());
-  const Eigen::Map<const Eigen::VectorXd> b(right_hand_side.data(), size);
-  auto& [backend, revision] = *factors.impl;
-  if (revision != pattern.revision) {
-    revision = 0;
-    backend.analyzePattern(matrix);
+void UmfpackFactors::factorize(const matrix::Monolithic& matrix) {
+  auto& [own, backend, is_analyzed] = *impl_;
+  is_analyzed = is_analyzed && matrix.outer == own.outer && matrix.inner == own.inner;
+  own = matrix;
+  const auto view = impl_->view();
+  if (!is_analyzed) {
+    backend.analyzePattern(view);
     backend.require_memory();
-    revision = pattern.revision;
+    is_analyzed = true;
   }
-  backend.factorize(matrix);
+  backend.factorize(view);
   backend.require_memory();
-  if (backend.info() != Eigen::Success) {
-    reject("UMFPACK finds the matrix singular", size);
-  }
-  solution.resize(right_hand_side.size());
-  Eigen::Map<Eigen::VectorXd> x(solution.data(), size);
-  x = backend.solve(b);
-  if (!x.allFinite()) reject("the solution is not finite", size);
-  const double norm = b.norm();
-  return {.unknowns = size, .iterations = 0, .residual = norm > 0 ? (b - matrix * x).norm() / norm : 0};
+  if (backend.info() != Eigen::Success) reject("UMFPACK finds the matrix singular", view.rows());
 }
 
-template <int Dim>
-void SolveUmfpack<Dim>::operator()(Read<matrix::Pattern> pattern, Read<matrix::Values> values,
-                                   Read<matrix::RightHandSide> right_hand_side, Update<UmfpackFactors> factors,
-                                   Write<matrix::Solution> solution, Write<SolveReport> report) const {
-  *report = solve_monolithic(*factors, *pattern, values->values, right_hand_side->values, solution->values);
-}
-
-void solve_again(UmfpackFactors& factors, const std::vector<double>& b, std::vector<double>& x) {
+SolveReport UmfpackFactors::solve(const std::vector<double>& b, std::vector<double>& x) const {
+  const auto matrix = impl_->view();
+  const Eigen::Map<const Eigen::VectorXd> right_hand_side(b.data(), matrix.rows());
   x.resize(b.size());
-  const auto size = static_cast<Eigen::Index>(b.size());
-  Eigen::Map<Eigen::VectorXd> solution(x.data(), size);
-  solution = factors.impl->backend.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), size));
-  if (!solution.allFinite()) throw StepRejected("solve: the second solution of the step is not finite");
+  Eigen::Map<Eigen::VectorXd> solution(x.data(), matrix.rows());
+  solution = impl_->backend.solve(right_hand_side);
+  if (!solution.allFinite()) reject("the solution is not finite", matrix.rows());
+  const double norm = right_hand_side.norm();
+  return {.unknowns = matrix.rows(),
+          .iterations = 0,
+          .residual = norm > 0 ? (right_hand_side - matrix * solution).norm() / norm : 0};
 }
 
 template <int Dim>
-void UnpackSolution<Dim>::operator()(Read<matrix::Solution> solution, Read<node::Row> row,
-                                     Update<node::Displacement<Dim>> u_i, Write<node::Pressure> p_i) const {
-  for_each_row(row.size(), [&](std::size_t i) {
-    p_i[i] = 0;
-    if (row[i] < 0) return;
-    const double* unknowns = solution->values.data() + (Dim + 1) * static_cast<std::size_t>(row[i]);
-    for (int d = 0; d < Dim; ++d) u_i[i][d] += unknowns[d];
-    p_i[i] = unknowns[Dim];
+void pack(std::span<const Vec<Dim>> f, std::span<const double> g, std::vector<double>& b) {
+  b.resize((Dim + 1) * g.size());
+  for_each_row(g.size(), [&](std::size_t r) {
+    double* row = b.data() + (Dim + 1) * r;
+    for (int d = 0; d < Dim; ++d) row[d] = f.empty() ? 0 : f[r][d];
+    row[Dim] = g[r];
   });
 }
 
+template <int Dim>
+void unpack(const std::vector<double>& x, std::span<Vec<Dim>> u, std::span<double> p) {
+  for_each_row(u.size(), [&](std::size_t r) {
+    const double* row = x.data() + (Dim + 1) * r;
+    for (int d = 0; d < Dim; ++d) u[r][d] = row[d];
+    if (!p.empty()) p[r] = row[Dim];
+  });
+}
+
+template <int Dim>
+void FactorizeUmfpack<Dim>::operator()(Read<matrix::Monolithic> matrix, Write<UmfpackFactors> factors) const {
+  factors->factorize(*matrix);
+}
+
+template <int Dim>
+void SolveUmfpack<Dim>::operator()(Read<UmfpackFactors> factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
+                                   Update<PackedVectors> packed, Write<matrix::Displacement<Dim>> u,
+                                   Write<matrix::Pressure> p, Write<SolveReport> report) const {
+  pack<Dim>(f.span(), g.span(), packed->b);
+  *report = factors->solve(packed->b, packed->x);
+  unpack<Dim>(packed->x, u.span(), p.span());
+}
+
+template <int Dim>
+void SolveVolumeUmfpack<Dim>::operator()(Read<UmfpackFactors> factors, Read<matrix::VolumeSource> g,
+                                         Update<PackedVectors> packed, Write<matrix::Shift<Dim>> d) const {
+  pack<Dim>({}, g.span(), packed->b);
+  factors->solve(packed->b, packed->x);
+  unpack<Dim>(packed->x, d.span(), {});
+}
+
+template void pack(std::span<const Vec<2>>, std::span<const double>, std::vector<double>&);
+template void pack(std::span<const Vec<3>>, std::span<const double>, std::vector<double>&);
+template void unpack(const std::vector<double>&, std::span<Vec<2>>, std::span<double>);
+template void unpack(const std::vector<double>&, std::span<Vec<3>>, std::span<double>);
+template struct FactorizeUmfpack<2>;
+template struct FactorizeUmfpack<3>;
 template struct SolveUmfpack<2>;
 template struct SolveUmfpack<3>;
-template struct UnpackSolution<2>;
-template struct UnpackSolution<3>;
+template struct SolveVolumeUmfpack<2>;
+template struct SolveVolumeUmfpack<3>;
 
 }  // namespace minamo

@@ -4,7 +4,6 @@
 /// Timothy A. Davis, Algorithm 832: UMFPACK V4.3, ACM TOMS 30 (2004) 196, doi:10.1145/992200.992206.
 
 #include "components/matrix.hpp"
-#include "components/node.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
 
@@ -12,41 +11,61 @@
 
 namespace minamo {
 
-/// Symbolic and numeric factors; the symbolic ones live as long as the pattern does.
-struct UmfpackFactors {
+/// The monolithic matrix with its symbolic and numeric factors, the symbolic ones for as long as the pattern stays.
+class UmfpackFactors {
+ public:
+  using rows_of = ActiveNodes;
+  static constexpr ComponentInfo info{"solve.umfpack_factors", "", "", Lifetime::scratch};
+
   UmfpackFactors();
   ~UmfpackFactors();
   UmfpackFactors(const UmfpackFactors&) = delete;
   UmfpackFactors& operator=(const UmfpackFactors&) = delete;
+  /// Takes a copy of the matrix, which refines solutions. \throws StepRejected if it is singular, with the size.
+  void factorize(const matrix::Monolithic& matrix);
+  /// Sets x to the solution for the right-hand side b. \throws StepRejected if it is not finite, with the size.
+  SolveReport solve(const std::vector<double>& b, std::vector<double>& x) const;
+
+ private:
   struct Impl;
-  std::unique_ptr<Impl> impl;
-  static constexpr ComponentInfo info{"solve.umfpack_factors", "", "", Lifetime::cache};
+  std::unique_ptr<Impl> impl_;
 };
 
-/// Factorizes the monolithic matrix and solves.
-/// \throws StepRejected if the matrix is singular or the solution is not finite, with the size.
-SolveReport solve_monolithic(UmfpackFactors& factors, const matrix::Pattern& pattern, const std::vector<double>& values,
-                             const std::vector<double>& right_hand_side, std::vector<double>& solution);
+/// Right-hand side and solution of the monolithic system; unknowns are numbered as monolithic.hpp says.
+struct PackedVectors {
+  std::vector<double> b, x;
+  static constexpr ComponentInfo info{"solve.packed_vectors", "", "", Lifetime::cache};
+};
 
-/// Sets x to the solution for another right-hand side b, by the factors of the last factorization.
-/// \throws StepRejected if it is not finite.
-void solve_again(UmfpackFactors& factors, const std::vector<double>& b, std::vector<double>& x);
+/// Sets b to (f; g); f may be empty for zero.
+template <int Dim>
+void pack(std::span<const Vec<Dim>> f, std::span<const double> g, std::vector<double>& b);
+/// Sets u, p to x.
+template <int Dim>
+void unpack(const std::vector<double>& x, std::span<Vec<Dim>> u, std::span<double> p);
+
+template <int Dim>
+struct FactorizeUmfpack {
+  static constexpr std::string_view doc = "factors of the monolithic matrix by UMFPACK";
+  /// \throws StepRejected if the matrix is singular, with the size.
+  void operator()(Read<matrix::Monolithic> matrix, Write<UmfpackFactors> factors) const;
+};
 
 template <int Dim>
 struct SolveUmfpack {
-  static constexpr std::string_view doc = "solve the monolithic system by UMFPACK";
-  /// \throws StepRejected if the matrix is singular or the solution is not finite, with the size.
-  void operator()(Read<matrix::Pattern> pattern, Read<matrix::Values> values,
-                  Read<matrix::RightHandSide> right_hand_side, Update<UmfpackFactors> factors,
-                  Write<matrix::Solution> solution, Write<SolveReport> report) const;
+  static constexpr std::string_view doc = "solve the monolithic system by its factors";
+  /// \throws StepRejected if the solution is not finite, with the size.
+  void operator()(Read<UmfpackFactors> factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
+                  Update<PackedVectors> packed, Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p,
+                  Write<SolveReport> report) const;
 };
 
-/// u_I and p_I from the solution.
 template <int Dim>
-struct UnpackSolution {
-  static constexpr std::string_view doc = "u_I and p_I from the solution";
-  void operator()(Read<matrix::Solution> solution, Read<node::Row> row, Update<node::Displacement<Dim>> u_i,
-                  Write<node::Pressure> p_i) const;
+struct SolveVolumeUmfpack {
+  static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
+  /// \throws StepRejected if the solution is not finite, with the size.
+  void operator()(Read<UmfpackFactors> factors, Read<matrix::VolumeSource> g, Update<PackedVectors> packed,
+                  Write<matrix::Shift<Dim>> d) const;
 };
 
 }  // namespace minamo

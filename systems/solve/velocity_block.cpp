@@ -35,18 +35,21 @@ constexpr std::int64_t most_iterations = 2000;
 
 /// What a row of A has beside its diagonal, over its inertia.
 template <int Dim>
-void VelocityBlock<Dim>::find_friction() {
+void VelocityBlock<Dim>::find_friction(const Operators<Dim>& t, const Values& mobility) {
   constexpr std::size_t own = stencil_size<Dim> / 2;
-  friction_.resize(Dim * terms_.viscosity.size());
-  for_each_row(terms_.viscosity.size(), [&](std::size_t r) {
-    const double* of_row = terms_.viscosity[r].data();
-    const double per_inertia = terms_.c_v / (terms_.c_a * terms_.m_i[terms_.node[r]]);
+  c_v_ = t.c_v;
+  inertia_.resize(t.node.size());
+  for_each_row(t.node.size(), [&](std::size_t r) { inertia_[r] = t.c_a * t.m_i[t.node[r]]; });
+  friction_.resize(Dim * t.viscosity.size());
+  for_each_row(t.viscosity.size(), [&](std::size_t r) {
+    const double* of_row = t.viscosity[r].data();
+    const double per_inertia = c_v_ / inertia_[r];
     for (std::size_t e = 0; e < Dim; ++e) {
       double sum = -std::abs(of_row[Dim * (Dim * own + e) + e]);
       for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
         for (std::size_t d = 0; d < Dim; ++d) sum += std::abs(of_row[Dim * (Dim * k + e) + d]);
       }
-      friction_[Dim * r + e] = schur_->mobility()[Dim * r + e] == 0 ? 0 : per_inertia * sum;
+      friction_[Dim * r + e] = mobility[Dim * r + e] == 0 ? 0 : per_inertia * sum;
     }
   });
 }
@@ -67,16 +70,15 @@ void VelocityBlock<Dim>::collect_stiff(double least) {
 
 /// A row of A for a stiff unknown: the lower triangle of A_ss, and A_sn.
 template <int Dim>
-void VelocityBlock<Dim>::add_row(std::size_t i) {
+void VelocityBlock<Dim>::add_row(const Matrix& matrix, std::size_t i) {
   const std::size_t own = stiff_[i];
   const std::size_t r = own / Dim;
-  const double* of_row = terms_.viscosity[r].data() + Dim * (own % Dim);
-  const double inertia = terms_.c_a * terms_.m_i[terms_.node[r]];
-  schur_->blocks().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
+  const double* of_row = matrix.viscosity[r].data() + Dim * (own % Dim);
+  matrix.schur.blocks().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::size_t unknown = Dim * r_j + d;
-      const double value = terms_.c_v * of_row[Dim * Dim * k + d] + (unknown == own ? inertia : 0);
-      if (value == 0 || schur_->mobility()[unknown] == 0) continue;
+      const double value = c_v_ * of_row[Dim * Dim * k + d] + (unknown == own ? inertia_[r] : 0);
+      if (value == 0 || matrix.schur.mobility()[unknown] == 0) continue;
       if (place_[unknown] < 0) {
         couplings_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(unknown), value});
       } else if (unknown <= own) {
@@ -87,13 +89,12 @@ void VelocityBlock<Dim>::add_row(std::size_t i) {
 }
 
 template <int Dim>
-void VelocityBlock<Dim>::factorize() {
-  place_.assign(Dim * terms_.node.size(), -1);
+void VelocityBlock<Dim>::factorize(const Matrix& matrix) {
+  place_.assign(Dim * inertia_.size(), -1);
   for (std::size_t i = 0; i < stiff_.size(); ++i) place_[stiff_[i]] = static_cast<std::int32_t>(i);
-  of_stiff_.resize(stiff_.size());
   couplings_.clear();
   factors_.start(stiff_.size());
-  for (std::size_t i = 0; i < stiff_.size(); ++i) add_row(i);
+  for (std::size_t i = 0; i < stiff_.size(); ++i) add_row(matrix, i);
   if (!factors_.factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
@@ -108,10 +109,8 @@ bool VelocityBlock<Dim>::prefers_iteration() const {
 }
 
 template <int Dim>
-void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchur<Dim>& schur, StiffSolver solver) {
-  terms_ = t;
-  schur_ = &schur;
-  find_friction();
+void VelocityBlock<Dim>::prepare(const Operators<Dim>& t, const PressureSchur<Dim>& schur, StiffSolver solver) {
+  find_friction(t, schur.mobility());
   for (const double least : friction_of_stiff) {
     collect_stiff(least);
     if (few * stiff_.size() <= friction_.size()) break;
@@ -120,20 +119,20 @@ void VelocityBlock<Dim>::prepare(const EquationTerms<Dim>& t, const PressureSchu
   if (is_iteration_) {
     error_ = error_of_iteration;
   } else if (!stiff_.empty()) {
-    factorize();
+    factorize({schur, t.viscosity});
   }
 }
 
 /// out = K u
 template <int Dim>
-void VelocityBlock<Dim>::times_viscosity(const Values& u, Values& out) const {
+void VelocityBlock<Dim>::times_viscosity(const Matrix& matrix, const Values& u, Values& out) const {
   using Entries = Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
   using Vector = Eigen::Map<const Eigen::Matrix<double, Dim, 1>>;
-  const auto& blocks = schur_->blocks();
+  const auto& blocks = matrix.schur.blocks();
   for_each_row(
       blocks.rows(),
       [&](std::size_t r) {
-        const double* of_row = terms_.viscosity[r].data();
+        const double* of_row = matrix.viscosity[r].data();
         Vec<Dim> sum = Vec<Dim>::Zero();
         blocks.for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
           sum += Entries(of_row + Dim * Dim * k).lazyProduct(Vector(u.data() + Dim * r_j));
@@ -144,53 +143,53 @@ void VelocityBlock<Dim>::times_viscosity(const Values& u, Values& out) const {
 }
 
 template <int Dim>
-void VelocityBlock<Dim>::solve_iteratively(Values& v, double target) {
-  const Values& mobility = schur_->mobility();
+void VelocityBlock<Dim>::solve_iteratively(const Matrix& matrix, Values& v, double target, Work& work) const {
+  const Values& mobility = matrix.schur.mobility();
   const auto apply = [&](const Values& u, Values& out) {
-    times_viscosity(u, out);
-    for_each_row(out.size(), [&](std::size_t i) {
-      const double inertia = terms_.c_a * terms_.m_i[terms_.node[i / Dim]];
-      out[i] = mobility[i] == 0 ? 0 : inertia * u[i] + terms_.c_v * out[i];
-    });
+    times_viscosity(matrix, u, out);
+    for_each_row(out.size(),
+                 [&](std::size_t i) { out[i] = mobility[i] == 0 ? 0 : inertia_[i / Dim] * u[i] + c_v_ * out[i]; });
   };
   const double least = least_rest * std::sqrt(weighted_square(mobility, v));
-  rest_.resize(v.size());
-  for_each_row(v.size(), [&](std::size_t i) { rest_[i] = mobility[i] == 0 ? 0 : v[i]; });
-  const auto report = iteration_.solve(apply, mobility, std::max(target, least), most_iterations, rest_, v);
+  work.left.resize(v.size());
+  for_each_row(v.size(), [&](std::size_t i) { work.left[i] = mobility[i] == 0 ? 0 : v[i]; });
+  const auto report = work.iteration.solve(apply, mobility, std::max(target, least), most_iterations, work.left, v);
   if (!report.converged) throw StepRejected("solve: the velocities of a stiff liquid do not converge");
 }
 
 template <int Dim>
-void VelocityBlock<Dim>::solve(Values& v, double target) {
-  if (is_iteration_) return solve_iteratively(v, target);
+void VelocityBlock<Dim>::solve(const Matrix& matrix, Values& v, double target, Work& work) const {
+  if (is_iteration_) return solve_iteratively(matrix, v, target, work);
+  const Values& mobility = matrix.schur.mobility();
   if (stiff_.empty()) {
-    for_each_row(v.size(), [&](std::size_t i) { v[i] *= schur_->mobility()[i]; });
+    for_each_row(v.size(), [&](std::size_t i) { v[i] *= mobility[i]; });
     return;
   }
   for_each_row(v.size(), [&](std::size_t i) {
-    if (place_[i] < 0) v[i] *= schur_->mobility()[i];
+    if (place_[i] < 0) v[i] *= mobility[i];
   });
-  for (std::size_t i = 0; i < stiff_.size(); ++i) of_stiff_[i] = v[stiff_[i]];
-  for (const Coupling& to : couplings_) of_stiff_[to.stiff] -= to.value * v[to.unknown];
-  factors_.solve(of_stiff_);
-  for (std::size_t i = 0; i < stiff_.size(); ++i) v[stiff_[i]] = of_stiff_[i];
+  work.of_stiff.resize(stiff_.size());
+  for (std::size_t i = 0; i < stiff_.size(); ++i) work.of_stiff[i] = v[stiff_[i]];
+  for (const Coupling& to : couplings_) work.of_stiff[to.stiff] -= to.value * v[to.unknown];
+  factors_.solve(work.of_stiff);
+  for (std::size_t i = 0; i < stiff_.size(); ++i) v[stiff_[i]] = work.of_stiff[i];
 }
 
 template <int Dim>
-void VelocityBlock<Dim>::find_rest(const Values& u, Values& out) const {
+void VelocityBlock<Dim>::residual(const Matrix& matrix, const Values& u, const Work& work, Values& out) const {
   if (is_iteration_) {
-    out = rest_;
+    out = work.left;
     return;
   }
   constexpr std::size_t own = stencil_size<Dim> / 2;
   const auto is_exact = [&](std::size_t i) {
-    return schur_->mobility()[i] == 0 || (!stiff_.empty() && place_[i] >= 0);
+    return matrix.schur.mobility()[i] == 0 || (!stiff_.empty() && place_[i] >= 0);
   };
-  times_viscosity(u, out);
+  times_viscosity(matrix, u, out);
   for_each_row(out.size(), [&](std::size_t i) {
     const std::size_t d = i % Dim;
-    const double diagonal = terms_.viscosity[i / Dim][Dim * (Dim * own + d) + d];
-    out[i] = is_exact(i) ? 0 : terms_.c_v * (diagonal * u[i] - out[i]);
+    const double diagonal = matrix.viscosity[i / Dim][Dim * (Dim * own + d) + d];
+    out[i] = is_exact(i) ? 0 : c_v_ * (diagonal * u[i] - out[i]);
   });
 }
 

@@ -24,9 +24,24 @@ enum class StiffSolver { cheapest, factors, iteration };
 template <int Dim>
 class VelocityBlock {
  public:
-  /// \param schur  assembled from the same terms; its blocks and mobility are kept by reference
+  using rows_of = ActiveNodes;
+  static constexpr ComponentInfo info{"solve.velocity_factors", "A^", "", Lifetime::scratch};
+
+  using Viscosity = std::span<const typename matrix::Viscosity<Dim>::value_type>;
+  /// What a solve looks at beside the factors, too large to be copied into them. \pre as prepare() had it
+  struct Matrix {
+    const PressureSchur<Dim>& schur;
+    Viscosity viscosity;
+  };
+  /// Room for a solve, and what it has left.
+  struct Work {
+    Values of_stiff, left;
+    ConjugateGradients iteration;
+  };
+
+  /// \param schur  assembled from the same terms
   /// \throws StepRejected if the factorization fails, std::bad_alloc if it does not fit into memory.
-  void prepare(const EquationTerms<Dim>& terms, const PressureSchur<Dim>& schur,
+  void prepare(const Operators<Dim>& terms, const PressureSchur<Dim>& schur,
                StiffSolver solver = StiffSolver::cheapest);
   /// How much of a vector about is left of v - A solve(v), 0 if solve() is the inverse; of iterations what a pass with
   /// many calls is to leave.
@@ -39,19 +54,19 @@ class VelocityBlock {
   /// \param target  for what an iteration leaves, in the norm that weighs squares with the mobility; it goes on until
   ///   either that is reached or a hundredth of error()
   /// \throws StepRejected if an iteration does not converge.
-  void solve(Values& v, double target);
+  void solve(const Matrix& matrix, Values& v, double target, Work& work) const;
   /// What the last solve() has left of its right-hand side, (A^ - A) u; zero towards walls.
   /// \param u  its solution
-  void find_rest(const Values& u, Values& out) const;
+  void residual(const Matrix& matrix, const Values& u, const Work& work, Values& out) const;
 
  private:
-  void find_friction();
+  void find_friction(const Operators<Dim>& terms, const Values& mobility);
   void collect_stiff(double least);
   bool prefers_iteration() const;
-  void factorize();
-  void add_row(std::size_t i);
-  void solve_iteratively(Values& v, double target);
-  void times_viscosity(const Values& u, Values& out) const;
+  void factorize(const Matrix& matrix);
+  void add_row(const Matrix& matrix, std::size_t i);
+  void solve_iteratively(const Matrix& matrix, Values& v, double target, Work& work) const;
+  void times_viscosity(const Matrix& matrix, const Values& u, Values& out) const;
 
   /// An entry of A_sn.
   struct Coupling {
@@ -60,16 +75,13 @@ class VelocityBlock {
     double value;
   };
 
-  const PressureSchur<Dim>* schur_ = nullptr;
-  EquationTerms<Dim> terms_{};
+  double c_v_ = 0;
+  Values inertia_;                    ///< c_a m_I of every row
   Values friction_;                   ///< of every unknown, over its inertia
   std::vector<std::uint32_t> stiff_;  ///< unknowns Dim r + d
   std::vector<std::int32_t> place_;   ///< of every unknown in `stiff_`, -1 if it is not there
   std::vector<Coupling> couplings_;
   SparseCholesky factors_;
-  Values of_stiff_;
-  ConjugateGradients iteration_;
-  Values rest_;  ///< of the last iteration
   double error_ = 0;
   bool is_iteration_ = false;
 };

@@ -4,7 +4,6 @@
 #include "systems/assemble/neighbours.hpp"
 #include "systems/grid/liquid.hpp"
 #include "systems/grid/node_volume.hpp"
-#include "systems/solve/equations.hpp"
 #include "systems/transfer/carry_gradient.hpp"
 
 namespace minamo {
@@ -44,7 +43,7 @@ void DampDivergence<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
                                      Read<node::Site<Dim>> site, Read<node::Mass> m_i, Read<node::Capacity> capacity,
                                      Read<node::Velocity<Dim>> v_i, Read<matrix::Node> node,
                                      Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
-                                     Update<matrix::RightHandSide> right_hand_side) const {
+                                     Update<matrix::Mass> g) const {
   const double tau = 0.5 * clock->step;
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
@@ -65,7 +64,7 @@ void DampDivergence<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
               liquid_around<Dim>(*grid, site[node[r]], fluid->density, neighbour[r], m_i.span(), capacity.span());
           e += liquid * resolved * tau * per_volume * (slope * slope).trace();
         }
-        right_hand_side->values[unknowns_per_row(Dim) * r + Dim] += kappa * e;
+        g[r] += kappa * e;
       },
       rows_per_task);
 }

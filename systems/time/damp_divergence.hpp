@@ -27,7 +27,7 @@ struct DampDivergence {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Site<Dim>> site,
                   Read<node::Mass> m_i, Read<node::Capacity> capacity, Read<node::Velocity<Dim>> v_i,
                   Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
-                  Read<matrix::Divergence<Dim>> divergence, Update<matrix::RightHandSide> right_hand_side) const;
+                  Read<matrix::Divergence<Dim>> divergence, Update<matrix::Mass> g) const;
 };
 
 }  // namespace minamo

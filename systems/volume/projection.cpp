@@ -3,7 +3,6 @@
 #include "systems/assemble/stencil.hpp"
 #include "systems/grid/node_volume.hpp"
 #include "systems/grid/place.hpp"
-#include "systems/solve/equations.hpp"
 #include "systems/transfer/cell_polynomial.hpp"
 #include "systems/volume/shift.hpp"
 
@@ -33,60 +32,27 @@ void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>>
   });
 }
 
-namespace {
-
-/// (0; c_v r E_I), I a node of the step, which no particle may touch any more.
 template <int Dim>
-void fill_source(double scale, std::span<const std::uint32_t> node, std::span<const Index<Dim>> sites,
-                 const EndSites<Dim>& end_rows, std::span<const double> e_i, std::vector<double>& b) {
-  constexpr std::size_t width = unknowns_per_row(Dim);
-  b.assign(width * node.size(), 0.0);
-  for (std::size_t r = 0; r < node.size(); ++r) {
-    const auto i = end_rows.find(sites[node[r]]);
-    b[width * r + width - 1] = scale * (i ? e_i[*i] : 0);
-  }
-}
-
-template <int Dim>
-void take_shift(const std::vector<double>& x, std::span<const std::int32_t> row, std::span<Vec<Dim>> d_i) {
-  for_each_row(d_i.size(), [&](std::size_t i) {
-    d_i[i].setZero();
-    if (row[i] < 0) return;
-    const double* unknowns = x.data() + unknowns_per_row(Dim) * static_cast<std::size_t>(row[i]);
-    for (int d = 0; d < Dim; ++d) d_i[i][d] = unknowns[d];
+void FillVolumeSource<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Site<Dim>> sites,
+                                       Read<matrix::Node> node, Read<EndSites<Dim>> end_rows,
+                                       Read<end_node::VolumeExcess> e_i, Write<matrix::VolumeSource> source) const {
+  const double scale = rates->velocity * rate->rate;
+  for_each_row(source.size(), [&](std::size_t r) {
+    const auto i = end_rows->find(sites[node[r]]);  // no particle may touch the node any more
+    source[r] = scale * (i ? e_i[*i] : 0);
   });
 }
 
-/// A shift is a correction: three digits less of it do no harm.
-double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2, 1000 * tolerance.relative); }
-
-}  // namespace
-
 template <int Dim>
-void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row,
-                                         Read<matrix::Node> node, Read<node::Site<Dim>> sites,
-                                         Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
-                                         Read<matrix::Values>,  // the backend refines its solution with them
-                                         Update<UmfpackFactors> factors, Update<VolumeEquations> equations,
-                                         Write<node::Shift<Dim>> d_i) const {
-  auto& [b, x] = *equations;
-  fill_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span(), b);
-  solve_again(*factors, b, x);
-  take_shift<Dim>(x, row.span(), d_i.span());
-}
-
-template <int Dim>
-void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate,
-                                       Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint>,
-                                       Read<node::Mass>, Read<WetSites<Dim>>, Read<node::Site<Dim>> sites,
-                                       Read<matrix::Node> node, Read<matrix::Divergence<Dim>>,
-                                       Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows,
-                                       Read<end_node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
-                                       Update<VolumeEquations> equations, Write<node::Shift<Dim>> d_i) const {
-  auto& [b, x] = *equations;
-  fill_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span(), b);
-  solve_again<Dim>(*factors, b, *grid, shift_tolerance(*tolerance), x);
-  take_shift<Dim>(x, row.span(), d_i.span());
+void UnpackShift<Dim>::operator()(Read<matrix::Shift<Dim>> solution, Read<node::Row> row,
+                                  Write<node::Shift<Dim>> d_i) const {
+  for_each_row(d_i.size(), [&](std::size_t i) {
+    if (row[i] < 0) {
+      d_i[i].setZero();
+    } else {
+      d_i[i] = solution[static_cast<std::size_t>(row[i])];
+    }
+  });
 }
 
 namespace {
@@ -122,10 +88,10 @@ template struct GatherNodeVolume<2>;
 template struct GatherNodeVolume<3>;
 template struct FindVolumeExcess<2>;
 template struct FindVolumeExcess<3>;
-template struct SolveVolumeUmfpack<2>;
-template struct SolveVolumeUmfpack<3>;
-template struct SolveVolumeBlock<2>;
-template struct SolveVolumeBlock<3>;
+template struct FillVolumeSource<2>;
+template struct FillVolumeSource<3>;
+template struct UnpackShift<2>;
+template struct UnpackShift<3>;
 template struct ShiftParticles<2>;
 template struct ShiftParticles<3>;
 

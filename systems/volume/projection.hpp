@@ -15,8 +15,6 @@
 #include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/system.hpp"
-#include "systems/solve/block.hpp"
-#include "systems/solve/umfpack.hpp"
 
 namespace minamo {
 
@@ -38,28 +36,20 @@ struct FindVolumeExcess {
                   Write<end_node::VolumeExcess> e_i) const;
 };
 
-/// (E37)  The system of the step with right-hand side (0; c_v r E_I) instead: a displacement d_I with D d = r E.
-/// The factors of the step refer to what they were made of, which is why it is read here.
+/// (E37)  The system of the step with right-hand side (0; c_v r E_I) instead has a displacement d_I with D d = r E. The
+/// solver finds it.
 template <int Dim>
-struct SolveVolumeUmfpack {
-  static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
-  void operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row, Read<matrix::Node> node,
-                  Read<node::Site<Dim>> sites, Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
-                  Read<matrix::Values> values, Update<UmfpackFactors> factors, Update<VolumeEquations> equations,
-                  Write<node::Shift<Dim>> d_i) const;
+struct FillVolumeSource {
+  static constexpr std::string_view doc = "(E37) c_v r E_I";
+  void operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Site<Dim>> sites, Read<matrix::Node> node,
+                  Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
+                  Write<matrix::VolumeSource> source) const;
 };
 
 template <int Dim>
-struct SolveVolumeBlock {
-  static constexpr std::string_view doc = "(E37) d_I, by the operators of the step";
-  /// The viscous matrix, where a scene has one, is looked at too; no system writes it after the solve.
-  /// \throws StepRejected as SolveBlock.
-  void operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate, Read<SolverTolerance> tolerance,
-                  Read<node::Row> row, Read<node::Constraint>, Read<node::Mass>, Read<WetSites<Dim>>,
-                  Read<node::Site<Dim>> sites, Read<matrix::Node> node, Read<matrix::Divergence<Dim>>,
-                  Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
-                  Update<BlockFactors<Dim>> factors, Update<VolumeEquations> equations,
-                  Write<node::Shift<Dim>> d_i) const;
+struct UnpackShift {
+  static constexpr std::string_view doc = "d_I from the solution";
+  void operator()(Read<matrix::Shift<Dim>> solution, Read<node::Row> row, Write<node::Shift<Dim>> d_i) const;
 };
 
 /// (E38)  x_p += sum_I S_I(x_p) d_I, at most 0.1 h.

@@ -23,8 +23,10 @@ Contribution read_projection(Input& input, Scene&) {
     recipe.add("volume", "gather_node_volume", When::step);
     recipe.add("volume", "find_end_capacity", When::step);
     recipe.add("volume", "find_volume_excess", When::step);
+    recipe.add("volume", "volume_source", When::step);
     for (const std::string& system : scene.facts.get<LinearSolver>().solve_volume)
       recipe.add("volume", system, When::step);
+    recipe.add("volume", "unpack_shift", When::step);
     if (limited) recipe.add("volume", "limit_shift", When::step);
     recipe.add("volume", "shift_particles", When::step);
     recipe.constant(rate);
@@ -44,6 +46,8 @@ Contribution read_delta(Input&, Scene&) {
 void add_volume(SystemRegistry& registry) {
   registry.add<GatherNodeVolume>("gather_node_volume");
   registry.add<FindVolumeExcess>("find_volume_excess");
+  registry.add<FillVolumeSource>("volume_source");
+  registry.add<UnpackShift>("unpack_shift");
   registry.add<KeepKineticEnergy>("keep_kinetic_energy");
   registry.add<LimitShift>("limit_shift");
   registry.add<ShiftParticles>("shift_particles");

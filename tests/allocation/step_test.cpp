@@ -74,7 +74,7 @@ Counts count_allocations(const Json& json, Execution execution = Execution::list
   return counts;
 }
 
-bool is_solver(const std::string& name) { return name.starts_with("solve_"); }
+bool is_solver(const std::string& name) { return name.starts_with("solve_") || name.starts_with("factorize_"); }
 
 Json dam_break(const std::vector<std::string>& overrides) {
   const Json scene = scene_run::with(

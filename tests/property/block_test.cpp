@@ -140,8 +140,7 @@ TEMPLATE_TEST_CASE_SIG("the block solver solves the discrete equations", "[prope
                      R"(/transfer={"scheme": "tpic", "inertia": "lumped", "spin": "gradient"})"}));
   run.step();
   const auto equations = dense::assemble<Dim>(run);
-  const auto& values = run.world().template resource<matrix::Solution>().values;
-  const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  const Eigen::VectorXd x = dense::solution<Dim>(run.world());
   REQUIRE(equations.matrix.rows() == x.size());
   // Row by row, each against the sum of the sizes of its terms.
   const Eigen::VectorXd rest = (equations.right_hand_side - equations.matrix * x).cwiseAbs();

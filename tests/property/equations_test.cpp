@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE_SIG("the assembled matrix is the discrete equations", "[prope
   SceneRun run(variant(scattered<Dim>()));
   CAPTURE(run.scene().schemes, run.scene().facts.get<Fluid>().viscosity);
   run.step();
-  const auto got = dense::as_assembled(run.world()).matrix;
+  const auto got = dense::as_assembled<Dim>(run.world()).matrix;
   const auto expected = dense::assemble<Dim>(run).matrix;
   REQUIRE(got.rows() == expected.rows());
   CHECK(block_difference(got, expected, Dim, false, false) < rounding_of_assembly);
@@ -121,7 +121,7 @@ TEST_CASE("nodes whose entries of the Laplacian cancel are still coupled", "[pro
   // One particle in the middle of every cell: grad S_I . grad S_J of neighbours along an axis cancels to the bit.
   SceneRun run(with(scattered<2>(), {R"(/particles=[{"shape": {"where": "1"}, "per_cell": 1}])"}));
   run.step();
-  const auto got = dense::as_assembled(run.world()).matrix;
+  const auto got = dense::as_assembled<2>(run.world()).matrix;
   const auto expected = dense::assemble<2>(run).matrix;
   CHECK(block_difference(got, expected, 2, false, true) < rounding_of_assembly);
   CHECK(block_difference(got, expected, 2, true, false) < rounding_of_assembly);
@@ -132,7 +132,7 @@ TEMPLATE_TEST_CASE_SIG("the assembled right-hand side is the discrete equations"
   SceneRun run(variant(scattered<Dim>()));
   CAPTURE(run.scene().schemes, run.scene().facts.get<Fluid>().viscosity);
   run.step();
-  const auto got = dense::as_assembled(run.world()).right_hand_side;
+  const auto got = dense::as_assembled<Dim>(run.world()).right_hand_side;
   const auto expected = dense::assemble<Dim>(run).right_hand_side;
   REQUIRE(got.rows() == expected.rows());
   CHECK(part_difference(got, expected, Dim, false) < rounding_of_assembly);
@@ -155,10 +155,9 @@ TEMPLATE_TEST_CASE_SIG("the solution is that of dense Gauss elimination with ful
   SceneRun run(variant(scattered<Dim>()));
   CAPTURE(run.scene().schemes, run.scene().facts.get<Fluid>().viscosity);
   run.step();
-  const auto equations = dense::as_assembled(run.world());
+  const auto equations = dense::as_assembled<Dim>(run.world());
   const Eigen::VectorXd expected = dense_solution(equations);
-  const auto& values = run.world().template resource<matrix::Solution>().values;
-  const Eigen::VectorXd got = Eigen::Map<const Eigen::VectorXd>(values.data(), expected.rows());
+  const Eigen::VectorXd got = dense::solution<Dim>(run.world());
   // The far particle's pressures hang on (E27) alone: condition 1/eps = 1e6 times rounding.
   CHECK(part_difference(got, expected, Dim, false) < 1e-9);
   CHECK(part_difference(got, expected, Dim, true) < 1e-9);
@@ -168,9 +167,8 @@ TEMPLATE_TEST_CASE_SIG("the reported residual is |b - A x| / |b| and small", "[p
   SceneRun run(variant(scattered<Dim>()));
   CAPTURE(run.scene().schemes, run.scene().facts.get<Fluid>().viscosity);
   run.step();
-  const auto equations = dense::as_assembled(run.world());
-  const auto& values = run.world().template resource<matrix::Solution>().values;
-  const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(values.data(), equations.right_hand_side.rows());
+  const auto equations = dense::as_assembled<Dim>(run.world());
+  const Eigen::VectorXd x = dense::solution<Dim>(run.world());
   const double residual = (equations.right_hand_side - equations.matrix * x).norm() / equations.right_hand_side.norm();
   const double reported = run.world().template resource<SolveReport>().residual;
   CHECK(reported == Approx(residual).margin(1e-14));  // rounding of the products themselves
@@ -190,13 +188,13 @@ TEMPLATE_TEST_CASE_SIG("a light node falls freely, an active one takes the solut
   const auto u_i = world.template column<node::Displacement<Dim>>();
   const auto v_i = world.template column<node::Velocity<Dim>>();
   const auto b_i = world.template column<node::BodyForce<Dim>>();
-  const auto& solution = world.template resource<matrix::Solution>().values;
+  const Eigen::VectorXd solution = dense::solution<Dim>(world);
   Largest worst;
   for (std::size_t i = 0; i < row.size(); ++i) {
     for (int d = 0; d < Dim; ++d) {
       double expected = 0;
       if (row[i] >= 0) {
-        expected = solution[static_cast<std::size_t>(row[i] * (Dim + 1) + d)];
+        expected = solution[row[i] * (Dim + 1) + d];
       } else if (m_i[i] > 0 && (fixed[i] >> d & 1) == 0) {
         expected = dt * v_i[i][d] + dt * dt / 2 * b_i[i][d];
       }

@@ -58,7 +58,7 @@ TEMPLATE_TEST_CASE_SIG("products with the blocks of (E55) are those of the matri
   CHECK((schur.inner_blocks() > 0) == (quadrature == "mixed"));
   CHECK(schur.inner_blocks() < schur.rows() / 8);
 
-  const Eigen::MatrixXd matrix = dense::as_assembled(run.world()).matrix;
+  const Eigen::MatrixXd matrix = dense::as_assembled<Dim>(run.world()).matrix;
   const Values p = random_values(schur.rows(), 1);
   Values w = random_values(Dim * schur.rows(), 2);
   Values pushed(w.size()), spread(p.size()), pushed_by_matrix(w.size(), 0.0), spread_by_matrix(p.size(), 0.0);
@@ -80,8 +80,10 @@ TEMPLATE_TEST_CASE_SIG("products with the blocks of (E55) are those of the matri
       }
     }
   }
-  schur.spread(w, p, spread);
-  schur.push(p, pushed);
+  SlotValues work;
+  schur.start(work);
+  schur.apply_divergence(w, p, work, spread);
+  schur.apply_gradient(p, work, pushed);
   for (std::size_t i = 0; i < w.size(); ++i) {
     if (schur.mobility()[i] == 0) pushed[i] = 0;
   }

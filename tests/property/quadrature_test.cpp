@@ -80,7 +80,7 @@ constexpr double rounding_of_moments = 1e-12;
 /// The assembled equations are those of plain loops over particles and Gauss points.
 template <int Dim>
 void check_equations(SceneRun& run) {
-  const auto got = dense::as_assembled(run.world());
+  const auto got = dense::as_assembled<Dim>(run.world());
   const auto expected = dense::assemble<Dim>(run);
   REQUIRE(got.matrix.rows() == expected.matrix.rows());
   const auto differs = [](const auto& a, const auto& b) { return (a - b).norm() / b.norm(); };

@@ -226,27 +226,48 @@ Equations assemble(scene_run::SceneRun& run) {
   return eq;
 }
 
+namespace {
+
+/// A vector and a number per row, one row after the other.
+template <int Dim, class OfMomentum, class OfMass>
+Eigen::VectorXd packed(World& world) {
+  const auto f = world.column<OfMomentum>();
+  const auto g = world.column<OfMass>();
+  Eigen::VectorXd all(static_cast<Eigen::Index>((Dim + 1) * g.size()));
+  for (std::size_t r = 0; r < g.size(); ++r) {
+    const auto first = static_cast<Eigen::Index>((Dim + 1) * r);
+    all.template segment<Dim>(first) = f[r];
+    all[first + Dim] = g[r];
+  }
+  return all;
+}
+
+}  // namespace
+
+template <int Dim>
 Equations as_assembled(World& world) {
-  const auto& pattern = world.resource<matrix::Pattern>();
-  const auto& values = world.resource<matrix::Values>().values;
-  const auto& rhs = world.resource<matrix::RightHandSide>().values;
-  const auto n = static_cast<Eigen::Index>(rhs.size());
-  Equations eq{Eigen::MatrixXd::Zero(n, n), Eigen::Map<const Eigen::VectorXd>(rhs.data(), n)};
-  for (Eigen::Index column = 0; column < n; ++column) {
-    const auto first = static_cast<std::size_t>(pattern.outer[static_cast<std::size_t>(column)]);
-    const auto past = static_cast<std::size_t>(pattern.outer[static_cast<std::size_t>(column) + 1]);
-    for (std::size_t k = first; k < past; ++k) eq.matrix(pattern.inner[k], column) += values[k];
+  const auto& [outer, inner, values] = world.resource<matrix::Monolithic>();
+  const Eigen::VectorXd b = packed<Dim, matrix::Momentum<Dim>, matrix::Mass>(world);
+  Equations eq{Eigen::MatrixXd::Zero(b.size(), b.size()), b};
+  for (Eigen::Index column = 0; column < b.size(); ++column) {
+    const auto first = static_cast<std::size_t>(outer[static_cast<std::size_t>(column)]);
+    const auto past = static_cast<std::size_t>(outer[static_cast<std::size_t>(column) + 1]);
+    for (std::size_t k = first; k < past; ++k) eq.matrix(inner[k], column) += values[k];
   }
   return eq;
 }
 
 template <int Dim>
-EquationTerms<Dim> terms_of_step(World& world) {
+Eigen::VectorXd solution(World& world) {
+  return packed<Dim, matrix::Displacement<Dim>, matrix::Pressure>(world);
+}
+
+template <int Dim>
+Operators<Dim> terms_of_step(World& world) {
   const auto& rates = world.resource<Rates>();
-  return {rates.velocity,
-          rates.acceleration,
-          pressure_per_mass(world.resource<Clock>().step, world.resource<Fluid>().density,
-                            world.resource<Grid<Dim>>().spacing),
+  return {{rates.velocity, rates.acceleration,
+           pressure_per_mass(world.resource<Clock>().step, world.resource<Fluid>().density,
+                             world.resource<Grid<Dim>>().spacing)},
           world.column<node::Row>(),
           world.column<node::Constraint>(),
           world.column<node::Mass>(),
@@ -258,8 +279,12 @@ EquationTerms<Dim> terms_of_step(World& world) {
           world.column<matrix::Viscosity<Dim>>()};
 }
 
-template EquationTerms<2> terms_of_step<2>(World&);
-template EquationTerms<3> terms_of_step<3>(World&);
+template Equations as_assembled<2>(World&);
+template Equations as_assembled<3>(World&);
+template Eigen::VectorXd solution<2>(World&);
+template Eigen::VectorXd solution<3>(World&);
+template Operators<2> terms_of_step<2>(World&);
+template Operators<3> terms_of_step<3>(World&);
 template Equations assemble<2>(scene_run::SceneRun&);
 template Equations assemble<3>(scene_run::SceneRun&);
 

@@ -6,7 +6,7 @@
 
 #include "support/scene_run.hpp"
 
-#include "systems/solve/equations.hpp"
+#include "systems/solve/operators.hpp"
 
 #include <Eigen/Dense>
 
@@ -22,10 +22,15 @@ template <int Dim>
 Equations assemble(scene_run::SceneRun& run);
 
 /// The matrix that the engine assembled in the last step, and its right-hand side.
+template <int Dim>
 Equations as_assembled(World& world);
+
+/// The solution of the last step.
+template <int Dim>
+Eigen::VectorXd solution(World& world);
 
 /// What that matrix is made of.
 template <int Dim>
-EquationTerms<Dim> terms_of_step(World& world);
+Operators<Dim> terms_of_step(World& world);
 
 }  // namespace minamo::dense

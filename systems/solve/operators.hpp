@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// How the unknowns of a step are numbered, whatever the solver: unknown (d + 1) r + i of matrix row r is component i
-/// of the displacement, and the pressure for i = d.
+/// The operators of the equations of a step, as the assembly leaves them.
 
 #include "components/matrix.hpp"
 #include "components/sites.hpp"
@@ -10,20 +9,22 @@
 
 namespace minamo {
 
-constexpr std::size_t unknowns_per_row(int dim) { return static_cast<std::size_t>(dim) + 1; }
-
 /// e_I/m_I of (E27): the rate of volume change that this allows in a column of water of 1 kPa is 5e-6 1/s.
 constexpr double pressure_per_mass(double dt, double density, double spacing) {
   constexpr double eps = 1e-6;
   return eps * dt / (density * density * spacing * spacing);
 }
 
-/// What the matrices of (E25), (E26) are made of.
+/// What multiplies the operators of (E25), (E26).
+struct Coefficients {
+  double c_v = 0;
+  double c_a = 0;
+  double pressure_per_mass = 0;
+};
+
+/// What the matrices of (E25), (E26) are made of: what one system has declared, for as long as it runs.
 template <int Dim>
-struct EquationTerms {
-  double c_v;
-  double c_a;
-  double pressure_per_mass;
+struct Operators : Coefficients {
   std::span<const std::int32_t> row;
   std::span<const std::uint8_t> fixed;
   std::span<const double> m_i;
