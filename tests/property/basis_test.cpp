@@ -69,8 +69,8 @@ std::vector<double> moment_matrix_weights(const Grid<Dim>& grid, const Vec<Dim>&
   return spline;
 }
 
-// Sums of up to 27 products of 3 weights, of size 1.
-constexpr double rounding = 1e-14;
+// Sums of up to 27 products of 3 weights, of size 1: 6e-16 measured.
+constexpr double rounding = 5e-15;
 
 }  // namespace
 
@@ -85,7 +85,7 @@ TEMPLATE_TEST_CASE_SIG("weights sum to one everywhere in the box", "[property]",
     gradient += weights.gradient[i];
   }
   CHECK(std::abs(sum - 1) < rounding);
-  CHECK(gradient.norm() < rounding / grid.spacing * 3);
+  CHECK(gradient.norm() < rounding);
 }
 
 TEMPLATE_TEST_CASE_SIG("weights reproduce the place everywhere in the box", "[property]", ((int Dim), Dim), 2, 3) {
@@ -99,9 +99,8 @@ TEMPLATE_TEST_CASE_SIG("weights reproduce the place everywhere in the box", "[pr
     place += weights.value[i] * from_x;
     gradient += from_x * weights.gradient[i].transpose();
   }
-  // x and the nodes are numbers of size 5 with their own rounding of 1e-15.
-  CHECK(place.norm() < rounding);
-  CHECK((gradient - Mat<Dim>::Identity()).norm() < 5 * rounding);
+  CHECK(place.norm() < 0.1 * rounding);  // a sum of distances that cancel
+  CHECK((gradient - Mat<Dim>::Identity()).norm() < rounding);
 }
 
 TEMPLATE_TEST_CASE_SIG("weights are not negative", "[property]", ((int Dim), Dim), 2, 3) {
@@ -121,8 +120,9 @@ TEMPLATE_TEST_CASE_SIG("the corrected kernel is the moment-matrix correction of 
   const std::vector<double> expected = moment_matrix_weights<Dim>(grid, x);
   Largest worst;
   for (std::size_t i = 0; i < expected.size(); ++i) worst.add(std::abs(weights.value[i] - expected[i]));
-  // The moment matrix has a condition number below 1e3 (its smallest entries are products of m2 >= 1/8).
-  CHECK(worst.value() < 1e-12);
+  // 2e-16 measured, though the moment matrix has a condition number of up to 1e3 (its smallest entries are products of
+  // m2 >= 1/8).
+  CHECK(worst.value() < 2e-15);
 }
 
 TEMPLATE_TEST_CASE_SIG("the gradient of a weight is its finite difference", "[property]", ((int Dim), Dim), 2, 3) {
@@ -143,8 +143,8 @@ TEMPLATE_TEST_CASE_SIG("the gradient of a weight is its finite difference", "[pr
       worst.add(std::abs(difference - weights.gradient[i][d]));
     }
   }
-  // Rounding 1e-16/step = 2e-11; a second derivative of 4/m^2 that jumps within the step: 4 step/2 = 1e-5.
-  CHECK(worst.value() < 2e-5);
+  // Roundings of 1e-16/step = 2e-11: 8e-11 measured. No second derivative jumps within a step of one of the places.
+  CHECK(worst.value() < 8e-10);
 }
 
 TEMPLATE_TEST_CASE_SIG("the kernels' weights are those of the formula node by node", "[property]", ((int Dim), Dim), 2,

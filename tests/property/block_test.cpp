@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property
   constexpr int steps = Dim == 2 ? 3 : 2;
   block.step(steps);
   umfpack.step(steps);
-  CHECK(distance<Dim>(block, umfpack) < 1e-7);
+  CHECK(distance<Dim>(block, umfpack) < 4e-8);  // 1.9e-8 measured
   CHECK(block.world().template resource<SolveReport>().residual <= tolerance);
   CHECK(block.world().template resource<SolveReport>().iterations > 0);
 }
@@ -126,7 +126,7 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK where iterat
   block.step(steps);
   umfpack.step(steps);
   REQUIRE(Dim * block.world().template column<matrix::Node>().size() > 3000);
-  CHECK(distance<Dim>(block, umfpack) < 1e-7);
+  CHECK(distance<Dim>(block, umfpack) < 5e-9);  // 2.5e-9 measured
   const auto& report = block.world().template resource<SolveReport>();
   CHECK(report.residual <= 1e-10);
   CHECK(report.residual > 1e-14);  // UMFPACK would leave less
@@ -149,7 +149,8 @@ TEMPLATE_TEST_CASE_SIG("the block solver solves the discrete equations", "[prope
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (size[i] != 0) worst.add(rest[i] / size[i]);
   }
-  CHECK(worst.value() < 1e-7);
+  // GMRES stops anywhere below 1e-11 of all together: 2e-12 measured.
+  CHECK(worst.value() < 1e-11);
 }
 
 TEST_CASE("the block solver balances the momentum of a shear flow under gravity", "[property]") {
@@ -164,7 +165,7 @@ TEST_CASE("the block solver balances the momentum of a shear flow under gravity"
   block.step(10);
   umfpack.step(10);
   const double exact = umfpack.world().resource<measure::Energy>().kinetic;
-  CHECK(block.world().resource<measure::Energy>().kinetic == Approx(exact).epsilon(1e-6));
+  CHECK(block.world().resource<measure::Energy>().kinetic == Approx(exact).epsilon(1.4e-7));  // 7e-8 measured
 }
 
 TEST_CASE("the block solver takes few iterations in a splash", "[property]") {
@@ -177,7 +178,7 @@ TEST_CASE("the block solver takes few iterations in a splash", "[property]") {
     run.step();
     if (k > 0) most = std::max(most, run.world().resource<SolveReport>().iterations);
   }
-  CHECK(most <= 8);  // 6 were measured
+  CHECK(most <= 8);  // 7 were measured
 }
 
 TEST_CASE("a step in which GMRES does not converge is UMFPACK's", "[property]") {
@@ -189,14 +190,14 @@ TEST_CASE("a step in which GMRES does not converge is UMFPACK's", "[property]") 
   umfpack.step();
   CHECK(block.world().resource<SolveReport>().iterations == 100);
   CHECK(block.world().resource<SolveReport>().residual == umfpack.world().resource<SolveReport>().residual);
-  CHECK(distance<2>(block, umfpack) < 1e-9);
+  CHECK(distance<2>(block, umfpack) == 0);
 }
 
 TEST_CASE("a closed full box has no pressure of its own and the block solver still converges", "[property]") {
   SceneRun run(with(scene_of_file("taylor_green.json"), {"/grid/cells=[12, 12]", R"(/solver={"scheme": "block"})"}));
   run.step(5);
   CHECK(run.world().resource<SolveReport>().residual <= 1e-8);
-  CHECK(run.world().resource<SolveReport>().iterations < 30);
+  CHECK(run.world().resource<SolveReport>().iterations <= 4);  // 2 were measured
 }
 
 TEST_CASE("the block solver gives the steps of UMFPACK around a short periodic axis", "[property]") {
@@ -211,7 +212,7 @@ TEST_CASE("the block solver gives the steps of UMFPACK around a short periodic a
   SceneRun umfpack(with(scene, {R"(/solver={"scheme": "umfpack"})"}));
   block.step(3);
   umfpack.step(3);
-  CHECK(distance<2>(block, umfpack) < 1e-7);
+  CHECK(distance<2>(block, umfpack) < 8e-11);  // 4e-11 measured
 }
 
 TEST_CASE("the block solver takes few iterations, whatever the resolution", "[property]") {
@@ -265,8 +266,8 @@ TEMPLATE_TEST_CASE("LU within an envelope solves what dense LU solves", "[proper
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(rows, -1, 3);
   Values x = as_values(b);
   lu.solve(x);
-  // A few times the last digit.
-  CHECK(difference(x, a.partialPivLu().solve(b)) < 500 * static_cast<double>(std::numeric_limits<TestType>::epsilon()));
+  // Twice the last digit was measured.
+  CHECK(difference(x, a.partialPivLu().solve(b)) < 20 * static_cast<double>(std::numeric_limits<TestType>::epsilon()));
 }
 
 TEST_CASE("LU within an envelope is cut in the middle of the work, through rows that reach far", "[property]") {
@@ -284,7 +285,7 @@ TEST_CASE("LU within an envelope is cut in the middle of the work, through rows 
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(1600, -1, 3);
   Values x = as_values(b);
   lu.solve(x);
-  CHECK(difference(x, a.partialPivLu().solve(b)) < 1e-12);
+  CHECK(difference(x, a.partialPivLu().solve(b)) < 2e-15);  // the last digit
 }
 
 TEMPLATE_TEST_CASE("LU within an envelope tells a singular matrix", "[property]", float, double) {
@@ -319,7 +320,7 @@ TEST_CASE("pressures are factorized in single precision until spray needs double
   SceneRun run(scene);
   run.step(2);
   CHECK((run.world().resource<WholeFactors>().steps > 0) == spray);
-  CHECK(run.world().resource<SolveReport>().iterations <= 8);  // 5 were measured, with spray 5
+  CHECK(run.world().resource<SolveReport>().iterations <= 8);  // 4 were measured, with spray 4
 }
 
 #ifndef __SANITIZE_ADDRESS__  // three quarters of a minute there
@@ -358,7 +359,7 @@ TEST_CASE("GMRES reaches its target though products have the errors that it allo
   const Eigen::VectorXd left =
       Eigen::Map<const Eigen::VectorXd>(b.data(), rows) - a * Eigen::Map<const Eigen::VectorXd>(x.data(), rows);
   CHECK(left.norm() <= 1.5 * target);  // the last product, which tells, may be off by half of it
-  CHECK(report.iterations <= 30);      // 22 were measured with exact ones
+  CHECK(report.iterations <= 20);      // 10 were measured, with exact ones, too
 }
 
 TEST_CASE("sparse Cholesky solves what dense Cholesky solves, again with another pattern", "[property]") {
@@ -375,7 +376,7 @@ TEST_CASE("sparse Cholesky solves what dense Cholesky solves, again with another
     const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(rows, -1, 3);
     Values got = as_values(a * x);
     cholesky.solve(got);
-    CHECK(difference(got, x) < 1e-12);
+    CHECK(difference(got, x) < 2e-15);  // the last digit
   }
 }
 
@@ -418,7 +419,7 @@ TEST_CASE("incomplete Cholesky is near the matrix, whatever its sign", "[propert
   const auto report = gmres.solve(apply, precondition, b, 1e-10 * std::sqrt(dot(b, b)), 200, Gmres::Start::zero, x);
   CHECK(report.converged);
   CHECK(report.iterations < (shift == 0 ? 25 : 60));  // 16 and 39 were measured
-  CHECK(difference(x, x_e) < 1e-8);
+  CHECK(difference(x, x_e) < 3e-10);                  // 1.7e-10 measured
 }
 
 TEST_CASE("GMRES solves with and without restarts, and says where it stopped", "[property]") {
@@ -436,7 +437,7 @@ TEST_CASE("GMRES solves with and without restarts, and says where it stopped", "
   CHECK(report.converged);
   CHECK(report.iterations > 0);
   CHECK(report.residual <= 1e-11 * norm);
-  CHECK(difference(x, x_e) < 1e-9);
+  CHECK(difference(x, x_e) < 9e-12);  // 4.9e-12 measured
   // From the solution there is nothing left to do; with too few iterations it does not claim success.
   CHECK(gmres.solve(apply, precondition, b, 1e-10 * norm, 2000, Gmres::Start::x, x).iterations == 0);
   Values y(200, 0.0);

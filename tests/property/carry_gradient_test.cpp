@@ -50,8 +50,8 @@ TEMPLATE_TEST_CASE_SIG("a carried gradient is that of the same velocities where 
   }
   const Mat<Dim> expected = gradient_over<Dim>(places, velocities);
   World world;
-  // Of 1, by a least-squares solution with a condition below 10.
-  CHECK((carried(world, share, before) - expected).norm() < 1e-13);
+  // Of 0.3, by a least-squares solution with a condition below 10: 7e-17 measured.
+  CHECK((carried(world, share, before) - expected).norm() < 6e-16);
 }
 
 TEST_CASE("a gradient that a step does not resolve stays behind", "[property]") {
@@ -61,5 +61,6 @@ TEST_CASE("a gradient that a step does not resolve stays behind", "[property]") 
   const Mat<2> before = -strain / 0.05 / std::sqrt(2.0) * Mat<2>::Identity();
   const Mat<2> after = carried(world, 1.0, before);
   const double share = strain < 0.1 ? (0.1 - strain) / 0.05 : 0;
-  CHECK((after - before / (1 - share * strain / std::sqrt(2.0))).norm() < 1e-12);
+  // A rounding of numbers of size 1 to 20.
+  CHECK((after - before / (1 - share * strain / std::sqrt(2.0))).norm() < 3e-15);
 }

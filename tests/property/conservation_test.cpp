@@ -58,7 +58,7 @@ TEST_CASE("a step in free space conserves linear momentum while no node is light
   run.step(3);
   REQUIRE_FALSE(has_light_nodes(run.world()));
   // Sums of 500 kg m/s over 144 particles and 100 nodes, some hundred roundings a step: 1e-12 measured.
-  CHECK((momentum<2>(run.world()) - before).norm() < 1e-11);
+  CHECK((momentum<2>(run.world()) - before).norm() < 9e-12);
 }
 
 TEST_CASE("a step in free space conserves linear momentum while no node is light, in space", "[property]") {
@@ -68,7 +68,7 @@ TEST_CASE("a step in free space conserves linear momentum while no node is light
   const Vec<3> before = momentum<3>(run.world());
   run.step(2);
   REQUIRE_FALSE(has_light_nodes(run.world()));
-  CHECK((momentum<3>(run.world()) - before).norm() < 1e-11);  // as in the plane
+  CHECK((momentum<3>(run.world()) - before).norm() < 4e-12);  // as in the plane; 5e-13 measured
 }
 
 TEST_CASE("light nodes take little linear momentum away", "[property]") {
@@ -82,8 +82,8 @@ TEST_CASE("light nodes take little linear momentum away", "[property]") {
     light = light || has_light_nodes(run.world());
   }
   CHECK(light);
-  // A light node leaves out its share of the pressure gradient: at most 7e-6 over these 60 steps.
-  CHECK((momentum<2>(run.world()) - before).norm() < 2e-5 * before.norm());
+  // A light node leaves out its share of the pressure gradient: at most 2.0e-6 over these 60 steps.
+  CHECK((momentum<2>(run.world()) - before).norm() < 4e-6 * before.norm());
 }
 
 TEST_CASE("a step keeps the mass of every particle", "[property]") {
@@ -121,8 +121,8 @@ TEST_CASE("without walls or friction TPIC conserves angular momentum better than
     run.step(50);
     return 1 - spin() / before;
   };
-  // PIC smooths a rotation over a cell in every step; TPIC transfers it exactly.
-  CHECK(std::abs(lost("tpic")) < 0.1 * lost("pic"));
+  // PIC smooths a rotation over a cell in every step; TPIC transfers it exactly: 2.4e-4 measured.
+  CHECK(std::abs(lost("tpic")) < 5e-4 * lost("pic"));
 }
 
 namespace {

@@ -36,8 +36,8 @@ TEST_CASE("a divergence that a step starts with does not turn over and over", "[
   run.start();
   const double before = run.world().resource<measure::Energy>().kinetic;
   run.step(30);
-  // All of it is divergence: 0.8^60 = 1.5e-6 of its energy. Undamped, TPIC in the plane keeps 0.68.
-  CHECK(run.world().resource<measure::Energy>().kinetic < 2e-5 * before);
+  // All of it is divergence: 0.8^60 = 1.5e-6 of its energy, 1.7e-6 measured. Undamped, TPIC in the plane keeps 0.68.
+  CHECK(run.world().resource<measure::Energy>().kinetic < 3.5e-6 * before);
 }
 
 TEST_CASE("a velocity that was free of divergence where the step started stays", "[property]") {
@@ -51,5 +51,5 @@ TEST_CASE("a velocity that was free of divergence where the step started stays",
   const auto& columns = run.world().resource<measure::Columns>().columns;
   REQUIRE(columns.at(0).name == "error_velocity");
   run.step(1);
-  CHECK(columns.at(0).value < 2e-3);
+  CHECK(columns.at(0).value < 1.3e-3);  // 6.7e-4 measured
 }

@@ -79,8 +79,8 @@ double largest_gain(SceneRun& run, int steps) {
   return gain.value();
 }
 
-// The projection of the volume lifts the surface a little; all else is rounding.
-constexpr double lift = 0.01;
+// The projection of the volume lifts the surface a little: 8e-5 in the plane and 9e-5 in space. All else is rounding.
+constexpr double lift = 1.7e-4;
 
 }  // namespace
 
@@ -115,7 +115,7 @@ TEST_CASE("water that lies flat on a wall gains no energy", "[property]") {
   scene = any_method_and_volume(scene);
   SceneRun run(scene);
   CAPTURE(run.scene().schemes);
-  CHECK(largest_gain<2>(run, 150) < lift);
+  CHECK(largest_gain<2>(run, 150) < 0);
   CHECK(lost<2>(run.world()) == 0);
 }
 

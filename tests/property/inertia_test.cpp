@@ -153,8 +153,8 @@ TEMPLATE_TEST_CASE_SIG("the inertia correction is the first moment of the forces
     }
   }
   CHECK((held > 0) == at_wall);
-  // Moments whose coefficients cancel: 1e-15 measured.
-  CHECK(worst.value() < 1e-13 * largest.value());
+  // Moments whose coefficients cancel: 4e-15 measured.
+  CHECK(worst.value() < 3e-14 * largest.value());
 }
 
 TEST_CASE("forces of a short step count in a long one only for as long as they acted", "[property]") {
@@ -189,7 +189,8 @@ TEMPLATE_TEST_CASE_SIG("the force gradient is that of force over lumped mass", "
     worst.add((got[p] - expected[p]).norm());
     largest.add(expected[p].norm());
   }
-  CHECK(worst.value() < 1e-12 * largest.value());  // sums of 27 differences of velocities over a step: 4e-15 measured
+  // Sums of 27 differences of velocities over a step: 1.2e-15 measured.
+  CHECK(worst.value() < 1e-14 * largest.value());
 }
 
 TEMPLATE_TEST_CASE_SIG("the inertia correction keeps momentum", "[property]", ((int Dim), Dim), 2, 3) {
@@ -223,8 +224,8 @@ TEST_CASE("the force gradient of a lone particle does not feed on itself", "[pro
   REQUIRE(gradient.size() == 1);
   gradient[0] << 1, 2, 3, -1;
   run.step();
-  // Only gravity acts on it, and the trace of its own motion; 3e-3 of 4 were measured. With c in (E54) all would stay.
-  CHECK(gradient[0].norm() < 0.02);
+  // Only gravity acts on it: what is left of 4 is what the solver leaves of it, 4e-11. With c in (E54) all would stay.
+  CHECK(gradient[0].norm() < 3e-10);
 }
 
 TEST_CASE("velocity gradients do not grow in spray", "[property]") {
@@ -240,7 +241,7 @@ TEST_CASE("velocity gradients do not grow in spray", "[property]") {
       largest.add(h * gradient.norm());
     }
   }
-  // 13 m/s were measured, three times the speed of the front. Corrected wherever there is mass, a node moves by 137
+  // 4.5 m/s were measured, about the speed of the front. Corrected wherever there is mass, a node moves by 137
   // cells at 0.41 s, which is no step to be accepted.
-  CHECK(largest.value() < 20);
+  CHECK(largest.value() < 9);
 }

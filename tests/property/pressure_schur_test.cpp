@@ -87,6 +87,6 @@ TEMPLATE_TEST_CASE_SIG("products with the blocks of (E55) are those of the matri
   for (std::size_t i = 0; i < w.size(); ++i) {
     if (schur.mobility()[i] == 0) pushed[i] = 0;
   }
-  CHECK(difference(spread, spread_by_matrix) < 1e-13);  // sums of 75 and 500 terms, and the roundings of rows alike
-  CHECK(difference(pushed, pushed_by_matrix) < 1e-13);
+  CHECK(difference(spread, spread_by_matrix) < 8e-15);  // sums of 75 and 500 terms: 9e-16 measured
+  CHECK(difference(pushed, pushed_by_matrix) < 8e-15);
 }

@@ -88,8 +88,8 @@ void keep_away_from_walls(World& world) {
   run<P2GMass<Dim>>(world);
 }
 
-// Relative: 400 terms of one size, a rounding of 1e-16 each.
-constexpr double rounding_of_momentum = 1e-12;
+// Relative: 400 terms of one size, a rounding of 1e-16 each, not all of one sign: 2e-15 measured.
+constexpr double rounding_of_momentum = 1e-14;
 
 Json swirl() {
   return Json::parse(R"json({
@@ -145,7 +145,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC does so with APIC's spin, and keeps its own deforma
     const Mat<Dim> more = grad_v_p[p] - gradient[p];
     worst.add((more + more.transpose()).norm());
   }
-  CHECK(worst.value() < 1e-13);  // gradients of size 1 to 10
+  CHECK(worst.value() < 7e-15);  // gradients of size 1 to 10: 7e-16 measured
 }
 
 TEMPLATE_TEST_CASE_SIG("the spin of TPIC is that of APIC's affine part, walls included", "[property]", ((int Dim), Dim),
@@ -162,7 +162,7 @@ TEMPLATE_TEST_CASE_SIG("the spin of TPIC is that of APIC's affine part, walls in
     const Mat<Dim> more = grad_v_p[p] - affine[p];
     worst.add((more - more.transpose()).norm());
   }
-  CHECK(worst.value() < 1e-13);  // gradients of size 1 to 10
+  CHECK(worst.value() < 5e-15);  // gradients of size 1 to 10: 5e-16 measured
 }
 
 TEMPLATE_TEST_CASE_SIG(
@@ -192,7 +192,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC with the spin of its gradient does not: it is anoth
   G2PVelocityTpic<Dim> of_gradient;
   of_gradient.conserves_spin = false;
   run(world, of_gradient);
-  CHECK((particle_angular_momentum<Dim>(world) - nodal_angular_momentum<Dim>(world)).norm() > 1e-3);
+  CHECK((particle_angular_momentum<Dim>(world) - nodal_angular_momentum<Dim>(world)).norm() > 0.08);  // 0.17 measured
 }
 
 TEMPLATE_TEST_CASE_SIG("APIC's affine part is the sum over nodes that defines it", "[property]", ((int Dim), Dim), 2,
@@ -222,7 +222,8 @@ TEMPLATE_TEST_CASE_SIG("APIC's affine part is the sum over nodes that defines it
     ++compared;
   }
   CHECK(compared > 250);
-  CHECK(worst.value() < 1e-11);  // sums of size 1 and rounding 1e-16 over a moment of at least 2.5e-4 m^2
+  // Sums of size 1 and rounding 1e-16 over a moment of at least 2.5e-4 m^2: 7e-14 measured.
+  CHECK(worst.value() < 7e-13);
 }
 
 TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velocity", "[property]", ((int Dim), Dim),
@@ -242,7 +243,7 @@ TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velo
     worst.add((world.column<particle::Velocity<Dim>>()[p] - (a * y + b)).norm());
     worst.add((world.column<particle::VelocityGradient<Dim>>()[p] - a).norm());
   }
-  CHECK(worst.value() < 1e-12);  // values of size 10, divided by h = 0.5
+  CHECK(worst.value() < 3e-14);  // values of size 10, divided by h = 0.5: 3e-15 measured
 }
 
 TEMPLATE_TEST_CASE_SIG("XPIC of order 1 is PIC", "[property]", ((int Dim), Dim), 2, 3) {
@@ -259,7 +260,7 @@ TEMPLATE_TEST_CASE_SIG("XPIC of order 1 is PIC", "[property]", ((int Dim), Dim),
   run<G2PVelocityPic<Dim>>(world);
   Largest worst;
   for (std::size_t p = 0; p < xpic.size(); ++p) worst.add((xpic[p] - v_p[p]).norm());
-  CHECK(worst.value() < 1e-13);  // v^n is added and taken away again
+  CHECK(worst.value() < 2e-15);  // v^n is added and taken away again: 3e-16 measured
 }
 
 TEMPLATE_TEST_CASE_SIG("FMPM of order 1 is PIC, and of high order gives back a velocity that particles gave",
@@ -333,6 +334,6 @@ TEST_CASE("every stabilization gives the hydrostatic pressure", "[property]") {
   SceneRun run(minamo::scene_run::with(column, {R"(/stabilization={"scheme": ")" + scheme + "\"}"}));
   run.step(20);
   const Grid<2>& grid = run.world().resource<Grid<2>>();
-  // The surface is of first order: 6 % of the pressure of one cell, 1 kPa, was measured.
-  CHECK(on_grid<2, node::Pressure>(run.world())[grid.row({5, 0})] == Approx(5000).margin(100));
+  // The surface is of first order: 3.3 Pa, 0.3 % of the pressure of one cell, were measured.
+  CHECK(std::abs(on_grid<2, node::Pressure>(run.world())[grid.row({5, 0})] - 5000) < 6.5);
 }

@@ -123,7 +123,8 @@ TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is know
     left.add(schur.mobility()[i] * std::abs(rest[i]));
     largest.add(std::abs(x[i]));
   }
-  CHECK(worst.value() < 1e-12 * largest.value());  // sums of 50 and 80 terms, and a factorization
+  // Sums of 50 and 80 terms, and a factorization: 4e-15 measured.
+  CHECK(worst.value() < 4e-14 * largest.value());
   CHECK(left.value() <= block.error() * largest.value());
 }
 
@@ -147,10 +148,10 @@ TEMPLATE_TEST_CASE_SIG("many stiff velocities are solved by iterations, as exact
   of_step.solve(x, asked * size(v));
   const Values rest = of_step.residual(x);
   CHECK(size(rest) <= std::max(asked, 1e-7) * size(v));
-  CHECK(size(rest) > 1e-3 * asked * size(v));  // no more work than that
+  CHECK(size(rest) > 0.1 * asked * size(v));  // no more work than that; 0.4 measured
   Values error = times_dense<Dim>(dense::as_assembled<Dim>(world).matrix, x);
   for (std::size_t i = 0; i < v.size(); ++i) error[i] += rest[i] - v[i];
-  CHECK(size(error) < 1e-12 * size(v));
+  CHECK(size(error) < 5e-15 * size(v));  // 5e-16 measured
 
   Values broken(v.size(), std::nan(""));
   CHECK_THROWS_AS(of_step.solve(broken, 0), StepRejected);

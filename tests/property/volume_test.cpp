@@ -38,7 +38,7 @@ TEST_CASE("without a correction overlap stays", "[property]") {
   run.start();
   const double before = run.world().resource<measure::Overlap>().value;
   run.step(50);
-  CHECK(run.world().resource<measure::Overlap>().value == Approx(before).epsilon(0.01));
+  CHECK(run.world().resource<measure::Overlap>().value == Approx(before).epsilon(1e-14));
 }
 
 TEST_CASE("a volume correction takes overlap away", "[property]") {
@@ -52,8 +52,8 @@ TEST_CASE("a volume correction changes no velocity", "[property]") {
   CAPTURE(volume);
   SceneRun run(heap(volume));
   run.step(20);
-  // Nothing drives the water, so the velocities stay those of the start but for rounding.
-  CHECK(run.world().resource<measure::MaxSpeed>().value < 1e-12);
+  // Nothing drives the water, so the velocities stay those of the start, 0.
+  CHECK(run.world().resource<measure::MaxSpeed>().value < 1e-15);
 }
 
 TEST_CASE("a volume correction leaves a lone drop alone", "[property]") {
@@ -69,7 +69,7 @@ TEST_CASE("a volume correction leaves a lone drop alone", "[property]") {
   const auto after = scene_run::by_id<particle::Position<2>>(run.world());
   Largest moved;
   for (std::size_t p = 0; p < before.size(); ++p) moved.add((after[p] - before[p]).norm());
-  CHECK(moved.value() < 1e-12);  // it fills no node, so that there is no excess
+  CHECK(moved.value() < 1e-15);  // it fills no node, so that there is no excess
 }
 
 TEST_CASE("particles on the seam of a periodic axis overlap with nothing", "[property]") {
@@ -82,9 +82,8 @@ TEST_CASE("particles on the seam of a periodic axis overlap with nothing", "[pro
   scene["particles"][0]["per_cell"] = per_cell;
   SceneRun run(scene);
   run.start();
-  // At the surface, one particle per cell fills a node by up to 1/64 too much; 5 to 15 with a weight taken one box
-  // away.
-  CHECK(run.world().resource<measure::Overlap>().value < 0.02);
+  // Rounding; 5 to 15 with a weight taken one box away.
+  CHECK(run.world().resource<measure::Overlap>().value < 2e-15);
 }
 
 namespace {
@@ -138,13 +137,13 @@ TEST_CASE("the projection of the volume feeds no energy", "[property]") {
     lowest.add(energy);
   }
   CHECK(lowest.value() < 0.9 * start);  // the water has hit the wall
-  // 4e-6, of the transfer between particles and nodes; without (E69) 1.15e-3.
-  CHECK(rise.value() < 1e-4 * start);
+  // Only rounding was measured, 3e-16; without (E69) 1.15e-3. Other roundings lead to another splash, so that there is
+  // room for what the transfer between particles and nodes may do there.
+  CHECK(rise.value() < 1e-6 * start);
 }
 
 TEST_CASE("a shift lifts no more than the step has lost", "[property]") {
-  // To the weight of the particles on nodes that the step did not have, less than 1 %.
-  CHECK(left_of_shift(1e-3, 0.5) == Approx(0.5).epsilon(0.01));
+  CHECK(left_of_shift(1e-3, 0.5) == Approx(0.5).epsilon(4e-15));  // rounding: every particle is on nodes of the step
   CHECK(left_of_shift(1e-3, 2) == 1);
   CHECK(left_of_shift(1e-3, -1) == 0);   // the step has gained energy
   CHECK(left_of_shift(-1e-3, -1) == 1);  // what sinks gives energy

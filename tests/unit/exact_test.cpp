@@ -67,17 +67,17 @@ TEST_CASE("a weighted mean in parts is that of the whole", "[unit]") {
   }
   low.join(high);
   // 100 roundings of sums of size 100.
-  CHECK(std::abs(whole.mean - sum / weight) < 1e-14);
-  CHECK(std::abs(low.mean - sum / weight) < 1e-14);
-  CHECK(std::abs(whole.squares() - squares) < 1e-12);
-  CHECK(std::abs(low.squares() - squares) < 1e-12);
-  CHECK(std::abs(low.scatter - (squares - sum * sum / weight)) < 1e-12);
+  CHECK(std::abs(whole.mean - sum / weight) < 5e-16);
+  CHECK(std::abs(low.mean - sum / weight) < 5e-16);
+  CHECK(std::abs(whole.squares() - squares) < 1e-13);
+  CHECK(std::abs(low.squares() - squares) < 5e-13);
+  CHECK(std::abs(low.scatter - (squares - sum * sum / weight)) < 5e-13);
 }
 
 TEST_CASE("the scatter of numbers far from zero does not cancel", "[unit]") {
   WeightedMean numbers;
   for (const double q : {1e9 - 1, 1e9, 1e9 + 1}) numbers.add(2, q);
-  CHECK(std::abs(numbers.scatter - 4) < 1e-6);  // a rounding of 1e9, three times
+  CHECK(std::abs(numbers.scatter - 4) < 4e-7);  // a rounding of 1e9, three times
 }
 
 TEST_CASE("equal numbers have no scatter at all", "[unit]") {
@@ -100,8 +100,8 @@ TEST_CASE("errors are relative to the exact field", "[unit]") {
   exact_particles(world, 600);
   change_all<particle::Velocity<2>>(world, [](const Vec<2>& v) { return Vec<2>(1.1 * v); });
   change_all<particle::Pressure>(world, [](double p) { return 0.8 * p; });
-  CHECK(std::abs(error(world, "velocity") - 0.1) < 1e-14);
-  CHECK(std::abs(error(world, "pressure") - 0.2) < 1e-14);
+  CHECK(std::abs(error(world, "velocity") - 0.1) < 5e-16);
+  CHECK(std::abs(error(world, "pressure") - 0.2) < 5e-16);
 }
 
 TEST_CASE("errors weigh particles by their volume", "[unit]") {
@@ -111,7 +111,7 @@ TEST_CASE("errors weigh particles by their volume", "[unit]") {
   change_all<particle::Velocity<2>>(world, [](const Vec<2>&) { return Vec<2>(2, 0); });
   world.column<particle::Velocity<2>>()[5] = {2, 3};
   const double share = world.column<particle::Mass>()[5] / scene_run::total_mass(world);
-  CHECK(std::abs(error(world, "velocity") - std::sqrt(share * 9 / 4)) < 1e-14);
+  CHECK(std::abs(error(world, "velocity") - std::sqrt(share * 9 / 4)) < 5e-16);
 }
 
 TEST_CASE("the error is the root mean square itself where the exact field is zero", "[unit]") {
@@ -121,17 +121,17 @@ TEST_CASE("the error is the root mean square itself where the exact field is zer
   world.resource<exact::Pressure>() = {std::vector(exact::parts, field("0")), false};
   change_all<particle::Velocity<2>>(world, [](const Vec<2>&) { return Vec<2>(3, 4); });
   change_all<particle::Pressure>(world, [](double) { return -7.; });
-  CHECK(std::abs(error(world, "velocity") - 5) < 1e-13);
-  CHECK(std::abs(error(world, "pressure") - 7) < 1e-13);
+  CHECK(std::abs(error(world, "velocity") - 5) < 8e-15);
+  CHECK(std::abs(error(world, "pressure") - 7) < 8e-15);
 }
 
 TEST_CASE("a free pressure is compared without its mean", "[unit]") {
   World world;
   exact_particles(world, 600);
   change_all<particle::Pressure>(world, [](double p) { return p + 3; });
-  CHECK(error(world, "pressure") > 0.1);
+  CHECK(error(world, "pressure") > 0.25);
   world.resource<exact::Pressure>().is_free = true;
-  CHECK(error(world, "pressure") < 1e-14);
+  CHECK(error(world, "pressure") < 2e-15);
 }
 
 TEST_CASE("an error relates to the mean-free field if the pressure is free", "[unit]") {
@@ -139,7 +139,7 @@ TEST_CASE("an error relates to the mean-free field if the pressure is free", "[u
   exact_particles(world, 600);
   world.resource<exact::Pressure>() = {std::vector(exact::parts, field("x*t + 100")), true};
   change_all<particle::Pressure>(world, [](double p) { return 0.8 * p; });
-  CHECK(std::abs(error(world, "pressure") - 0.2) < 1e-13);
+  CHECK(std::abs(error(world, "pressure") - 0.2) < 1e-14);
 }
 
 TEST_CASE("velocity is compared at the end of the step, pressure when and where the balances hold", "[unit]") {
@@ -151,7 +151,7 @@ TEST_CASE("velocity is compared at the end of the step, pressure when and where 
   change_all<particle::Configuration<2>>(world, [](const Vec<2>& y) { return Vec<2>(y + Vec<2>(1, 0)); });
   world.resource<exact::Pressure>() = {std::vector(exact::parts, field("(x - 1)*t")), false};
   CHECK(error(world, "velocity") < 1e-15);
-  CHECK(error(world, "pressure") < 1e-14);
+  CHECK(error(world, "pressure") < 2e-15);
 }
 
 TEST_CASE("errors do not depend on the number of threads", "[unit][threads]") {
@@ -169,8 +169,8 @@ TEST_CASE("a block in free flight follows its exact solution", "[verification]")
   SceneRun run(scene);
   run.step(20);
   const auto& columns = run.world().resource<measure::Columns>();
-  CHECK(*columns.find("error_velocity") < 1e-12);  // the solver leaves 1e-13 of it
-  CHECK(*columns.find("error_pressure") < 1e-6);   // rho v h / dt is 3e4 Pa
+  CHECK(*columns.find("error_velocity") < 4e-14);  // 5e-15 measured
+  CHECK(*columns.find("error_pressure") < 2e-8);   // 2.4e-9 measured; rho v h / dt is 3e4 Pa
 }
 
 TEST_CASE("a scene without exact block has neither its systems nor its columns", "[unit]") {

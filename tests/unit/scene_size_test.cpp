@@ -40,7 +40,7 @@ TEST_CASE("a shape on many cells is counted by samples", "[unit]") {
   const Scene scene = with_shape(R"({"where": "y < 0.025"})", 1414);
   const SceneSize size = size_of(scene);
   CHECK(size.places == 1414. * 707 * 9);
-  CHECK(size.particles == Approx(0.05 * size.places).epsilon(0.1));
+  CHECK(size.particles == Approx(0.05 * size.places).epsilon(0.02));
 }
 
 TEST_CASE("a finer scene, one with UMFPACK and one in space need more memory", "[unit]") {

@@ -90,8 +90,8 @@ TEST_CASE("a fixed step that does not divide the end is shortened once", "[unit]
   Run run;
   run(fixed(1.0, 0.22, 1));
   REQUIRE(run.log().steps.size() == 5);
-  CHECK(run.log().steps[3] == Approx(0.22).epsilon(1e-14));
-  CHECK(run.log().steps[4] == Approx(0.12).epsilon(1e-14));  // 1 - 4 x 0.22, a rounding
+  CHECK(run.log().steps[3] == Approx(0.22).epsilon(2e-15));
+  CHECK(run.log().steps[4] == Approx(0.12).epsilon(2e-15));  // 1 - 4 x 0.22, a rounding
   CHECK(run.clock().time == 1.0);
 }
 
@@ -100,8 +100,8 @@ TEST_CASE("a sliver that a fixed step would leave at the end is shared with the 
   run(fixed(1.0, 0.3, 1));
   REQUIRE(run.log().steps.size() == 4);
   CHECK(run.log().steps[1] == 0.3);
-  CHECK(run.log().steps[2] == Approx(0.2).epsilon(1e-14));
-  CHECK(run.log().steps[3] == Approx(0.2).epsilon(1e-14));
+  CHECK(run.log().steps[2] == Approx(0.2).epsilon(2e-15));
+  CHECK(run.log().steps[3] == Approx(0.2).epsilon(2e-15));
   CHECK(run.clock().time == 1.0);
 }
 
@@ -131,8 +131,8 @@ TEST_CASE("a chosen step is shortened to meet frames and the end", "[unit]") {
   CHECK(run.clock().time == 1.0);
   REQUIRE(run.log().steps.size() == 16);  // four times 2 x 0.07 + 2 x 0.055
   CHECK(run.log().steps[1] == 0.07);
-  CHECK(run.log().steps[2] == Approx(0.055).epsilon(1e-14));  // half of 0.25 - 0.14, roundings
-  CHECK(run.log().steps[3] == Approx(0.055).epsilon(1e-14));
+  CHECK(run.log().steps[2] == Approx(0.055).epsilon(2e-15));  // half of 0.25 - 0.14, roundings
+  CHECK(run.log().steps[3] == Approx(0.055).epsilon(2e-15));
 }
 
 TEST_CASE("a run stops after its largest number of steps, with a frame", "[unit]") {
@@ -193,7 +193,7 @@ TEST_CASE("a rejected step is taken back and made in halves that meet the times 
   // 0.1 and 0.05 are rejected at 0.3; four steps of 0.025, then four of 0.05 after which 0.1 is wanted again.
   const std::vector<double> steps{0.1, 0.1, 0.1, 0.025, 0.025, 0.025, 0.025, 0.05, 0.05, 0.05, 0.05, 0.1, 0.1, 0.1};
   REQUIRE(run.log().steps.size() == steps.size() + 1);
-  CHECK(run.log().steps.back() == Approx(0.1).epsilon(1e-14));  // 1 - 0.9, a rounding
+  CHECK(run.log().steps.back() == Approx(0.1).epsilon(2e-15));  // 1 - 0.9, a rounding
   run.log().steps.pop_back();
   CHECK(run.log().steps == steps);
   CHECK(run.rejections == std::vector<std::string>{"too long", "too long"});
@@ -257,8 +257,8 @@ TEST_CASE("a run that ended between two steps goes on to the next of them", "[un
   run(fixed(1.0, 0.3, 1));
   run(fixed(1.5, 0.3, 1), Beginning::continuation);
   REQUIRE(run.log().steps.size() == 6);
-  CHECK(run.log().steps[4] == Approx(0.2).epsilon(1e-14));  // 1.2 - 1, a rounding
-  CHECK(run.log().steps[5] == Approx(0.3).epsilon(1e-14));  // up to the end
+  CHECK(run.log().steps[4] == Approx(0.2).epsilon(2e-15));  // 1.2 - 1, a rounding
+  CHECK(run.log().steps[5] == Approx(0.3).epsilon(2e-15));  // up to the end
 }
 
 TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {
@@ -273,7 +273,7 @@ TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {
   world.column<particle::Velocity<2>>()[0] = {std::atof(v), 0};
   const double dt = make_time_plan(scene).choose_step(world);
   // A root to rounding.
-  CHECK((std::atof(v) + std::abs(std::atof(b)) * dt) * dt == Approx(0.4 * 0.0146).epsilon(1e-13));
+  CHECK((std::atof(v) + std::abs(std::atof(b)) * dt) * dt == Approx(0.4 * 0.0146).epsilon(4e-15));
 }
 
 TEST_CASE("the step from a CFL number sees the force where the particles are", "[unit]") {
@@ -287,7 +287,7 @@ TEST_CASE("the step from a CFL number sees the force where the particles are", "
   world.column<particle::Position<2>>()[0] = {0.292, 0.292};
   world.column<particle::Position<2>>()[1] = {0.292, 0.092};
   const double dt = make_time_plan(scene).choose_step(world);
-  CHECK(20 * dt * dt == Approx(0.4 * 0.0146).epsilon(1e-13));
+  CHECK(20 * dt * dt == Approx(0.4 * 0.0146).epsilon(4e-15));
 }
 
 TEST_CASE("no step is chosen from a force that is not finite", "[unit]") {
@@ -331,8 +331,8 @@ TEST_CASE("a continuation shares the sliver before the next tick with the step a
   run.log().steps.clear();
   run(fixed(1.0, 0.1, 1), Beginning::continuation);
   REQUIRE(run.log().steps.size() == 7);
-  CHECK(run.log().steps[0] == Approx(0.05005));
-  CHECK(run.log().steps[1] == Approx(0.05005));
+  CHECK(run.log().steps[0] == Approx(0.05005).epsilon(8e-15));
+  CHECK(run.log().steps[1] == Approx(0.05005).epsilon(8e-15));
   CHECK(run.log().steps[2] == 0.1);
   CHECK(run.clock().time == 1.0);
 }

@@ -37,13 +37,13 @@ TEST_CASE("Taylor-Green with midpoint and TPIC converges at an order above 2", "
   const double coarse = velocity_error(taylor_green(16, "midpoint"), 25);
   const double fine = velocity_error(taylor_green(32, "midpoint"), 50);
   CHECK(coarse < 7e-3);
-  CHECK(std::log2(coarse / fine) > 2.5);
+  CHECK(std::log2(coarse / fine) > 2.8);
 }
 
 TEST_CASE("Taylor-Green with Newmark's method converges at first order", "[verification]") {
   const double coarse = velocity_error(taylor_green(16, "newmark"), 25);
   const double fine = velocity_error(taylor_green(32, "newmark"), 50);
-  CHECK(std::log2(coarse / fine) == Approx(1).margin(0.25));  // 2.4e-2 and 1.1e-2
+  CHECK(std::log2(coarse / fine) == Approx(1).margin(0.1));  // 1.05 measured
 }
 
 TEST_CASE("mixed quadrature rids Taylor-Green of where its particles are", "[verification]") {
@@ -81,16 +81,16 @@ TEST_CASE("the ball flattens to its exact ellipsoid in space", "[verification]")
 }
 
 TEST_CASE("flow between no-slip walls reaches its parabola", "[verification]") {
-  // At t = 1 s the flow is half developed; 0.8 % was measured, h^2 of the parabola and the start.
-  CHECK(velocity_error(scene_of_file("poiseuille.json"), 100) < 0.01);
+  // At t = 1 s the flow is half developed; 0.3 % was measured, h^2 of the parabola and the start.
+  CHECK(velocity_error(scene_of_file("poiseuille.json"), 100) < 6e-3);
 }
 
 TEST_CASE("a film down an incline keeps its exact velocity", "[verification]") {
-  CHECK(velocity_error(scene_of_file("film.json"), 40) < 2e-3);  // 2e-4 was measured
+  CHECK(velocity_error(scene_of_file("film.json"), 40) < 3.5e-4);  // 1.8e-4 was measured
 }
 
 TEST_CASE("a film down an incline has its exact pressure", "[verification]") {
   SceneRun run(scene_of_file("film.json"));
   run.step(40);
-  CHECK(measured(run.world(), "error_pressure") < 5e-3);  // 1e-4 was measured after 400 steps
+  CHECK(measured(run.world(), "error_pressure") < 4.7e-4);  // 2.4e-4 was measured, 1e-4 after 400 steps
 }

@@ -42,8 +42,9 @@ struct Errors {
   }
 };
 
-// Twenty steps with roundings of 1e-15 of coordinates and speeds of 3: 2e-14 measured.
-constexpr double solver_rounding = 1e-12;
+// Twenty steps with roundings of 1e-15 of coordinates and speeds of 3: 2e-15 and 2e-14 in space, a third in the plane.
+constexpr double rounding_of_position = 2e-14;
+constexpr double rounding_of_velocity = 2e-13;
 
 }  // namespace
 
@@ -53,8 +54,8 @@ TEST_CASE("a single particle falls as Galileo says", "[verification]") {
   CAPTURE(run.scene().schemes);
   REQUIRE(run.world().rows<Particles>() == 1);
   const Errors<2> error(run, {1, 0.5}, {0.5, -9.75});
-  CHECK(error.position.value() < solver_rounding);
-  CHECK(error.velocity.value() < solver_rounding);
+  CHECK(error.position.value() < rounding_of_position);
+  CHECK(error.velocity.value() < rounding_of_velocity);
 }
 
 TEST_CASE("a blob falls without changing its shape", "[verification]") {
@@ -62,8 +63,8 @@ TEST_CASE("a blob falls without changing its shape", "[verification]") {
       any_method(falling(2, R"({"ball": {"center": [1.6, 2.6], "radius": 0.7}})", "[1, 0.5]", "[0.5, -9.75]")));
   CAPTURE(run.scene().schemes);
   const Errors<2> error(run, {1, 0.5}, {0.5, -9.75});
-  CHECK(error.position.value() < solver_rounding);
-  CHECK(error.velocity.value() < solver_rounding);
+  CHECK(error.position.value() < rounding_of_position);
+  CHECK(error.velocity.value() < rounding_of_velocity);
 }
 
 TEST_CASE("a ball in space falls without changing its shape", "[verification]") {
@@ -71,8 +72,8 @@ TEST_CASE("a ball in space falls without changing its shape", "[verification]") 
       falling(3, R"({"ball": {"center": [1.6, 1.6, 2.6], "radius": 0.4}})", "[1, 0, 0.5]", "[0.5, -1, -9.75]")));
   CAPTURE(run.scene().schemes);
   const Errors<3> error(run, {1, 0, 0.5}, {0.5, -1, -9.75});
-  CHECK(error.position.value() < solver_rounding);
-  CHECK(error.velocity.value() < solver_rounding);
+  CHECK(error.position.value() < rounding_of_position);
+  CHECK(error.velocity.value() < rounding_of_velocity);
 }
 
 TEST_CASE("a blob in free fall has no pressure", "[verification]") {
@@ -82,6 +83,6 @@ TEST_CASE("a blob in free fall has no pressure", "[verification]") {
   run.step(steps);
   Largest largest;
   for (const double p : run.world().column<node::Pressure>()) largest.add(std::abs(p));
-  // The solver's rounding, 1e-12 of rho g R = 7000 Pa, more at nodes that (E27) alone ties down: 6e-8 measured.
-  CHECK(largest.value() < 1e-6);
+  // The solver's rounding, 1e-12 of rho g R = 7000 Pa, more at nodes that (E27) alone ties down: 9e-8 measured.
+  CHECK(largest.value() < 8e-7);
 }

@@ -60,6 +60,6 @@ TEST_CASE("a column at rest stays at rest", "[verification]") {
   SceneRun run(any_method(column("[0, -10]")));
   CAPTURE(run.scene().schemes);
   run.step(100);
-  // The surface settles by a fraction of a cell: 1e-3 m/s, 7e-3 m/s with FLIP's noise; free fall would be 2 m/s.
-  CHECK(largest_speed(run.world()) < 0.01);
+  // The surface settles by a fraction of a cell: 1e-3 m/s, 5e-3 m/s with FLIP's noise; free fall would be 2 m/s.
+  CHECK(largest_speed(run.world()) < 9e-3);
 }

@@ -32,7 +32,7 @@ TEST_CASE("the rotating square has the exact pressure in its centre after a step
   CAPTURE(integrator);
   SceneRun run(patch(integrator));
   run.step();
-  // 2.3 to 3.1 % at 8 cells across; 0.4 to 0.5 % at 20, the free surface being first order.
+  // up to 3.4 % at 8 cells across; 0.4 to 0.5 % at 20, the free surface being first order.
   CHECK(centre_pressure(run.world()) == Approx(exact_centre).epsilon(0.04));
 }
 
@@ -57,9 +57,9 @@ TEST_CASE("the rotating square starts with its exact angular momentum", "[verifi
   // mass that the gradients carry.
   constexpr double of_lattice = 1000. / 6 * (1 - 1. / (32 * 32));
   constexpr double of_gradients = 1000 * 0.125 * 0.125 / 2;
-  // Gradients by central differences over 2.5e-4 m: rounding of 1e-12 of the coordinates' 5e-16.
+  // Gradients by central differences over 2.5e-4 m: rounding of 1e-12 of the coordinates' 5e-16, 6e-14 of the sum.
   CHECK(run.world().resource<measure::Momentum<2>>().angular[0] ==
-        Approx(omega * (of_lattice + of_gradients)).epsilon(1e-11));
+        Approx(omega * (of_lattice + of_gradients)).epsilon(5e-13));
 }
 
 TEST_CASE("the rotating square keeps its angular momentum", "[verification]") {
@@ -98,5 +98,5 @@ TEST_CASE("without its starting acceleration Newmark's pressures oscillate", "[v
   run.start();
   for (Vec<2>& a : run.world().column<particle::Acceleration<2>>()) a.setZero();
   for (Mat<2>& grad_a : run.world().column<particle::AccelerationGradient<2>>()) grad_a.setZero();
-  CHECK(largest_jump(run) > 0.5 * std::abs(exact_centre));
+  CHECK(largest_jump(run) > std::abs(exact_centre));
 }

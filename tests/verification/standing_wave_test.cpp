@@ -34,7 +34,7 @@ std::complex<double> rate_of_wave(double nu) {
     constexpr double step = 1e-6;
     n -= residual(n) * 2.0 * step / (residual(n + step) - residual(n - step));
   }
-  REQUIRE(std::abs(residual(n)) < 1e-10);
+  REQUIRE(std::abs(residual(n)) < 3e-14);
   return n;
 }
 
