@@ -1,7 +1,7 @@
 #include "systems/setup/memory.hpp"
 
 #include "systems/setup/time_plan.hpp"
-#include "systems/solve/velocity_block.hpp"
+#include "systems/solve/velocity_factors.hpp"
 
 #include <algorithm>
 #include <cmath>
