@@ -14,18 +14,18 @@ constexpr int most_passes = 60;
 /// About what whole factors cost, if there are none, or what UMFPACK costs: many iterations in space, where its factors
 /// fill in.
 template <int Dim>
-std::int64_t most_iterations(const PressurePreconditioner<Dim>& preconditioner) {
+std::int64_t most_iterations(const PressureFactors<Dim>& preconditioner) {
   return Dim == 3 && !preconditioner.is_incomplete() ? 500 : 100;
 }
 
 /// What the solves of a step look at.
 template <int Dim>
 struct BlockSystem {
-  const PressureSchur<Dim>& schur;
-  const CompactPressure<Dim>& approximation;
-  const VelocityBlock<Dim>& velocity;
-  typename VelocityBlock<Dim>::Matrix of_velocity;
-  PressurePreconditioner<Dim>& preconditioner;
+  const SchurOperator<Dim>& schur;
+  const SchurApproximation<Dim>& approximation;
+  const VelocityFactors<Dim>& velocity;
+  typename VelocityFactors<Dim>::Matrix of_velocity;
+  PressureFactors<Dim>& preconditioner;
   BlockWork<Dim>& work;
 
   /// u = A^-1 u
@@ -33,7 +33,7 @@ struct BlockSystem {
 };
 
 template <int Dim>
-void prepare(const PressureSchur<Dim>& schur, BlockWork<Dim>& w) {
+void prepare(const SchurOperator<Dim>& schur, BlockWork<Dim>& w) {
   const std::size_t n = schur.rows();
   schur.start(w.products);
   for (Values* v : {&w.mass, &w.pressure, &w.more_pressure, &w.g, &w.zero, &w.unscaled}) v->resize(n);
@@ -48,8 +48,8 @@ Gmres::Report eliminate(const BlockSystem<Dim>& s, const Values& f, const Values
                         Values& u, Values& p) {
   const Values& scale = s.approximation.scale();
   const auto apply = [&](const Values& x, Values& out, double allowed) {
-    if (s.velocity.is_mobility()) {
-      s.schur.apply_with_mobility(x, s.work.products, out);
+    if (s.velocity.is_diagonal()) {
+      s.schur.apply_with_diagonal(x, s.work.products, out);
     } else {
       s.schur.apply_gradient(x, s.work.products, s.work.of_velocity);
       // An error r of momentum becomes one of s B A^-1 r, B about c_v D, and s S s, S about B A^-1 D^T, about one.
@@ -80,18 +80,19 @@ void reduce(const BlockSystem<Dim>& s, const Values& f, const Values& u, const V
   for_each_row(g.size(), [&](std::size_t r) { g[r] = s.approximation.scale()[r] * (s.work.mass[r] - g[r]); });
 }
 
-/// The square of the motion that a momentum is worth, f A^-1 f with the mobility for A^-1.
+/// The square of the motion that a momentum is worth, f A^-1 f with the inverse_diagonal for A^-1.
 template <int Dim>
 double motion_by(const BlockSystem<Dim>& s, const Values& f) {
-  return weighted_square(s.schur.mobility(), f);
+  return weighted_square(s.schur.inverse_diagonal(), f);
 }
 
-/// u A u. Walls hold what has no mobility.
+/// u A u. Walls hold what has no inverse_diagonal.
 template <int Dim>
 double motion_of(const BlockSystem<Dim>& s, const Values& u) {
-  const Values& mobility = s.schur.mobility();
+  const Values& inverse_diagonal = s.schur.inverse_diagonal();
   return reduce_rows(
-      u.size(), 0.0, [&](std::size_t i) { return mobility[i] > 0 ? u[i] * u[i] / mobility[i] : 0; }, std::plus<>());
+      u.size(), 0.0, [&](std::size_t i) { return inverse_diagonal[i] > 0 ? u[i] * u[i] / inverse_diagonal[i] : 0; },
+      std::plus<>());
 }
 
 /// Solves for displacement and pressure from the right-hand sides in momentum and mass. A diagonal velocity block is
@@ -171,7 +172,7 @@ void AssembleSchur<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
                                     Read<matrix::Divergence<Dim>> divergence,
                                     Read<matrix::Stabilization<Dim>> stabilization,
                                     Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                                    Write<PressureSchur<Dim>> schur) const {
+                                    Write<SchurOperator<Dim>> schur) const {
   const double e = pressure_per_mass(clock->step, fluid->density, grid->spacing);
   schur->assemble({{rates->velocity, rates->acceleration, e},
                    row.span(),
@@ -191,8 +192,8 @@ void ApproximateSchur<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, 
                                        Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows,
                                        Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                        Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
-                                       Read<PressureSchur<Dim>> schur,
-                                       Write<CompactPressure<Dim>> approximation) const {
+                                       Read<SchurOperator<Dim>> schur,
+                                       Write<SchurApproximation<Dim>> approximation) const {
   approximation->assemble({schur->coefficients(),
                            row.span(),
                            fixed.span(),
@@ -209,7 +210,7 @@ void ApproximateSchur<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, 
 template <int Dim>
 void FactorizeVelocity<Dim>::operator()(Read<node::Mass> m_i, Read<matrix::Node> node,
                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                                        Read<PressureSchur<Dim>> schur, Write<VelocityBlock<Dim>> factors) const {
+                                        Read<SchurOperator<Dim>> schur, Write<VelocityFactors<Dim>> factors) const {
   factors->prepare({schur->coefficients(), {}, {}, m_i.span(), {}, nullptr, node.span(), {}, {}, viscosity.span()},
                    *schur);
 }
@@ -219,8 +220,8 @@ void FactorizePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid,
                                         Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                         Read<matrix::StabilizationScale> scale,
                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                                        Read<PressureSchur<Dim>> schur, Read<CompactPressure<Dim>> approximation,
-                                        Update<WholeFactors> whole, Write<PressurePreconditioner<Dim>> factors) const {
+                                        Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
+                                        Update<WholeFactors> whole, Write<PressureFactors<Dim>> factors) const {
   const double of_viscosity = viscosity ? viscous_part<Dim>(schur->coefficients(), *grid, *fluid, *scale) : 0;
   factors->prepare(*approximation, *schur,
                    {schur->coefficients(), {}, {}, m_i.span(), site.span(), nullptr, node.span(), {}, {}, {}},
@@ -232,11 +233,11 @@ void SolveBlock<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
     Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
     Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-    Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<PressureSchur<Dim>> schur,
-    Read<CompactPressure<Dim>> approximation, Read<VelocityBlock<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f,
-    Read<matrix::Mass> g, Update<PressurePreconditioner<Dim>> pressure_factors, Update<WholeFactors> whole,
-    Update<BlockWork<Dim>> work, Write<Fallback> fallback, Write<matrix::Displacement<Dim>> u,
-    Write<matrix::Pressure> p, Write<SolveReport> report) const {
+    Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
+    Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
+    Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g, Update<PressureFactors<Dim>> pressure_factors,
+    Update<WholeFactors> whole, Update<BlockWork<Dim>> work, Write<Fallback> fallback,
+    Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p, Write<SolveReport> report) const {
   const BlockSystem<Dim> system{
       *schur, *approximation, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};
   prepare<Dim>(*schur, *work);
@@ -272,14 +273,16 @@ void SolveBlock<Dim>::operator()(
 }
 
 template <int Dim>
-void SolveVolumeBlock<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-    Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
-    Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-    Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<PressureSchur<Dim>> schur,
-    Read<CompactPressure<Dim>> approximation, Read<VelocityBlock<Dim>> velocity_factors, Read<matrix::VolumeSource> g,
-    Update<PressurePreconditioner<Dim>> pressure_factors, Update<BlockWork<Dim>> work, Update<Fallback> fallback,
-    Write<matrix::Shift<Dim>> d) const {
+void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row,
+                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows,
+                                       Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                       Read<matrix::Divergence<Dim>> divergence,
+                                       Read<matrix::Stabilization<Dim>> stabilization,
+                                       Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
+                                       Read<SchurApproximation<Dim>> approximation,
+                                       Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::VolumeSource> g,
+                                       Update<PressureFactors<Dim>> pressure_factors, Update<BlockWork<Dim>> work,
+                                       Update<Fallback> fallback, Write<matrix::Shift<Dim>> d) const {
   if (!fallback->is_used) {
     const BlockSystem<Dim> system{
         *schur, *approximation, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};

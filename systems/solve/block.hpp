@@ -14,11 +14,11 @@
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
-#include "systems/solve/compact_pressure.hpp"
-#include "systems/solve/pressure_preconditioner.hpp"
-#include "systems/solve/pressure_schur.hpp"
+#include "systems/solve/pressure_factors.hpp"
+#include "systems/solve/schur_approximation.hpp"
+#include "systems/solve/schur_operator.hpp"
 #include "systems/solve/umfpack.hpp"
-#include "systems/solve/velocity_block.hpp"
+#include "systems/solve/velocity_factors.hpp"
 
 namespace minamo {
 
@@ -36,8 +36,8 @@ struct Fallback {
 template <int Dim>
 struct BlockWork {
   Gmres gmres;
-  SlotValues products;
-  typename VelocityBlock<Dim>::Work velocity;
+  TileVectors products;
+  typename VelocityFactors<Dim>::Work velocity;
   Values momentum, mass;  ///< right-hand sides
   Values displacement, pressure;
   Values more_displacement, f, of_velocity;
@@ -52,7 +52,7 @@ struct AssembleSchur {
                   Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                  Write<PressureSchur<Dim>> schur) const;
+                  Write<SchurOperator<Dim>> schur) const;
 };
 
 template <int Dim>
@@ -61,7 +61,7 @@ struct ApproximateSchur {
   void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row, Read<node::Constraint> fixed,
                   Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
-                  Read<PressureSchur<Dim>> schur, Write<CompactPressure<Dim>> approximation) const;
+                  Read<SchurOperator<Dim>> schur, Write<SchurApproximation<Dim>> approximation) const;
 };
 
 template <int Dim>
@@ -69,7 +69,7 @@ struct FactorizeVelocity {
   static constexpr std::string_view doc = "(E60) factors of the velocity block";
   /// \throws StepRejected if there are none.
   void operator()(Read<node::Mass> m_i, Read<matrix::Node> node, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                  Read<PressureSchur<Dim>> schur, Write<VelocityBlock<Dim>> factors) const;
+                  Read<SchurOperator<Dim>> schur, Write<VelocityFactors<Dim>> factors) const;
 };
 
 template <int Dim>
@@ -78,9 +78,9 @@ struct FactorizePressure {
   /// \throws StepRejected if there are none.
   void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Mass> m_i, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::StabilizationScale> scale,
-                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<PressureSchur<Dim>> schur,
-                  Read<CompactPressure<Dim>> approximation, Update<WholeFactors> whole,
-                  Write<PressurePreconditioner<Dim>> factors) const;
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
+                  Read<SchurApproximation<Dim>> approximation, Update<WholeFactors> whole,
+                  Write<PressureFactors<Dim>> factors) const;
 };
 
 /// The operators are read for products with the viscous part, and for the fallback.
@@ -93,9 +93,9 @@ struct SolveBlock {
                   Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                  Read<PressureSchur<Dim>> schur, Read<CompactPressure<Dim>> approximation,
-                  Read<VelocityBlock<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
-                  Update<PressurePreconditioner<Dim>> pressure_factors, Update<WholeFactors> whole,
+                  Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
+                  Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
+                  Update<PressureFactors<Dim>> pressure_factors, Update<WholeFactors> whole,
                   Update<BlockWork<Dim>> work, Write<Fallback> fallback, Write<matrix::Displacement<Dim>> u,
                   Write<matrix::Pressure> p, Write<SolveReport> report) const;
 };
@@ -107,9 +107,9 @@ struct SolveVolumeBlock {
   void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
                   Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<PressureSchur<Dim>> schur,
-                  Read<CompactPressure<Dim>> approximation, Read<VelocityBlock<Dim>> velocity_factors,
-                  Read<matrix::VolumeSource> g, Update<PressurePreconditioner<Dim>> pressure_factors,
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
+                  Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
+                  Read<matrix::VolumeSource> g, Update<PressureFactors<Dim>> pressure_factors,
                   Update<BlockWork<Dim>> work, Update<Fallback> fallback, Write<matrix::Shift<Dim>> d) const;
 };
 

@@ -8,7 +8,7 @@
 #include "systems/solve/monolithic.hpp"
 #include "systems/solve/umfpack.hpp"
 #include "systems/solve/unpack.hpp"
-#include "systems/solve/velocity_block.hpp"
+#include "systems/solve/velocity_factors.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "systems/solve/compact_pressure.hpp"
+#include "systems/solve/schur_approximation.hpp"
 
 #include "engine/parallel.hpp"
 #include "systems/grid/node_volume.hpp"
@@ -12,8 +12,8 @@ namespace minamo {
 
 namespace {
 
-constexpr std::size_t blocks_per_task = 32;
-constexpr std::size_t lanes = RowBlocks<2>::width;
+constexpr std::size_t tiles_per_task = 32;
+constexpr std::size_t tile_width = StencilTiles<2>::width;
 
 /// A row is cut where at least so much of the volume around its node is filled. Fewer whole rows save less in the
 /// factorization than they cost in iterations.
@@ -31,8 +31,8 @@ constexpr std::size_t wider(std::size_t place) {
 }
 
 /// sum[J - I] += weight[K - I] from[J - K] along x, for K and J up to two nodes from I and K.
-/// \param from     entry of the block of the K that has the x of I, those of the next J `step` further
-/// \param to_next  how far the blocks beside it are
+/// \param from     entry of the tile of the K that has the x of I, those of the next J `step` further
+/// \param to_next  how far the tiles beside it are
 template <int Reach>
 [[gnu::always_inline]] inline void add_line(const std::array<Lanes, 5>& weight, const double* from, std::size_t step,
                                             std::size_t to_next, std::array<Lanes, 2 * Reach + 1>& sum) {
@@ -109,46 +109,47 @@ bool wide_stencil_fits(const Grid<Dim>& grid) {
 
 }  // namespace
 
-/// c_v N_IK/(c_a m_K) for the rows I of a block and the nodes K in a line of their stencil, by direction.
+/// c_v N_IK/(c_a m_K) for the rows I of a tile and the nodes K in a line of their stencil, by direction.
 template <int Dim>
-auto CompactPressure<Dim>::surface_weights(const From& from, const Block& block, std::size_t line) const
+auto SchurApproximation<Dim>::surface_weights(const From& from, const Tile& tile, std::size_t line) const
     -> std::array<std::array<Lanes, 5>, Dim> {
-  const BlockEntries<Dim>& push = from.schur.push_entries();
-  const double* to_block = push.at(block.slot);
-  const double* per_mass = per_mass_.data() + block.line(line);
-  std::array<const double*, RowBlocks<Dim>::width> from_block;
-  for (std::size_t lane = 0; lane < from_block.size(); ++lane) {
-    const std::int32_t row = block.row[lane];
-    from_block[lane] = row < 0 ? no_row.data() : from.terms.divergence[static_cast<std::size_t>(row)].data();
+  const TileEntries<Dim>& gradient = from.schur.gradient_entries();
+  const double* to_tile = gradient.at(tile.lane);
+  const double* per_mass = per_mass_.data() + tile.line(line);
+  std::array<const double*, StencilTiles<Dim>::width> from_tile;
+  for (std::size_t i = 0; i < from_tile.size(); ++i) {
+    const std::int32_t row = tile.row[i];
+    from_tile[i] = row < 0 ? no_row.data() : from.terms.divergence[static_cast<std::size_t>(row)].data();
   }
   std::array<std::array<Lanes, 5>, Dim> weight;
   for (std::size_t x = 0; x < 5; ++x) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::size_t entry = Dim * (5 * line + x) + d;
-      weight[d][x] = (load(to_block + entry * lanes) + take(from_block, entry)) *
-                     load(per_mass + d * from.schur.blocks().slots() + x);
+      weight[d][x] = (load(to_tile + entry * tile_width) + take(from_tile, entry)) *
+                     load(per_mass + d * from.schur.tiles().lanes() + x);
     }
   }
   return weight;
 }
 
-/// Adds c_v N (c_a m)^-1 D^T to the rows of a block, J at its place in a stencil of (2 Reach + 1)^d.
+/// Adds c_v N (c_a m)^-1 D^T to the rows of a tile, J at its place in a stencil of (2 Reach + 1)^d.
 template <int Dim>
 template <int Reach>
-void CompactPressure<Dim>::add_surface(const From& from, const Block& block, Lanes* sum) const {
-  const BlockEntries<Dim>& push = from.schur.push_entries();
-  for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line) {
-    const std::uint32_t base = block.beside[line];
-    if (RowBlocks<Dim>::is_beyond(base)) continue;
-    const auto weight = surface_weights(from, block, line);
-    const double* of_line = push.at(base);
-    for (std::size_t on = 0; on < RowBlocks<Dim>::lines; ++on) {
+void SchurApproximation<Dim>::add_surface(const From& from, const Tile& tile, Lanes* sum) const {
+  const TileEntries<Dim>& gradient = from.schur.gradient_entries();
+  for (std::size_t line = 0; line < StencilTiles<Dim>::lines; ++line) {
+    const std::uint32_t base = tile.beside[line];
+    if (StencilTiles<Dim>::is_outside(base)) continue;
+    const auto weight = surface_weights(from, tile, line);
+    const double* of_line = gradient.at(base);
+    for (std::size_t on = 0; on < StencilTiles<Dim>::lines; ++on) {
       const auto begin = line_in<Dim, Reach>(line, on);
       if (!begin) continue;
       std::array<Lanes, 2 * Reach + 1> sum_of_line;
       sum_of_line.fill(Lanes::Zero());
       for (std::size_t d = 0; d < Dim; ++d) {
-        add_line<Reach>(weight[d], of_line + (5 * on * Dim + d) * lanes, Dim * lanes, push.to_next(), sum_of_line);
+        add_line<Reach>(weight[d], of_line + (5 * on * Dim + d) * tile_width, Dim * tile_width, gradient.to_next(),
+                        sum_of_line);
       }
       for (std::size_t x = 0; x < sum_of_line.size(); ++x) sum[*begin + x] += sum_of_line[x];
     }
@@ -156,33 +157,33 @@ void CompactPressure<Dim>::add_surface(const From& from, const Block& block, Lan
 }
 
 template <int Dim>
-void CompactPressure<Dim>::fill_block(const From& from, const Block& block) {
+void SchurApproximation<Dim>::fill_tile(const From& from, const Tile& tile) {
   const Operators<Dim>& t = from.terms;
   constexpr std::size_t own = stencil_size<Dim> / 2;
   const auto of_row = [](std::int32_t row) { return static_cast<std::size_t>(row); };
-  const bool reaches_beyond =
-      std::any_of(block.row.begin(), block.row.end(), [&](std::int32_t row) { return row >= 0 && thin_[of_row(row)]; });
+  const bool reaches_far = std::any_of(tile.row.begin(), tile.row.end(),
+                                       [&](std::int32_t row) { return row >= 0 && is_partially_filled_[of_row(row)]; });
   std::array<Lanes, stencil_size<Dim>> sum;
-  if (reaches_beyond) {
+  if (reaches_far) {
     std::array<Lanes, power(std::size_t{9}, Dim)> wide;
     wide.fill(Lanes::Zero());
-    add_surface<4>(from, block, wide.data());
+    add_surface<4>(from, tile, wide.data());
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = wide[wider<Dim, 4>(k)];
-    fill_beyond(from, block, wide.data());
+    fill_far_entries(from, tile, wide.data());
   } else {
     sum.fill(Lanes::Zero());
-    add_surface<2>(from, block, sum.data());
+    add_surface<2>(from, tile, sum.data());
   }
-  const double* pressure = from.schur.spread_entries().at(block.slot) + Dim * lanes;
-  double* entry = entries_.at(block.slot);
+  const double* pressure = from.schur.divergence_entries().at(tile.lane) + Dim * tile_width;
+  double* entry = entries_.at(tile.lane);
   for (std::size_t k = 0; k < sum.size(); ++k) {
-    store(sum[k] + from.of_laplacian * load(pressure + (Dim + 1) * k * lanes), entry + k * lanes);
+    store(sum[k] + from.of_laplacian * load(pressure + (Dim + 1) * k * tile_width), entry + k * tile_width);
   }
-  for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
-    if (block.row[lane] < 0) continue;
-    const std::size_t r = of_row(block.row[lane]);
-    entry[own * lanes + lane] += (1 - from.of_laplacian) * t.pressure_per_mass * t.m_i[t.node[r]];
-    scale_[r] = 1 / std::sqrt(std::max(entry[own * lanes + lane], pressure[(Dim + 1) * own * lanes + lane]));
+  for (std::size_t i = 0; i < StencilTiles<Dim>::width; ++i) {
+    if (tile.row[i] < 0) continue;
+    const std::size_t r = of_row(tile.row[i]);
+    entry[own * tile_width + i] += (1 - from.of_laplacian) * t.pressure_per_mass * t.m_i[t.node[r]];
+    scale_[r] = 1 / std::sqrt(std::max(entry[own * tile_width + i], pressure[(Dim + 1) * own * tile_width + i]));
   }
 }
 
@@ -196,7 +197,7 @@ struct WidePlace {
 
 /// The places of the wide stencil that are not in the compact one.
 template <int Dim>
-const auto& places_beyond() {
+const auto& far_places() {
   static const auto places = [] {
     std::array<WidePlace<Dim>, power(std::size_t{9}, Dim) - stencil_size<Dim>> made;
     std::size_t count = 0;
@@ -214,55 +215,55 @@ const auto& places_beyond() {
 
 }  // namespace
 
-/// Keeps of the wide stencil what lies beyond the compact one, in the rows of thin nodes.
+/// Keeps of the wide stencil what lies beyond the compact one, in the rows of partially filled nodes.
 template <int Dim>
-void CompactPressure<Dim>::fill_beyond(const From& from, const Block& block, const Lanes* wide) {
-  for (std::size_t lane = 0; lane < RowBlocks<Dim>::width; ++lane) {
-    if (block.row[lane] < 0 || !thin_[static_cast<std::size_t>(block.row[lane])]) continue;
-    auto& beyond = beyond_[static_cast<std::size_t>(block.row[lane])];
-    WideStencil<Dim> stencil(from.terms, from.grid, static_cast<std::size_t>(block.row[lane]));
-    for (const auto& [number, offset] : places_beyond<Dim>()) {
-      const double value = wide[number][static_cast<Eigen::Index>(lane)];
+void SchurApproximation<Dim>::fill_far_entries(const From& from, const Tile& tile, const Lanes* wide) {
+  for (std::size_t i = 0; i < StencilTiles<Dim>::width; ++i) {
+    if (tile.row[i] < 0 || !is_partially_filled_[static_cast<std::size_t>(tile.row[i])]) continue;
+    auto& far = far_entries_[static_cast<std::size_t>(tile.row[i])];
+    WideStencil<Dim> stencil(from.terms, from.grid, static_cast<std::size_t>(tile.row[i]));
+    for (const auto& [number, offset] : far_places<Dim>()) {
+      const double value = wide[number][static_cast<Eigen::Index>(i)];
       if (value == 0) continue;
       const std::int32_t there = stencil.row(offset);
-      if (there >= 0) beyond.push_back({static_cast<std::uint32_t>(there), value});
+      if (there >= 0) far.push_back({static_cast<std::uint32_t>(there), value});
     }
   }
 }
 
 template <int Dim>
-void CompactPressure<Dim>::fill_rows(const From& from, const Fluid& fluid) {
+void SchurApproximation<Dim>::fill_rows(const From& from, const Fluid& fluid) {
   const Operators<Dim>& t = from.terms;
-  const RowBlocks<Dim>& blocks = from.schur.blocks();
+  const StencilTiles<Dim>& tiles = from.schur.tiles();
   const bool may_be_whole = wide_stencil_fits(from.grid);
-  per_mass_.assign(Dim * blocks.slots(), 0.0);
-  for_each_row(blocks.rows(), [&](std::size_t r) {
+  per_mass_.assign(Dim * tiles.lanes(), 0.0);
+  for_each_row(tiles.rows(), [&](std::size_t r) {
     const std::uint32_t i = t.node[r];
-    thin_[r] = may_be_whole && t.m_i[i] < full * fluid.density * full_volume<Dim>(from.grid, t.site[i]);
-    beyond_[r].clear();
+    is_partially_filled_[r] = may_be_whole && t.m_i[i] < full * fluid.density * full_volume<Dim>(from.grid, t.site[i]);
+    far_entries_[r].clear();
     for (std::size_t d = 0; d < Dim; ++d) {
       const bool held = t.fixed[i] >> d & 1;
-      per_mass_[d * blocks.slots() + blocks.slot(r)] = held ? 0 : t.c_v / (t.c_a * t.m_i[i]);
+      per_mass_[d * tiles.lanes() + tiles.lane(r)] = held ? 0 : t.c_v / (t.c_a * t.m_i[i]);
     }
   });
-  for (std::size_t d = 0; d < Dim; ++d) blocks.fill_images(per_mass_.data() + d * blocks.slots());
+  for (std::size_t d = 0; d < Dim; ++d) tiles.fill_ghosts(per_mass_.data() + d * tiles.lanes());
 }
 
 template <int Dim>
-void CompactPressure<Dim>::assemble(const Operators<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
-                                    double of_laplacian, const PressureSchur<Dim>& schur) {
+void SchurApproximation<Dim>::assemble(const Operators<Dim>& t, const Grid<Dim>& grid, const Fluid& fluid,
+                                       double of_laplacian, const SchurOperator<Dim>& schur) {
   const From from{t, grid, schur, of_laplacian};
-  entries_.resize(schur.blocks(), stencil_size<Dim>);
+  entries_.resize(schur.tiles(), stencil_size<Dim>);
   scale_.resize(schur.rows());
-  thin_.resize(schur.rows());
-  beyond_.resize(schur.rows());
+  is_partially_filled_.resize(schur.rows());
+  far_entries_.resize(schur.rows());
   fill_rows(from, fluid);
-  const auto& blocks = schur.blocks().blocks();
+  const auto& tiles = schur.tiles().tiles();
   for_each_row(
-      blocks.size(), [&](std::size_t b) { fill_block(from, blocks[b]); }, blocks_per_task);
+      tiles.size(), [&](std::size_t b) { fill_tile(from, tiles[b]); }, tiles_per_task);
 }
 
-template class CompactPressure<2>;
-template class CompactPressure<3>;
+template class SchurApproximation<2>;
+template class SchurApproximation<3>;
 
 }  // namespace minamo

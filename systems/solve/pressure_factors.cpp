@@ -1,4 +1,4 @@
-#include "systems/solve/pressure_preconditioner.hpp"
+#include "systems/solve/pressure_factors.hpp"
 
 #include "engine/step_control.hpp"
 
@@ -59,7 +59,7 @@ double viscous_part(const Coefficients& c, const Grid<Dim>& grid, const Fluid& f
 
 /// Sorts the order by the coordinate of an axis, which is in a range; rows with the same one stay as they are.
 template <int Dim>
-void PressurePreconditioner<Dim>::sort_along(std::size_t axis, const std::array<int, 2>& range) {
+void PressureFactors<Dim>::sort_along(std::size_t axis, const std::array<int, 2>& range) {
   const auto coordinate = [&](std::uint32_t row) { return static_cast<std::size_t>(site_[row][axis] - range[0]); };
   if (std::is_sorted(order_.begin(), order_.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return coordinate(a) < coordinate(b); })) {
@@ -75,7 +75,7 @@ void PressurePreconditioner<Dim>::sort_along(std::size_t axis, const std::array<
 
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
-void PressurePreconditioner<Dim>::find_order(const Operators<Dim>& t) {
+void PressureFactors<Dim>::find_order(const Operators<Dim>& t) {
   std::array<std::array<int, 2>, Dim> range;
   range.fill({std::numeric_limits<int>::max(), -1});
   site_.resize(t.node.size());
@@ -99,54 +99,54 @@ void PressurePreconditioner<Dim>::find_order(const Operators<Dim>& t) {
 
 /// The first and the last of the neighbours of every row.
 template <int Dim>
-void PressurePreconditioner<Dim>::find_neighbours(const RowBlocks<Dim>& blocks) {
-  constexpr std::size_t width = RowBlocks<Dim>::width;
-  first_in_slot_.resize(blocks.slots());
-  last_in_slot_.resize(blocks.slots());
-  for (std::size_t slot = 0; slot < blocks.slots(); ++slot) {
-    const std::int32_t row = blocks.row(slot);
-    first_in_slot_[slot] = row < 0 ? std::numeric_limits<std::uint32_t>::max() : place_[static_cast<std::size_t>(row)];
-    last_in_slot_[slot] = row < 0 ? 0 : place_[static_cast<std::size_t>(row)];
+void PressureFactors<Dim>::find_neighbours(const StencilTiles<Dim>& tiles) {
+  constexpr std::size_t width = StencilTiles<Dim>::width;
+  first_in_lane_.resize(tiles.lanes());
+  last_in_lane_.resize(tiles.lanes());
+  for (std::size_t lane = 0; lane < tiles.lanes(); ++lane) {
+    const std::int32_t row = tiles.row(lane);
+    first_in_lane_[lane] = row < 0 ? std::numeric_limits<std::uint32_t>::max() : place_[static_cast<std::size_t>(row)];
+    last_in_lane_[lane] = row < 0 ? 0 : place_[static_cast<std::size_t>(row)];
   }
-  const auto find = [&](const typename RowBlocks<Dim>::Block& block) {
+  const auto find = [&](const typename StencilTiles<Dim>::Tile& tile) {
     std::array<std::uint32_t, width> first, last;
     first.fill(std::numeric_limits<std::uint32_t>::max());
     last.fill(0);
-    for (std::size_t line = 0; line < RowBlocks<Dim>::lines; ++line) {
-      if (RowBlocks<Dim>::is_beyond(block.beside[line])) continue;
-      const std::uint32_t* first_of_line = first_in_slot_.data() + block.line(line);
-      const std::uint32_t* last_of_line = last_in_slot_.data() + block.line(line);
+    for (std::size_t line = 0; line < StencilTiles<Dim>::lines; ++line) {
+      if (StencilTiles<Dim>::is_outside(tile.beside[line])) continue;
+      const std::uint32_t* first_of_line = first_in_lane_.data() + tile.line(line);
+      const std::uint32_t* last_of_line = last_in_lane_.data() + tile.line(line);
       for (std::size_t x = 0; x < 5; ++x) {
-        for (std::size_t lane = 0; lane < width; ++lane) {
-          first[lane] = std::min(first[lane], first_of_line[x + lane]);
-          last[lane] = std::max(last[lane], last_of_line[x + lane]);
+        for (std::size_t i = 0; i < width; ++i) {
+          first[i] = std::min(first[i], first_of_line[x + i]);
+          last[i] = std::max(last[i], last_of_line[x + i]);
         }
       }
     }
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      if (block.row[lane] < 0) continue;
-      const std::uint32_t place = place_[static_cast<std::size_t>(block.row[lane])];
-      envelope_.first[place] = first[lane];
-      envelope_.last[place] = last[lane];
+    for (std::size_t i = 0; i < width; ++i) {
+      if (tile.row[i] < 0) continue;
+      const std::uint32_t place = place_[static_cast<std::size_t>(tile.row[i])];
+      envelope_.first[place] = first[i];
+      envelope_.last[place] = last[i];
     }
   };
   for_each_row(
-      blocks.blocks().size(), [&](std::size_t b) { find(blocks.blocks()[b]); }, rows_per_task);
+      tiles.tiles().size(), [&](std::size_t b) { find(tiles.tiles()[b]); }, rows_per_task);
 }
 
 template <int Dim>
-void PressurePreconditioner<Dim>::find_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks) {
+void PressureFactors<Dim>::find_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles) {
   auto& [first, last] = envelope_;
   first.resize(order_.size());
   last.resize(order_.size());
-  find_neighbours(blocks);
+  find_neighbours(tiles);
   // Entries beyond the stencil may have none across from them.
   const auto include = [&](std::uint32_t row, std::uint32_t column) {
     first[row] = std::min(first[row], column);
     last[row] = std::max(last[row], column);
   };
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    for (const auto& entry : compact.beyond(r)) {
+    for (const auto& entry : compact.far_entries(r)) {
       include(place_[r], place_[entry.row]);
       include(place_[entry.row], place_[r]);
     }
@@ -155,8 +155,8 @@ void PressurePreconditioner<Dim>::find_envelope(const CompactPressure<Dim>& comp
 
 template <int Dim>
 template <class Scalar>
-bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks,
-                                                     double least, TwoEndedLu<Scalar>& factors) {
+bool PressureFactors<Dim>::factorize_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles,
+                                              double least, TwoEndedLu<Scalar>& factors) {
   factors.start(envelope_);
   for_each_row(
       order_.size(),
@@ -164,34 +164,34 @@ bool PressurePreconditioner<Dim>::factorize_envelope(const CompactPressure<Dim>&
         const auto add = [&](std::size_t r_j, double value) {
           factors.at(place_[r], place_[r_j]) += static_cast<Scalar>(value);
         };
-        compact.for_each_near(blocks, r, add);
-        for (const auto& entry : compact.beyond(r)) add(entry.row, entry.value);
+        compact.for_each_near(tiles, r, add);
+        for (const auto& entry : compact.far_entries(r)) add(entry.row, entry.value);
       },
       rows_per_task);
   return factors.factorize(least);
 }
 
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_narrow(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks,
-                                                   WholeFactors& whole) {
+bool PressureFactors<Dim>::factorize_narrow(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles,
+                                            WholeFactors& whole) {
   const double cost = envelope_cost(envelope_.first);
   if (whole.steps == 0 && cost > narrowest_single && cost < widest_single) {
     kind_ = Kind::single_envelope;
-    if (factorize_envelope(compact, blocks, least_pivot, single_)) return true;
+    if (factorize_envelope(compact, tiles, least_pivot, single_)) return true;
     whole.steps = steps_with_whole_factors;
   }
   kind_ = Kind::double_envelope;
-  return cost < widest_double && factorize_envelope(compact, blocks, 0, double_);
+  return cost < widest_double && factorize_envelope(compact, tiles, 0, double_);
 }
 
-/// Entries beyond the stencil above the diagonal that have none across from them, by the row across: a thin row has
-/// some, a whole one none.
+/// Entries beyond the stencil above the diagonal that have none across from them, by the row across: a
+/// partially filled row has some, a full one none.
 template <int Dim>
-void PressurePreconditioner<Dim>::find_one_sided(const CompactPressure<Dim>& compact) {
+void PressureFactors<Dim>::find_one_sided(const SchurApproximation<Dim>& compact) {
   one_sided_.clear();
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    for (const auto& entry : compact.beyond(r)) {
-      const auto& across = compact.beyond(entry.row);
+    for (const auto& entry : compact.far_entries(r)) {
+      const auto& across = compact.far_entries(entry.row);
       const auto is_back = [r](const auto& back) { return back.row == r; };
       if (entry.row > r && std::none_of(across.begin(), across.end(), is_back)) {
         one_sided_.push_back({entry.row, r, entry.value});
@@ -204,17 +204,16 @@ void PressurePreconditioner<Dim>::find_one_sided(const CompactPressure<Dim>& com
 
 /// The symmetric part of the compact matrix.
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_symmetric(const CompactPressure<Dim>& compact,
-                                                      const RowBlocks<Dim>& blocks) {
+bool PressureFactors<Dim>::factorize_symmetric(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles) {
   find_one_sided(compact);
   auto next = one_sided_.begin();
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    compact.for_each_near_pair(blocks, r, [&](std::size_t r_j, double value, double back) {
+    compact.for_each_near_pair(tiles, r, [&](std::size_t r_j, double value, double back) {
       if (r_j <= r) sparse_.add(r, r_j, (value + back) / 2);
     });
-    for (const auto& entry : compact.beyond(r)) {
-      if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(compact.beyond(entry.row), r)) / 2);
+    for (const auto& entry : compact.far_entries(r)) {
+      if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(compact.far_entries(entry.row), r)) / 2);
     }
     for (; next != one_sided_.end() && next->row == r; ++next) sparse_.add(r, next->column, next->value / 2);
   }
@@ -223,36 +222,34 @@ bool PressurePreconditioner<Dim>::factorize_symmetric(const CompactPressure<Dim>
 
 /// T + e, with as much of the diagonal as e: never indefinite, and no larger where e alone holds a pressure.
 template <int Dim>
-bool PressurePreconditioner<Dim>::factorize_pressure(const CompactPressure<Dim>& compact,
-                                                     const PressureSchur<Dim>& schur) {
+bool PressureFactors<Dim>::factorize_pressure(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur) {
   sparse_.start(order_.size());
   for (std::size_t r = 0; r < order_.size(); ++r) {
     const double more = 1e-6 / (compact.scale()[r] * compact.scale()[r]);
-    schur.spread_entries().for_each_neighbour(schur.blocks(), r, Dim, Dim + 1,
-                                              [&](std::size_t, std::size_t r_j, double value) {
-                                                if (r_j <= r && value != 0)
-                                                  sparse_.add(r, r_j, value + (r_j == r ? more : 0));
-                                              });
+    schur.divergence_entries().for_each_neighbour(schur.tiles(), r, Dim, Dim + 1,
+                                                  [&](std::size_t, std::size_t r_j, double value) {
+                                                    if (r_j <= r && value != 0)
+                                                      sparse_.add(r, r_j, value + (r_j == r ? more : 0));
+                                                  });
   }
   return sparse_.factorize(is_incomplete() ? SparseCholesky::Kind::incomplete : SparseCholesky::Kind::complete);
 }
 
 template <int Dim>
-void PressurePreconditioner<Dim>::factorize_sparse(const CompactPressure<Dim>& compact,
-                                                   const PressureSchur<Dim>& schur) {
+void PressureFactors<Dim>::factorize_sparse(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur) {
   // The symmetric part can be indefinite in spray.
-  if (factorize_symmetric(compact, schur.blocks()) || factorize_pressure(compact, schur)) return;
+  if (factorize_symmetric(compact, schur.tiles()) || factorize_pressure(compact, schur)) return;
   throw StepRejected("solve: the pressure matrix is not positive definite");
 }
 
 template <int Dim>
-void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur,
-                                          const Operators<Dim>& terms, double viscous_part, WholeFactors& whole) {
+void PressureFactors<Dim>::prepare(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur,
+                                   const Operators<Dim>& terms, double viscous_part, WholeFactors& whole) {
   find_order(terms);
-  find_envelope(compact, schur.blocks());
+  find_envelope(compact, schur.tiles());
   ordered_.resize(order_.size());
   const bool has_whole = whole.steps > 0;
-  const bool is_narrow = factorize_narrow(compact, schur.blocks(), whole);
+  const bool is_narrow = factorize_narrow(compact, schur.tiles(), whole);
   if (has_whole) --whole.steps;
   if (!is_narrow) {
     kind_ = Dim == 3 && order_.size() > most_complete && !has_whole ? Kind::incomplete : Kind::complete;
@@ -264,8 +261,8 @@ void PressurePreconditioner<Dim>::prepare(const CompactPressure<Dim>& compact, c
 }
 
 template <int Dim>
-bool PressurePreconditioner<Dim>::complete(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur,
-                                           WholeFactors& whole) {
+bool PressureFactors<Dim>::complete(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur,
+                                    WholeFactors& whole) {
   if (!is_incomplete()) return false;
   kind_ = Kind::complete;
   factorize_sparse(compact, schur);
@@ -274,7 +271,7 @@ bool PressurePreconditioner<Dim>::complete(const CompactPressure<Dim>& compact, 
 }
 
 template <int Dim>
-void PressurePreconditioner<Dim>::solve(const Values& r, Values& out) {
+void PressureFactors<Dim>::solve(const Values& r, Values& out) {
   if (kind_ == Kind::complete || is_incomplete()) {
     out = r;
     sparse_.solve(out);
@@ -288,7 +285,7 @@ void PressurePreconditioner<Dim>::solve(const Values& r, Values& out) {
 
 template double viscous_part<2>(const Coefficients&, const Grid<2>&, const Fluid&, const matrix::StabilizationScale&);
 template double viscous_part<3>(const Coefficients&, const Grid<3>&, const Fluid&, const matrix::StabilizationScale&);
-template class PressurePreconditioner<2>;
-template class PressurePreconditioner<3>;
+template class PressureFactors<2>;
+template class PressureFactors<3>;
 
 }  // namespace minamo

@@ -3,9 +3,10 @@
 /// The rows of the matrix tables along the lines of the grid, four nodes side by side, so that a sum over a stencil is
 /// vectorized over nodes: the neighbours of four nodes at one offset lie side by side, too.
 ///
-/// Every node has a slot. A line (all nodes with the same y, z) consists of runs of blocks of four slots; around every
-/// node there is one more block on each side. Slots without a row hold zeros, and so does a run of its own that stands
-/// for everything beyond the water. Beyond the ends of a periodic x axis there are images of the nodes at the other.
+/// Every node has a lane. A line (all nodes with the same y, z) consists of runs of tiles of four lanes; around every
+/// node there is one more tile on each side, as padding. Lanes without a row hold zeros, and so does a run of its own
+/// that stands for all that is outside the liquid. Beyond the ends of a periodic x axis there are ghosts of the nodes
+/// at the other.
 
 #include "components/grid.hpp"
 #include "components/types.hpp"
@@ -32,14 +33,14 @@ inline Lanes take(const std::array<const double*, 4>& rows, std::size_t i) {
 inline constexpr std::array<double, 4 * stencil_size<3>> no_row{};
 
 template <int Dim>
-class RowBlocks {
+class StencilTiles {
  public:
   static constexpr std::size_t width = 4;
   /// Lines that a stencil sees.
   static constexpr std::size_t lines = power(5, Dim - 1);
-  struct Block {
-    std::uint32_t slot;                        ///< the first
-    std::array<std::uint32_t, lines> beside;   ///< slot with the same x in a line of the stencil, y fastest
+  struct Tile {
+    std::uint32_t lane;                        ///< the first
+    std::array<std::uint32_t, lines> beside;   ///< lane with the same x in a line of the stencil, y fastest
     std::array<std::int32_t, width> row;       ///< -1 where there is none
     std::size_t at(std::size_t place) const {  ///< where the neighbour at a place of the stencil begins
       return line(place / 5) + place % 5;
@@ -50,43 +51,43 @@ class RowBlocks {
   /// \param node  of every row, in the order of their sites
   void build(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node);
 
-  std::size_t rows() const { return slot_.size(); }
-  std::size_t slots() const { return row_.size(); }
-  const std::vector<Block>& blocks() const { return blocks_; }
-  std::uint32_t slot(std::size_t row) const { return slot_[row]; }
-  /// The row of a slot, of an image too; -1 if there is none.
-  std::int32_t row(std::size_t slot) const { return row_[slot]; }
-  const Block& block(std::size_t row) const { return blocks_[block_of_row_[row]]; }
+  std::size_t rows() const { return lane_.size(); }
+  std::size_t lanes() const { return row_.size(); }
+  const std::vector<Tile>& tiles() const { return tiles_; }
+  std::uint32_t lane(std::size_t row) const { return lane_[row]; }
+  /// The row of a lane, of a periodic ghost too; -1 if there is none.
+  std::int32_t row(std::size_t lane) const { return row_[lane]; }
+  const Tile& tile(std::size_t row) const { return tiles_[tile_of_row_[row]]; }
   /// Calls body(place in the stencil, row) for the neighbours of a row that have one.
   template <class Body>
   void for_each_neighbour(std::size_t row, const Body& body) const {
-    const Block& of_row = block(row);
-    const std::size_t lane = slot_[row] % width;
+    const Tile& of_row = tile(row);
+    const std::size_t i = lane_[row] % width;
     for (std::size_t line = 0; line < lines; ++line) {
-      if (is_beyond(of_row.beside[line])) continue;
-      const std::int32_t* there = row_.data() + of_row.beside[line] + lane - 2;
+      if (is_outside(of_row.beside[line])) continue;
+      const std::int32_t* there = row_.data() + of_row.beside[line] + i - 2;
       for (std::size_t x = 0; x < 5; ++x) {
         if (there[x] >= 0) body(5 * line + x, static_cast<std::size_t>(there[x]));
       }
     }
   }
-  /// Whether a block has all rows and they all their neighbours.
-  bool is_whole(const Block& block) const;
-  /// Gives images what their nodes have.
-  void fill_images(double* of_slot) const {
-    for_each_image([&](std::uint32_t from, std::uint32_t to) { of_slot[to] = of_slot[from]; });
+  /// Whether a tile has all rows and they all their neighbours.
+  bool is_whole(const Tile& tile) const;
+  /// Gives periodic ghosts what their nodes have.
+  void fill_ghosts(double* of_lane) const {
+    for_each_ghost([&](std::uint32_t from, std::uint32_t to) { of_lane[to] = of_lane[from]; });
   }
-  /// Whether a slot beside a block stands for what is beyond the water.
-  static constexpr bool is_beyond(std::uint32_t beside) { return beside == width; }
-  /// Calls body(slot of the node, slot of its image).
+  /// Whether a lane beside a tile stands for what is beyond the water.
+  static constexpr bool is_outside(std::uint32_t beside) { return beside == width; }
+  /// Calls body(lane of the node, lane of its periodic ghost).
   template <class Body>
-  void for_each_image(const Body& body) const {
-    for (const auto& [from, to] : images_) body(from, to);
+  void for_each_ghost(const Body& body) const {
+    for (const auto& [from, to] : ghosts_) body(from, to);
   }
-  /// Calls body(slot) for the first slots of blocks without a row.
+  /// Calls body(lane) for the first lanes of tiles without a row.
   template <class Body>
-  void for_each_margin(const Body& body) const {
-    for (const std::uint32_t slot : margins_) body(slot);
+  void for_each_padding(const Body& body) const {
+    for (const std::uint32_t lane : padding_) body(lane);
   }
 
  private:
@@ -101,55 +102,55 @@ class RowBlocks {
     std::uint32_t length;
   };
   void find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>> site, std::span<const std::uint32_t> node);
-  void find_blocks(const Grid<Dim>& grid);
-  void cover(int block);
+  void find_tiles(const Grid<Dim>& grid);
+  void cover(int tile);
   std::array<std::int32_t, lines> lines_around(const Grid<Dim>& grid, std::size_t number) const;
-  std::uint32_t slot_in_line(std::int32_t line, int block) const;
+  std::uint32_t lane_in_line(std::int32_t line, int tile) const;
 
   std::vector<Line> lines_;
   std::vector<Run> runs_;
-  std::vector<int> first_block_;  ///< of every run, counted along x
-  std::vector<Block> blocks_;
-  std::vector<std::uint32_t> slot_;
-  std::vector<std::uint32_t> block_of_row_;
+  std::vector<int> first_tile_;  ///< of every run, counted along x
+  std::vector<Tile> tiles_;
+  std::vector<std::uint32_t> lane_;
+  std::vector<std::uint32_t> tile_of_row_;
   std::vector<std::int32_t> row_;
-  std::vector<std::uint32_t> margins_;
-  std::vector<std::array<std::uint32_t, 2>> images_;
+  std::vector<std::uint32_t> padding_;
+  std::vector<std::array<std::uint32_t, 2>> ghosts_;
 };
 
-/// `entries` numbers per slot. Those of a block lie together, its four slots side by side: a product streams through
+/// `entries` numbers per lane. Those of a tile lie together, its four lanes side by side: a product streams through
 /// memory.
 template <int Dim>
-class BlockEntries {
+class TileEntries {
  public:
-  static constexpr std::size_t width = RowBlocks<Dim>::width;
+  static constexpr std::size_t width = StencilTiles<Dim>::width;
 
-  void resize(const RowBlocks<Dim>& blocks, std::size_t entries) {
+  void resize(const StencilTiles<Dim>& tiles, std::size_t entries) {
     entries_ = entries;
-    values_.resize(entries * blocks.slots());
+    values_.resize(entries * tiles.lanes());
   }
-  /// Entry 0 of a slot; entry e stands e * width further, those of the blocks beside it to_next() further or before.
-  double* at(std::size_t slot) { return values_.data() + place(slot); }
-  const double* at(std::size_t slot) const { return values_.data() + place(slot); }
+  /// Entry 0 of a lane; entry e stands e * width further, those of the tiles beside it to_next() further or before.
+  double* at(std::size_t lane) { return values_.data() + place(lane); }
+  const double* at(std::size_t lane) const { return values_.data() + place(lane); }
   std::size_t to_next() const { return width * entries_; }
   /// Calls body(place in the stencil, row of the neighbour, entry) for the neighbours of a row, whose entries are every
   /// `step`-th from the first.
   template <class Body>
-  void for_each_neighbour(const RowBlocks<Dim>& blocks, std::size_t row, std::size_t first, std::size_t step,
+  void for_each_neighbour(const StencilTiles<Dim>& tiles, std::size_t row, std::size_t first, std::size_t step,
                           const Body& body) const {
-    const double* entry = at(blocks.slot(row)) + first * width;
-    blocks.for_each_neighbour(row, [&](std::size_t k, std::size_t other) { body(k, other, entry[k * step * width]); });
+    const double* entry = at(tiles.lane(row)) + first * width;
+    tiles.for_each_neighbour(row, [&](std::size_t k, std::size_t other) { body(k, other, entry[k * step * width]); });
   }
 
  private:
-  std::size_t place(std::size_t slot) const { return slot / width * to_next() + slot % width; }
+  std::size_t place(std::size_t lane) const { return lane / width * to_next() + lane % width; }
   std::size_t entries_ = 0;
   Values values_;
 };
 
-/// An entry of the slots from two before a block to two behind it, four side by side.
-/// \param entry    of the block
-/// \param to_next  BlockEntries::to_next()
+/// An entry of the lanes from two before a tile to two behind it, four side by side.
+/// \param entry    of the tile
+/// \param to_next  TileEntries::to_next()
 inline std::array<Lanes, 5> around(const double* entry, std::size_t to_next) {
   const auto four = [](const double* from) {
     Four value;

@@ -3,7 +3,7 @@
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
-#include "systems/solve/pressure_schur.hpp"
+#include "systems/solve/schur_operator.hpp"
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -46,24 +46,24 @@ double difference(const Values& a, const Values& b) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("products with the blocks of (E55) are those of the matrix", "[property]", ((int Dim), Dim), 2,
+TEMPLATE_TEST_CASE_SIG("products with the tiles of (E55) are those of the matrix", "[property]", ((int Dim), Dim), 2,
                        3) {
   const std::string quadrature = GENERATE("mixed", "particles");
   CAPTURE(quadrature);
   SceneRun run(with(water<Dim>(), {R"(/quadrature={"scheme": ")" + quadrature + "\"}"}));
   run.step(2);
-  PressureSchur<Dim> schur;
+  SchurOperator<Dim> schur;
   schur.assemble(dense::terms_of_step<Dim>(run.world()), run.world().template resource<Grid<Dim>>());
   // What liquid that fills its cells saves is used there, and nowhere else.
-  CHECK((schur.inner_blocks() > 0) == (quadrature == "mixed"));
-  CHECK(schur.inner_blocks() < schur.rows() / 8);
+  CHECK((schur.inner_tiles() > 0) == (quadrature == "mixed"));
+  CHECK(schur.inner_tiles() < schur.rows() / 8);
 
   const Eigen::MatrixXd matrix = dense::as_assembled<Dim>(run.world()).matrix;
   const Values p = random_values(schur.rows(), 1);
   Values w = random_values(Dim * schur.rows(), 2);
-  Values pushed(w.size()), spread(p.size()), pushed_by_matrix(w.size(), 0.0), spread_by_matrix(p.size(), 0.0);
+  Values gradient(w.size()), spread(p.size()), gradient_by_matrix(w.size(), 0.0), divergence_by_matrix(p.size(), 0.0);
   for (std::size_t i = 0; i < w.size(); ++i) {
-    if (schur.mobility()[i] == 0) w[i] = 0;  // towards a wall
+    if (schur.inverse_diagonal()[i] == 0) w[i] = 0;  // towards a wall
   }
   Eigen::VectorXd x(matrix.rows());
   const auto unknown = [](std::size_t r, std::size_t d) { return static_cast<Eigen::Index>((Dim + 1) * r + d); };
@@ -72,21 +72,21 @@ TEMPLATE_TEST_CASE_SIG("products with the blocks of (E55) are those of the matri
     x[unknown(r, Dim)] = p[r];
   }
   for (std::size_t r = 0; r < p.size(); ++r) {
-    spread_by_matrix[r] = matrix.row(unknown(r, Dim)).dot(x);
+    divergence_by_matrix[r] = matrix.row(unknown(r, Dim)).dot(x);
     for (std::size_t d = 0; d < Dim; ++d) {
-      if (schur.mobility()[Dim * r + d] == 0) continue;
+      if (schur.inverse_diagonal()[Dim * r + d] == 0) continue;
       for (std::size_t s = 0; s < p.size(); ++s) {
-        pushed_by_matrix[Dim * r + d] -= matrix(unknown(r, d), unknown(s, Dim)) * p[s];
+        gradient_by_matrix[Dim * r + d] -= matrix(unknown(r, d), unknown(s, Dim)) * p[s];
       }
     }
   }
-  SlotValues work;
+  TileVectors work;
   schur.start(work);
   schur.apply_divergence(w, p, work, spread);
-  schur.apply_gradient(p, work, pushed);
+  schur.apply_gradient(p, work, gradient);
   for (std::size_t i = 0; i < w.size(); ++i) {
-    if (schur.mobility()[i] == 0) pushed[i] = 0;
+    if (schur.inverse_diagonal()[i] == 0) gradient[i] = 0;
   }
-  CHECK(difference(spread, spread_by_matrix) < 8e-15);  // sums of 75 and 500 terms: 9e-16 measured
-  CHECK(difference(pushed, pushed_by_matrix) < 8e-15);
+  CHECK(difference(spread, divergence_by_matrix) < 8e-15);  // sums of 75 and 500 terms: 9e-16 measured
+  CHECK(difference(gradient, gradient_by_matrix) < 8e-15);
 }

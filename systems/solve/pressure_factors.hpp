@@ -8,7 +8,7 @@
 #include "components/solver.hpp"
 #include "components/step.hpp"
 #include "systems/solve/cholesky.hpp"
-#include "systems/solve/compact_pressure.hpp"
+#include "systems/solve/schur_approximation.hpp"
 #include "systems/solve/two_ended_lu.hpp"
 
 namespace minamo {
@@ -23,17 +23,17 @@ double viscous_part(const Coefficients& coefficients, const Grid<Dim>& grid, con
                     const matrix::StabilizationScale& scale);
 
 template <int Dim>
-class PressurePreconditioner {
+class PressureFactors {
  public:
   using rows_of = ActiveNodes;
   static constexpr ComponentInfo info{"solve.pressure_factors", "P^-1", "", Lifetime::scratch};
 
   /// \throws StepRejected if the matrix cannot be factorized, std::bad_alloc if its factors do not fit into memory.
-  void prepare(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, const Operators<Dim>& terms,
+  void prepare(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur, const Operators<Dim>& terms,
                double viscous_part, WholeFactors& whole);
   /// Whole factors in the place of incomplete ones, with which GMRES may not converge where few particles have many
   /// nodes. \return whether they were incomplete. \throws as prepare()
-  bool complete(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur, WholeFactors& whole);
+  bool complete(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur, WholeFactors& whole);
   bool is_incomplete() const { return kind_ == Kind::incomplete; }
   /// out = about S^-1 r.
   void solve(const Values& r, Values& out);
@@ -41,23 +41,23 @@ class PressurePreconditioner {
  private:
   void find_order(const Operators<Dim>& terms);
   void sort_along(std::size_t axis, const std::array<int, 2>& range);
-  void find_neighbours(const RowBlocks<Dim>& blocks);
-  void find_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks);
+  void find_neighbours(const StencilTiles<Dim>& tiles);
+  void find_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles);
   template <class Scalar>
-  bool factorize_envelope(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks, double least_pivot,
+  bool factorize_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles, double least_pivot,
                           TwoEndedLu<Scalar>& factors);
-  bool factorize_narrow(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks, WholeFactors& whole);
-  void find_one_sided(const CompactPressure<Dim>& compact);
-  void factorize_sparse(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
-  bool factorize_symmetric(const CompactPressure<Dim>& compact, const RowBlocks<Dim>& blocks);
-  bool factorize_pressure(const CompactPressure<Dim>& compact, const PressureSchur<Dim>& schur);
+  bool factorize_narrow(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles, WholeFactors& whole);
+  void find_one_sided(const SchurApproximation<Dim>& compact);
+  void factorize_sparse(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur);
+  bool factorize_symmetric(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles);
+  bool factorize_pressure(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur);
 
   std::vector<Index<Dim>> site_;      ///< of the rows
   std::vector<std::uint32_t> order_;  ///< the rows, as the envelope has them
   std::vector<std::uint32_t> place_;  ///< where the envelope has a row
   Envelope envelope_;
   // Work space.
-  std::vector<std::uint32_t> count_, first_in_slot_, last_in_slot_;
+  std::vector<std::uint32_t> count_, first_in_lane_, last_in_lane_;
   Values ordered_;
   Values of_mass_;  ///< b/V_I; empty if not viscous
   enum class Kind { single_envelope, double_envelope, complete, incomplete };

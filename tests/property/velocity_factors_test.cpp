@@ -5,7 +5,7 @@
 
 #include "components/grid.hpp"
 #include "engine/step_control.hpp"
-#include "systems/solve/velocity_block.hpp"
+#include "systems/solve/velocity_factors.hpp"
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -56,8 +56,8 @@ Values times_dense(const Eigen::MatrixXd& matrix, const Values& v) {
 
 /// The velocity block of the last step of a run, and what it refers to.
 template <int Dim>
-struct BlockOfStep {
-  BlockOfStep(World& world, StiffSolver solver) {
+struct FactorsOfStep {
+  FactorsOfStep(World& world, ViscousSolver solver) {
     const auto terms = dense::terms_of_step<Dim>(world);
     schur.assemble(terms, world.resource<Grid<Dim>>());
     block.prepare(terms, schur, solver);
@@ -69,19 +69,19 @@ struct BlockOfStep {
     block.residual({schur, viscosity}, u, work, out);
     return out;
   }
-  PressureSchur<Dim> schur;
-  VelocityBlock<Dim> block;
-  typename VelocityBlock<Dim>::Viscosity viscosity;
-  typename VelocityBlock<Dim>::Work work;
+  SchurOperator<Dim> schur;
+  VelocityFactors<Dim> block;
+  typename VelocityFactors<Dim>::Viscosity viscosity;
+  typename VelocityFactors<Dim>::Work work;
 };
 
 /// Right-hand sides of displacements between -1/2 and 1/2, about.
-Values random_momentum(const Values& mobility) {
+Values random_momentum(const Values& inverse_diagonal) {
   kernels::Random random(3);
-  Values v(mobility.size());
+  Values v(inverse_diagonal.size());
   for (std::size_t i = 0; i < v.size(); ++i) {
     const double number = random(-0.5, 0.5);
-    v[i] = mobility[i] == 0 ? 0 : number / mobility[i];
+    v[i] = inverse_diagonal[i] == 0 ? 0 : number / inverse_diagonal[i];
   }
   return v;
 }
@@ -91,7 +91,7 @@ Values random_momentum(const Values& mobility) {
 TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is known and small", "[property]",
                        ((int Dim), Dim), 2, 3) {
   // Water with and without stiff unknowns at a wall, syrup that is stiff in some places, and one that is everywhere.
-  const auto [viscosity, cells, is_mobility, is_exact] =
+  const auto [viscosity, cells, is_diagonal, is_exact] =
       GENERATE(table<double, double, bool, bool>({{1e-3, 0.25, true, false},
                                                   {1e-3, 1e-5, false, false},
                                                   {1e-3, 1e-4, false, false},
@@ -103,14 +103,14 @@ TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is know
   run.start();
   press_onto_wall<Dim>(world, cells);
   run.step();
-  BlockOfStep<Dim> of_step(world, StiffSolver::factors);
+  FactorsOfStep<Dim> of_step(world, ViscousSolver::factors);
   const auto& schur = of_step.schur;
   const auto& block = of_step.block;
-  CHECK(block.is_mobility() == is_mobility);
+  CHECK(block.is_diagonal() == is_diagonal);
   CHECK((block.error() == 0) == is_exact);
   CHECK(block.error() <= 0.5);
 
-  const Values v = random_momentum(schur.mobility());
+  const Values v = random_momentum(schur.inverse_diagonal());
   Values x = v;
   of_step.solve(x, 0);
   const Values rest = of_step.residual(x);
@@ -119,8 +119,8 @@ TEMPLATE_TEST_CASE_SIG("the velocity block is solved but for a rest that is know
   Largest left;
   Largest largest;
   for (std::size_t i = 0; i < v.size(); ++i) {
-    worst.add(schur.mobility()[i] * std::abs(product[i] + rest[i] - v[i]));
-    left.add(schur.mobility()[i] * std::abs(rest[i]));
+    worst.add(schur.inverse_diagonal()[i] * std::abs(product[i] + rest[i] - v[i]));
+    left.add(schur.inverse_diagonal()[i] * std::abs(rest[i]));
     largest.add(std::abs(x[i]));
   }
   // Sums of 50 and 80 terms, and a factorization: 4e-15 measured.
@@ -133,15 +133,15 @@ TEMPLATE_TEST_CASE_SIG("many stiff velocities are solved by iterations, as exact
   SceneRun run(lump_and_wet_wall<Dim>(1e3));
   World& world = run.world();
   run.step();
-  BlockOfStep<Dim> of_step(world, StiffSolver::iteration);
+  FactorsOfStep<Dim> of_step(world, ViscousSolver::iteration);
   const auto& schur = of_step.schur;
   const auto& block = of_step.block;
   REQUIRE(block.is_iteration());
-  CHECK_FALSE(block.is_mobility());
+  CHECK_FALSE(block.is_diagonal());
 
-  const Values v = random_momentum(schur.mobility());
-  const Values& mobility = schur.mobility();
-  const auto size = [&mobility](const Values& f) { return std::sqrt(weighted_square(mobility, f)); };
+  const Values v = random_momentum(schur.inverse_diagonal());
+  const Values& inverse_diagonal = schur.inverse_diagonal();
+  const auto size = [&inverse_diagonal](const Values& f) { return std::sqrt(weighted_square(inverse_diagonal, f)); };
   const double asked = GENERATE(1e-2, 1e-5, 0.0);
   CAPTURE(asked);
   Values x = v;
@@ -166,7 +166,7 @@ TEST_CASE("iterations are preferred where many velocities are stiff, but not too
                     {"/grid/cells=[" + std::to_string(cells) + ", " + std::to_string(cells) + "]",
                      R"(/solver={"scheme": "block"})"}));
   run.step();
-  const BlockOfStep<2> of_step(run.world(), StiffSolver::cheapest);
-  CHECK_FALSE(of_step.block.is_mobility());
+  const FactorsOfStep<2> of_step(run.world(), ViscousSolver::cheapest);
+  CHECK_FALSE(of_step.block.is_diagonal());
   CHECK(of_step.block.is_iteration() == is_iteration);
 }

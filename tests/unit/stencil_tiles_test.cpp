@@ -1,6 +1,6 @@
 #include "support/kernels.hpp"
 
-#include "systems/solve/row_blocks.hpp"
+#include "systems/solve/stencil_tiles.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -51,55 +51,54 @@ struct Sites {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("rows in blocks have the neighbours that the grid gives them", "[unit]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("rows in tiles have the neighbours that the grid gives them", "[unit]", ((int Dim), Dim), 2, 3) {
   const bool periodic = GENERATE(false, true);
   const double fill = GENERATE(0.05, 0.4, 1.0);
   CAPTURE(periodic, fill);
   const Sites<Dim> sites(periodic, fill);
-  RowBlocks<Dim> blocks;
-  blocks.build(sites.grid, sites.site, sites.node);
-  REQUIRE(blocks.rows() == sites.node.size());
+  StencilTiles<Dim> tiles;
+  tiles.build(sites.grid, sites.site, sites.node);
+  REQUIRE(tiles.rows() == sites.node.size());
   std::size_t wrong = 0;
-  for (std::size_t r = 0; r < blocks.rows(); ++r) {
+  for (std::size_t r = 0; r < tiles.rows(); ++r) {
     std::array<std::int32_t, stencil_size<Dim>> found;
     found.fill(-1);
-    blocks.for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) { found[k] = static_cast<std::int32_t>(r_j); });
+    tiles.for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) { found[k] = static_cast<std::int32_t>(r_j); });
     for (std::size_t k = 0; k < found.size(); ++k) wrong += found[k] != sites.neighbour(r, k);
   }
   CHECK(wrong == 0);
 }
 
-TEST_CASE("every row stands in one lane of one block, its neighbours in the same lane", "[unit]") {
+TEST_CASE("every row stands in one i of one tile, its neighbours in the same i", "[unit]") {
   const Sites<2> sites(true, 0.6);
-  RowBlocks<2> blocks;
-  blocks.build(sites.grid, sites.site, sites.node);
-  std::vector<int> times(blocks.rows(), 0);
-  for (const auto& block : blocks.blocks()) {
-    for (std::size_t lane = 0; lane < RowBlocks<2>::width; ++lane) {
-      if (block.row[lane] < 0) continue;
-      const auto r = static_cast<std::size_t>(block.row[lane]);
+  StencilTiles<2> tiles;
+  tiles.build(sites.grid, sites.site, sites.node);
+  std::vector<int> times(tiles.rows(), 0);
+  for (const auto& tile : tiles.tiles()) {
+    for (std::size_t i = 0; i < StencilTiles<2>::width; ++i) {
+      if (tile.row[i] < 0) continue;
+      const auto r = static_cast<std::size_t>(tile.row[i]);
       ++times[r];
-      CHECK(blocks.slot(r) == block.slot + lane);
+      CHECK(tiles.lane(r) == tile.lane + i);
       for (std::size_t k = 0; k < stencil_size<2>; ++k) {
-        CHECK(blocks.row(block.at(k) + lane) == sites.neighbour(r, k));
+        CHECK(tiles.row(tile.at(k) + i) == sites.neighbour(r, k));
       }
     }
   }
-  CHECK(times == std::vector<int>(blocks.rows(), 1));
+  CHECK(times == std::vector<int>(tiles.rows(), 1));
 }
 
-TEST_CASE("blocks may be built again for other rows", "[unit]") {
-  RowBlocks<2> blocks;
+TEST_CASE("tiles may be built again for other rows", "[unit]") {
+  StencilTiles<2> tiles;
   const Sites<2> many(false, 1.0);
   const Sites<2> few(false, 0.1);
-  blocks.build(many.grid, many.site, many.node);
-  const std::size_t slots = blocks.slots();
-  blocks.build(few.grid, few.site, few.node);
-  CHECK(blocks.rows() == few.node.size());
-  blocks.build(few.grid, {}, {});
-  CHECK(blocks.rows() == 0);
-  CHECK(blocks.blocks().empty());
-  blocks.build(many.grid, many.site, many.node);
-  CHECK(blocks.slots() == slots);
+  tiles.build(many.grid, many.site, many.node);
+  const std::size_t lanes = tiles.lanes();
+  tiles.build(few.grid, few.site, few.node);
+  CHECK(tiles.rows() == few.node.size());
+  tiles.build(few.grid, {}, {});
+  CHECK(tiles.rows() == 0);
+  CHECK(tiles.tiles().empty());
+  tiles.build(many.grid, many.site, many.node);
+  CHECK(tiles.lanes() == lanes);
 }

@@ -1,4 +1,4 @@
-#include "systems/solve/row_blocks.hpp"
+#include "systems/solve/stencil_tiles.hpp"
 
 #include <algorithm>
 
@@ -6,10 +6,10 @@ namespace minamo {
 
 namespace {
 
-/// Of x = -8: room for the images of a periodic axis and a margin beside them.
+/// Of x = -8: room for the periodic ghosts of a periodic axis and a padding beside them.
 template <int Dim>
-int block_at(int x) {
-  constexpr int width = RowBlocks<Dim>::width;
+int tile_at(int x) {
+  constexpr int width = StencilTiles<Dim>::width;
   return (x + 2 * width) / width;
 }
 
@@ -25,25 +25,25 @@ std::size_t line_of(const Grid<Dim>& grid, const Index<Dim>& node) {
 
 }  // namespace
 
-/// The block of a node or image of the last line, and one more on each side.
+/// The tile of a node or periodic ghost of the last line, and one more on each side.
 template <int Dim>
-void RowBlocks<Dim>::cover(int block) {
+void StencilTiles<Dim>::cover(int tile) {
   constexpr auto w = static_cast<std::uint32_t>(width);
   const bool fresh = runs_.size() == lines_.back().first_run ||
-                     first_block_.back() + static_cast<int>(runs_.back().length / w) < block - 1;
+                     first_tile_.back() + static_cast<int>(runs_.back().length / w) < tile - 1;
   if (fresh) {
     runs_.push_back({runs_.back().begin + runs_.back().length, 0});
-    first_block_.push_back(block - 1);
+    first_tile_.push_back(tile - 1);
   }
-  runs_.back().length = w * static_cast<std::uint32_t>(block + 2 - first_block_.back());
+  runs_.back().length = w * static_cast<std::uint32_t>(tile + 2 - first_tile_.back());
 }
 
 template <int Dim>
-void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>> site,
-                               std::span<const std::uint32_t> node) {
+void StencilTiles<Dim>::find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>> site,
+                                  std::span<const std::uint32_t> node) {
   // The first run stands for what is beyond the water.
   runs_.assign(1, {0, 3 * width});
-  first_block_.assign(1, 0);
+  first_tile_.assign(1, 0);
   lines_.clear();
   const int nodes = grid.nodes(0);
   const auto x_of = [&](std::size_t r) { return site[node[r]][0]; };
@@ -53,11 +53,11 @@ void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>
     lines_.push_back({number, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(runs_.size())});
     const std::size_t before = grid.periodic[0] ? std::min<std::size_t>(2, end - begin) : 0;
     for (std::size_t r = end - before; r < end; ++r) {
-      if (x_of(r) >= nodes - 2) cover(block_at<Dim>(x_of(r) - nodes));
+      if (x_of(r) >= nodes - 2) cover(tile_at<Dim>(x_of(r) - nodes));
     }
-    for (std::size_t r = begin; r < end; ++r) cover(block_at<Dim>(x_of(r)));
+    for (std::size_t r = begin; r < end; ++r) cover(tile_at<Dim>(x_of(r)));
     for (std::size_t r = begin; r < begin + before; ++r) {
-      if (x_of(r) < 2) cover(block_at<Dim>(x_of(r) + nodes));
+      if (x_of(r) < 2) cover(tile_at<Dim>(x_of(r) + nodes));
     }
   }
   lines_.push_back(
@@ -66,8 +66,8 @@ void RowBlocks<Dim>::find_runs(const Grid<Dim>& grid, std::span<const Index<Dim>
 
 /// The places in lines_ of the lines that a stencil sees, -1 where there is none.
 template <int Dim>
-std::array<std::int32_t, RowBlocks<Dim>::lines> RowBlocks<Dim>::lines_around(const Grid<Dim>& grid,
-                                                                             std::size_t number) const {
+std::array<std::int32_t, StencilTiles<Dim>::lines> StencilTiles<Dim>::lines_around(const Grid<Dim>& grid,
+                                                                                   std::size_t number) const {
   Index<Dim> own{};
   for (int d = 1; d < Dim; ++d) {
     own[static_cast<std::size_t>(d)] = static_cast<int>(number % static_cast<std::size_t>(grid.nodes(d)));
@@ -94,12 +94,12 @@ std::array<std::int32_t, RowBlocks<Dim>::lines> RowBlocks<Dim>::lines_around(con
 }
 
 template <int Dim>
-std::uint32_t RowBlocks<Dim>::slot_in_line(std::int32_t line, int block) const {
+std::uint32_t StencilTiles<Dim>::lane_in_line(std::int32_t line, int tile) const {
   constexpr auto w = static_cast<std::uint32_t>(width);
   if (line >= 0) {
     const auto l = static_cast<std::size_t>(line);
-    for (std::uint32_t r = lines_[l].first_run; r < lines_[l + 1].first_run && first_block_[r] <= block; ++r) {
-      const std::uint32_t at = w * static_cast<std::uint32_t>(block - first_block_[r]);
+    for (std::uint32_t r = lines_[l].first_run; r < lines_[l + 1].first_run && first_tile_[r] <= tile; ++r) {
+      const std::uint32_t at = w * static_cast<std::uint32_t>(tile - first_tile_[r]);
       if (at < runs_[r].length) return runs_[r].begin + at;
     }
   }
@@ -107,37 +107,37 @@ std::uint32_t RowBlocks<Dim>::slot_in_line(std::int32_t line, int block) const {
 }
 
 template <int Dim>
-void RowBlocks<Dim>::find_blocks(const Grid<Dim>& grid) {
+void StencilTiles<Dim>::find_tiles(const Grid<Dim>& grid) {
   for (std::size_t l = 0; l + 1 < lines_.size(); ++l) {
     const auto around = lines_around(grid, lines_[l].number);
     for (std::size_t r = lines_[l].first_run; r < lines_[l + 1].first_run; ++r) {
       for (std::uint32_t at = 0; at < runs_[r].length; at += width) {
-        Block block{runs_[r].begin + at, {}, {}};
+        Tile tile{runs_[r].begin + at, {}, {}};
         bool empty = true;
-        for (std::size_t lane = 0; lane < width; ++lane) {
-          const std::int32_t row = row_[block.slot + lane];
-          const bool own = row >= 0 && slot_[static_cast<std::size_t>(row)] == block.slot + lane;
-          block.row[lane] = own ? row : -1;
-          if (own) block_of_row_[static_cast<std::size_t>(row)] = static_cast<std::uint32_t>(blocks_.size());
+        for (std::size_t i = 0; i < width; ++i) {
+          const std::int32_t row = row_[tile.lane + i];
+          const bool own = row >= 0 && lane_[static_cast<std::size_t>(row)] == tile.lane + i;
+          tile.row[i] = own ? row : -1;
+          if (own) tile_of_row_[static_cast<std::size_t>(row)] = static_cast<std::uint32_t>(tiles_.size());
           empty = empty && !own;
         }
         if (empty) {
-          margins_.push_back(block.slot);
+          padding_.push_back(tile.lane);
           continue;
         }
-        const int number = first_block_[r] + static_cast<int>(at / width);
-        for (std::size_t k = 0; k < lines; ++k) block.beside[k] = slot_in_line(around[k], number);
-        blocks_.push_back(block);
+        const int number = first_tile_[r] + static_cast<int>(at / width);
+        for (std::size_t k = 0; k < lines; ++k) tile.beside[k] = lane_in_line(around[k], number);
+        tiles_.push_back(tile);
       }
     }
   }
 }
 
 template <int Dim>
-bool RowBlocks<Dim>::is_whole(const Block& block) const {
-  if (std::any_of(block.row.begin(), block.row.end(), [](std::int32_t row) { return row < 0; })) return false;
-  for (const std::uint32_t beside : block.beside) {
-    if (is_beyond(beside)) return false;
+bool StencilTiles<Dim>::is_whole(const Tile& tile) const {
+  if (std::any_of(tile.row.begin(), tile.row.end(), [](std::int32_t row) { return row < 0; })) return false;
+  for (const std::uint32_t beside : tile.beside) {
+    if (is_outside(beside)) return false;
     for (std::size_t x = 0; x < width + 4; ++x) {
       if (row_[beside - 2 + x] < 0) return false;
     }
@@ -146,38 +146,38 @@ bool RowBlocks<Dim>::is_whole(const Block& block) const {
 }
 
 template <int Dim>
-void RowBlocks<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> site,
-                           std::span<const std::uint32_t> node) {
+void StencilTiles<Dim>::build(const Grid<Dim>& grid, std::span<const Index<Dim>> site,
+                              std::span<const std::uint32_t> node) {
   find_runs(grid, site, node);
-  // A margin for those who look beside the last block.
-  const std::size_t slots = runs_.back().begin + runs_.back().length + width;
-  row_.assign(slots, -1);
-  slot_.resize(node.size());
-  block_of_row_.resize(node.size());
-  images_.clear();
-  blocks_.clear();
-  margins_.clear();
-  for (std::uint32_t at = 0; at < 3 * width; at += width) margins_.push_back(at);
-  margins_.push_back(static_cast<std::uint32_t>(slots - width));
+  // A padding for those who look beside the last tile.
+  const std::size_t lanes = runs_.back().begin + runs_.back().length + width;
+  row_.assign(lanes, -1);
+  lane_.resize(node.size());
+  tile_of_row_.resize(node.size());
+  ghosts_.clear();
+  tiles_.clear();
+  padding_.clear();
+  for (std::uint32_t at = 0; at < 3 * width; at += width) padding_.push_back(at);
+  padding_.push_back(static_cast<std::uint32_t>(lanes - width));
   const int nodes = grid.nodes(0);
   for (std::size_t l = 0; l + 1 < lines_.size(); ++l) {
-    const auto slot_at = [&](int x) {
-      return slot_in_line(static_cast<std::int32_t>(l), block_at<Dim>(x)) +
+    const auto lane_at = [&](int x) {
+      return lane_in_line(static_cast<std::int32_t>(l), tile_at<Dim>(x)) +
              static_cast<std::uint32_t>((x + 2 * static_cast<int>(width)) % static_cast<int>(width));
     };
     for (std::uint32_t r = lines_[l].first_row; r < lines_[l + 1].first_row; ++r) {
       const int x = site[node[r]][0];
-      slot_[r] = slot_at(x);
-      row_[slot_[r]] = static_cast<std::int32_t>(r);
+      lane_[r] = lane_at(x);
+      row_[lane_[r]] = static_cast<std::int32_t>(r);
       if (!grid.periodic[0] || (x >= 2 && x < nodes - 2)) continue;
-      images_.push_back({slot_[r], slot_at(x < 2 ? x + nodes : x - nodes)});
-      row_[images_.back()[1]] = static_cast<std::int32_t>(r);
+      ghosts_.push_back({lane_[r], lane_at(x < 2 ? x + nodes : x - nodes)});
+      row_[ghosts_.back()[1]] = static_cast<std::int32_t>(r);
     }
   }
-  find_blocks(grid);
+  find_tiles(grid);
 }
 
-template class RowBlocks<2>;
-template class RowBlocks<3>;
+template class StencilTiles<2>;
+template class StencilTiles<3>;
 
 }  // namespace minamo
