@@ -1,7 +1,7 @@
 #include "support/scene_run.hpp"
 
 #include "engine/schedule.hpp"
-#include "systems/solve/scheme.hpp"
+#include "systems/setup/schemes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -29,33 +29,7 @@ std::vector<std::string> systems_of(const LinearSolver& solver) {
   return all;
 }
 
-/// Of all solvers, and what changes the rows that their factors belong to.
-std::vector<std::string> candidates() {
-  std::vector<std::string> names{"activate"};
-  for (const LinearSolver& solver : built_in_linear_solvers()) {
-    for (const std::string& name : systems_of(solver)) names.push_back(name);
-  }
-  return names;
-}
-
 }  // namespace
-
-TEST_CASE("a system of a solver in whatever place is refused with a message, or runs", "[property]") {
-  const std::string solver = GENERATE("block", "umfpack");
-  const double viscosity = GENERATE(0.0, 1e-3);
-  const std::string name = GENERATE(from_range(candidates()));
-  for (const std::string& slot : slot_names()) {
-    CAPTURE(solver, viscosity, name, slot);
-    Json scene = drop(solver, viscosity);
-    scene["systems"] = Json::array({Json{{"use", name}, {"after", slot}}});
-    try {
-      SceneRun run(scene);
-      run.step(2);
-    } catch (const ScheduleError& refused) {
-      CHECK_THAT(refused.what(), Catch::Contains("which no earlier system of the step writes"));
-    }
-  }
-}
 
 TEST_CASE("the second solve of a solver needs the systems that make its factors", "[property]") {
   const auto [own, other] = GENERATE(table<std::string, std::string>({{"block", "umfpack"}, {"umfpack", "block"}}));
@@ -65,7 +39,7 @@ TEST_CASE("the second solve of a solver needs the systems that make its factors"
 }
 
 TEST_CASE("what a solver hands on is scratch of the matrix' rows, and work space nothing else", "[property]") {
-  for (const LinearSolver& solver : built_in_linear_solvers()) {
+  for (const LinearSolver& solver : registry().in_order<LinearSolver>()) {
     for (const std::string& name : systems_of(solver)) {
       for (const Access& access : registry().make(name, 2).access) {
         CAPTURE(name, access.component);
