@@ -64,18 +64,20 @@ std::vector<std::string> force_systems(const Needs& needs) {
 /// VMS adds a bulk viscosity even to an inviscid liquid.
 bool needs_viscosity_matrix(const Needs& needs) { return needs.viscous || needs.stabilization == "vms"; }
 
+std::vector<std::string> material_systems(const Needs& needs) {
+  return {"set_material", needs.stabilization == "vms" ? "find_tau_vms" : "find_tau"};
+}
+
 std::vector<std::string> assemble_systems(const Needs& needs) {
   std::vector<std::string> systems;
   if (needs.quadrature == "mixed") systems.emplace_back("find_full_nodes");
-  append(systems, {"moments", "divergence_matrix"});
-  if (needs_viscosity_matrix(needs)) systems.emplace_back("viscosity_matrix");
-  if (needs.stabilization == "vms") {
-    systems.emplace_back("add_vms_bulk_viscosity");
+  systems.emplace_back("moments");
+  if (needs.stabilization == "oss") {
+    append(systems, {"p2g_pressure_gradient", "divergence_matrix_oss"});
   } else {
-    systems.emplace_back(needs.viscous ? "laplacian_from_viscosity" : "laplacian_matrix");
+    systems.emplace_back("divergence_matrix");
   }
-  if (needs.stabilization == "oss") systems.emplace_back("p2g_pressure_gradient");
-  systems.push_back("stabilize_" + needs.stabilization);
+  systems.emplace_back(needs_viscosity_matrix(needs) ? "viscosity_matrix" : "laplacian_matrix");
   systems.emplace_back("right_hand_side");
   const std::string viscous = needs_viscosity_matrix(needs) ? "_viscous" : "";
   if (needs.solver == "umfpack") systems.push_back("assemble_monolithic" + viscous);
@@ -154,6 +156,7 @@ std::vector<Slot> step_slots(const Needs& needs) {
                      "apply_wall_condition_acceleration")},
       {"predict", with({needs.newmark ? "predict_newmark" : "predict_midpoint"}, needs.ode, "integrate_ode")},
       {"force", force_systems(needs)},
+      {"material", material_systems(needs)},
       {"assemble", with(assemble_systems(needs), !needs.newmark, "damp_divergence")},
       {"solve", solve_systems(needs)},
       {"correct", {needs.newmark ? "correct_newmark" : "correct_midpoint"}},
@@ -171,7 +174,9 @@ std::vector<std::string> standing_step(const Needs& needs, const std::string& co
   if (needs_liquid_share(needs)) systems.emplace_back("find_liquid");
   append(systems, needs.transfer.p2g_velocity);
   append(systems, {"activate", "find_neighbours", "apply_wall_condition", "predict_backward_euler"});
-  for (const auto& part : {force_systems(needs), assemble_systems(needs), solve_systems(needs)}) append(systems, part);
+  for (const auto& part :
+       {force_systems(needs), material_systems(needs), assemble_systems(needs), solve_systems(needs)})
+    append(systems, part);
   return systems;
 }
 
@@ -205,8 +210,9 @@ std::vector<std::string> output_systems(const Needs& needs) {
 }  // namespace
 
 const std::vector<std::string>& slot_names() {
-  static const std::vector<std::string> names{"configure", "bin",     "p2g", "walls",  "predict", "force",   "assemble",
-                                              "solve",     "correct", "g2p", "advect", "volume",  "measure", "history"};
+  static const std::vector<std::string> names{"configure", "bin",      "p2g",      "walls",   "predict",
+                                              "force",     "material", "assemble", "solve",   "correct",
+                                              "g2p",       "advect",   "volume",   "measure", "history"};
   return names;
 }
 

@@ -1,10 +1,12 @@
 #include "systems/register.hpp"
 
 #include "systems/assemble/inertia.hpp"
-#include "systems/assemble/matrices.hpp"
+#include "systems/assemble/mass_balance.hpp"
+#include "systems/assemble/material.hpp"
 #include "systems/assemble/neighbours.hpp"
+#include "systems/assemble/pressure_gradient.hpp"
 #include "systems/assemble/right_hand_side.hpp"
-#include "systems/assemble/stabilization.hpp"
+#include "systems/assemble/viscosity.hpp"
 #include "systems/assemble/vms.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
@@ -87,14 +89,13 @@ void register_systems(SystemRegistry& registry) {
 
   registry.add<FindFullNodes>("find_full_nodes");
   registry.add<GatherMoments>("moments");
+  registry.add<SetMaterial>("set_material");
+  registry.add<FindTau>("find_tau");
+  registry.add<FindTauVms>("find_tau_vms");
   registry.add<AssembleDivergence>("divergence_matrix");
+  registry.add<AssembleDivergenceOss>("divergence_matrix_oss");
   registry.add<AssembleLaplacian>("laplacian_matrix");
-  registry.add<LaplacianFromViscosity>("laplacian_from_viscosity");
   registry.add<AssembleViscosity>("viscosity_matrix");
-  registry.add<StabilizePspg>("stabilize_pspg");
-  registry.add<StabilizeVms>("stabilize_vms");
-  registry.add<AddVmsBulkViscosity>("add_vms_bulk_viscosity");
-  registry.add<StabilizeOss>("stabilize_oss");
   registry.add<G2PPressureGradient>("g2p_pressure_gradient");
   registry.add<P2GPressureGradient>("p2g_pressure_gradient");
   registry.add<AssembleMonolithic>("assemble_monolithic");
