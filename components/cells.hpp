@@ -35,6 +35,35 @@ struct OccupiedCells {
   static constexpr ComponentInfo info{"cells", "c", "1", Lifetime::scratch};
 };
 
+/// The same cells as a table: row c is cells[c].
+struct Cells {
+  static constexpr std::string_view name = "cell";
+};
+
+namespace cell {
+
+/// Density rho_c. [kg/m^3]
+struct Density : Column<Cells, double> {
+  static constexpr ComponentInfo info{"cell.density", "rho_c", "kg/m^3", Lifetime::scratch};
+};
+
+/// Dynamic viscosity mu_c. [Pa s]
+struct Viscosity : Column<Cells, double> {
+  static constexpr ComponentInfo info{"cell.viscosity", "mu_c", "Pa s", Lifetime::scratch};
+};
+
+/// Viscosity against a change of volume, tau_2 of (E51): only VMS has one. [Pa s]
+struct BulkViscosity : Column<Cells, double> {
+  static constexpr ComponentInfo info{"cell.bulk_viscosity", "tau_2", "Pa s", Lifetime::scratch};
+};
+
+/// Parameter tau_c of the stabilization. [m^3 s/kg]
+struct Tau : Column<Cells, double> {
+  static constexpr ComponentInfo info{"cell.tau", "tau_c", "m^3 s/kg", Lifetime::scratch};
+};
+
+}  // namespace cell
+
 /// sum over the particles of a cell of V_p xi^a eta^b (zeta^c), 0 <= a, b, c <= 4, at [a + 5 b + 25 c]; xi, eta, zeta
 /// in units of h from the cell's node. With mixed quadrature (E68) an integral takes the place of the sum, or of a part
 /// of it. One entry per occupied cell. [m^3; m^2 in 2-D]

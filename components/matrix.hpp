@@ -35,12 +35,6 @@ struct Divergence : Column<ActiveNodes, std::array<double, stencil_size<Dim> * D
   static constexpr ComponentInfo info{"matrix.divergence", "D_IJ", "m^(d-1)", Lifetime::scratch};
 };
 
-/// L_IJ = sum_p V_p grad S_I . grad S_J. [m^(d-2)]
-template <int Dim>
-struct Laplacian : Column<ActiveNodes, std::array<double, stencil_size<Dim>>> {
-  static constexpr ComponentInfo info{"matrix.laplacian", "L_IJ", "m^(d-2)", Lifetime::scratch};
-};
-
 /// K_IJ, force on node I per velocity of node J, at [Dim^2 k + Dim i + j]. [kg/s]
 template <int Dim>
 struct Viscosity : Column<ActiveNodes, std::array<double, stencil_size<Dim> * Dim * Dim>> {
@@ -59,10 +53,10 @@ struct StabilizationSource : Column<ActiveNodes, double> {
   static constexpr ComponentInfo info{"matrix.stabilization_source", "s_I", "m^d/s", Lifetime::scratch};
 };
 
-/// What of the stabilization a solver needs to know to build a good preconditioner.
+/// What of the stabilization a solver needs to know to build a good preconditioner: numbers that stand for all cells.
 struct StabilizationScale {
-  double pressure = 0;      ///< tau, where the stabilization has T = tau L [m^3 s/kg]
-  double acceleration = 0;  ///< g, where it has G = g grad S_I S_J; 0 if accelerations do not enter [s]
+  double pressure = 0;      ///< the largest tau_c of liquid at rest [m^3 s/kg]
+  double acceleration = 0;  ///< the largest tau_c rho_c; 0 if accelerations do not enter [s]
   static constexpr ComponentInfo info{"matrix.stabilization_scale", "tau, g", "m^3 s/kg, s", Lifetime::scratch};
 };
 

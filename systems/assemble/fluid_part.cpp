@@ -1,8 +1,8 @@
 #include "components/fluid.hpp"
+#include "systems/assemble/material.hpp"
+#include "systems/assemble/right_hand_side.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
-#include "systems/assemble/matrices.hpp"
-#include "systems/assemble/right_hand_side.hpp"
 
 namespace minamo {
 
@@ -16,8 +16,7 @@ Contribution read_fluid(Input& input, Scene& scene) {
   });
   scene.facts.set(fluid);
   return [fluid](const Scene&, Recipe& recipe) {
-    recipe.add("assemble", "divergence_matrix");
-    if (fluid.viscosity > 0) recipe.add("assemble", "viscosity_matrix");
+    recipe.add("material", "set_material");
     recipe.add("right_hand_side", "right_hand_side");
     recipe.constant(fluid);
   };
@@ -26,8 +25,7 @@ Contribution read_fluid(Input& input, Scene& scene) {
 }  // namespace
 
 void add_fluid(SystemRegistry& registry) {
-  registry.add<AssembleDivergence>("divergence_matrix");
-  registry.add<AssembleViscosity>("viscosity_matrix");
+  registry.add<SetMaterial>("set_material");
   registry.add<FillRightHandSide>("right_hand_side");
   registry.add(Part{"fluid", "density and viscosity of the liquid", read_fluid});
 }

@@ -33,7 +33,7 @@ Mat<Dim> mean(const typename OccupiedCells<Dim>::Cell& cell, std::span<const dou
 
 /// m_I c_I of (E53).
 template <int Dim>
-void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, double density,
+void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const double> rho_c,
                           const Moments<Dim>& moments, std::span<const double> m_p, std::span<const Mat<Dim>> grad_f_p,
                           const LiquidShare& liquid, std::span<Vec<Dim>> out) {
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
@@ -41,7 +41,7 @@ void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
     const Support<Dim> support(grid, cell);
     const double share = liquid.of_cell[c];
     if (share == 0) return;
-    const Mat<Dim> gradient = share * density * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
+    const Mat<Dim> gradient = share * rho_c[c] * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
     for (int d = 0; d < Dim; ++d) {
       const auto way = cell_vector<Dim>(moments.of_cell[c], node_factors<Dim>(support, d, &AxisBasis::of_distance));
       for (std::size_t k = 0; k < way.size(); ++k) out[support.node[k]] += way[k] * gradient.col(d);
@@ -53,14 +53,14 @@ void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
 
 template <int Dim>
 void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Read<Grid<Dim>> grid,
-                                           Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
+                                           Read<OccupiedCells<Dim>> cells, Read<cell::Density> rho_c,
                                            Read<Moments<Dim>> moments, Read<LiquidShare> liquid,
                                            Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p,
                                            Read<node::Row> row, Read<node::Constraint> constraint,
                                            Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
                                            Read<matrix::Node> node, Write<node::InertiaCorrection<Dim>> c_i,
                                            Update<matrix::Momentum<Dim>> f) const {
-  scatter_first_moment<Dim>(*grid, *cells, fluid->density, *moments, m_p.span(), grad_f_p.span(), *liquid, c_i.span());
+  scatter_first_moment<Dim>(*grid, *cells, rho_c.span(), *moments, m_p.span(), grad_f_p.span(), *liquid, c_i.span());
   const double share = std::min(1.0, step->seconds / clock->step);
   const double light = light_mass(m_i.span());
   const Constraints<Dim> constraints{constraint.span(), frame.span()};

@@ -15,7 +15,6 @@
 /// of single particles out. Ours; what TPIC (E5) does for velocities, for forces.
 
 #include "components/cells.hpp"
-#include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
@@ -31,10 +30,11 @@ template <int Dim>
 struct AddInertiaCorrection {
   static constexpr std::string_view doc = "(E53) first moment that lumping the mass leaves out";
   void operator()(Read<Clock> clock, Read<ForceStep> step, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                  Read<Fluid> fluid, Read<Moments<Dim>> moments, Read<LiquidShare> liquid, Read<particle::Mass> m_p,
-                  Read<particle::ForceGradient<Dim>> grad_f_p, Read<node::Row> row, Read<node::Constraint> constraint,
-                  Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i, Read<matrix::Node> node,
-                  Write<node::InertiaCorrection<Dim>> c_i, Update<matrix::Momentum<Dim>> f) const;
+                  Read<cell::Density> rho_c, Read<Moments<Dim>> moments, Read<LiquidShare> liquid,
+                  Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p, Read<node::Row> row,
+                  Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
+                  Read<node::Mass> m_i, Read<matrix::Node> node, Write<node::InertiaCorrection<Dim>> c_i,
+                  Update<matrix::Momentum<Dim>> f) const;
 };
 
 /// (E54)

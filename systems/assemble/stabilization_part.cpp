@@ -1,30 +1,39 @@
+#include "components/fluid.hpp"
+#include "systems/assemble/mass_balance.hpp"
+#include "systems/assemble/material.hpp"
+#include "systems/assemble/pressure_gradient.hpp"
+#include "systems/assemble/viscosity.hpp"
+#include "systems/assemble/vms.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/schemes.hpp"
-#include "systems/assemble/matrices.hpp"
-#include "systems/assemble/stabilization.hpp"
-#include "systems/assemble/vms.hpp"
 
 namespace minamo {
 
 namespace {
 
-/// L where K gives it, or from the moments.
-void add_laplacian(const Scene& scene, Recipe& recipe) {
-  const bool viscous = scene.facts.get<Fluid>().viscosity > 0;
-  recipe.add("assemble", viscous ? "laplacian_from_viscosity" : "laplacian_matrix");
+/// T_IJ comes along with the friction, or alone where there is none.
+void add_friction(bool viscous, Recipe& recipe) {
+  recipe.add("assemble", viscous ? "viscosity_matrix" : "laplacian_matrix");
 }
+
+bool is_viscous(const Scene& scene) { return scene.facts.get<Fluid>().viscosity > 0; }
 
 Contribution read_pspg(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
-    add_laplacian(scene, recipe);
-    recipe.add("assemble", "stabilize_pspg");
+    recipe.add("material", "find_tau");
+    recipe.add("assemble", "divergence_matrix");
+    add_friction(is_viscous(scene), recipe);
   };
 }
 
 /// A bulk viscosity even of an inviscid liquid.
 Contribution read_vms(Input&, Scene&) {
-  return adds("assemble", {"viscosity_matrix", "add_vms_bulk_viscosity", "stabilize_vms"});
+  return [](const Scene&, Recipe& recipe) {
+    recipe.add("material", "find_tau_vms");
+    recipe.add("assemble", "divergence_matrix");
+    add_friction(true, recipe);
+  };
 }
 
 /// Where a run starts from: the pressure gradient of a liquid at rest.
@@ -41,9 +50,10 @@ void seed_pressure_gradient(const Scene& scene, World& world) {
 
 Contribution read_oss(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
-    add_laplacian(scene, recipe);
+    recipe.add("material", "find_tau");
     recipe.add("assemble", "p2g_pressure_gradient");
-    recipe.add("assemble", "stabilize_oss");
+    recipe.add("assemble", "divergence_matrix_oss");
+    add_friction(is_viscous(scene), recipe);
     recipe.add("solve", "g2p_pressure_gradient");
     recipe.seed([](const Scene& of, World& world, SeedProblems&) {
       with_dimension(of.dimension, [&](auto dim) { seed_pressure_gradient<dim()>(of, world); });
@@ -54,12 +64,12 @@ Contribution read_oss(Input&, Scene&) {
 }  // namespace
 
 void add_stabilization(SystemRegistry& registry) {
+  registry.add<FindTau>("find_tau");
+  registry.add<FindTauVms>("find_tau_vms");
+  registry.add<AssembleDivergence>("divergence_matrix");
+  registry.add<AssembleDivergenceOss>("divergence_matrix_oss");
   registry.add<AssembleLaplacian>("laplacian_matrix");
-  registry.add<LaplacianFromViscosity>("laplacian_from_viscosity");
-  registry.add<StabilizePspg>("stabilize_pspg");
-  registry.add<StabilizeVms>("stabilize_vms");
-  registry.add<AddVmsBulkViscosity>("add_vms_bulk_viscosity");
-  registry.add<StabilizeOss>("stabilize_oss");
+  registry.add<AssembleViscosity>("viscosity_matrix");
   registry.add<G2PPressureGradient>("g2p_pressure_gradient");
   registry.add<P2GPressureGradient>("p2g_pressure_gradient");
   registry.add(Stabilization{{"oss", "orthogonal subscales: what the projected pressure gradient leaves", read_oss}});

@@ -131,7 +131,7 @@ void list_occupied(const Blocks<Dim>& blocks, const BinBuffer& buffer, OccupiedC
 
 template <int Dim>
 void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim>> y_p, Resize<Particles> particles,
-                          Write<OccupiedCells<Dim>> cells, Update<BinBuffer> buffer) const {
+                          Write<OccupiedCells<Dim>> cells, Resize<Cells> rows, Update<BinBuffer> buffer) const {
   const Blocks<Dim> blocks(*grid);
   const std::size_t cell_count = number_cells<Dim>(*grid, blocks, y_p.span(), *buffer);
   auto& [used, first_of_block, number, first, place] = *buffer;
@@ -141,6 +141,7 @@ void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim
   for (const std::uint32_t c : number) ++first[c + 1];
   for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
   list_occupied<Dim>(blocks, *buffer, *cells);
+  rows.resize(cells->cells.size());
   if (std::is_sorted(number.begin(), number.end())) return;
   place.resize(number.size());
   for (std::size_t p = 0; p < number.size(); ++p) place[first[number[p]]++] = static_cast<std::uint32_t>(p);

@@ -3,10 +3,13 @@
 /// matrices in a full box of particles at random places, the solve in a dam break.
 
 #include "bench/roofline.hpp"
+#include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
 #include "support/kernels.hpp"
 #include "support/scene_run.hpp"
-#include "systems/assemble/matrices.hpp"
+#include "systems/assemble/mass_balance.hpp"
+#include "systems/assemble/material.hpp"
+#include "systems/assemble/viscosity.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/tpic.hpp"
@@ -96,6 +99,9 @@ void measure_matrices() {
   const std::size_t nodes = world.rows<ActiveNodes>();
   measure<Dim>(world, "moments", world.rows<Particles>(), roofline::moments<Dim>(rows),
                {make_system("moments", GatherMoments<Dim>{})});
+  world.resource<Clock>().step = 1e-3;
+  kernels::run<SetMaterial<Dim>>(world);
+  kernels::run<FindTau<Dim>>(world);
   measure<Dim>(world, "divergence matrix", nodes, roofline::divergence_matrix<Dim>(rows),
                {make_system("divergence_matrix", AssembleDivergence<Dim>{})});
   measure<Dim>(world, "laplacian matrix", nodes, roofline::laplacian_matrix<Dim>(rows),

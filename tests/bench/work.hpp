@@ -69,39 +69,39 @@ Work g2p_velocity_tpic(const Rows& rows) {
           (Dim * per_component + of_spin) * rows.particles + 15 * Dim * Dim * lines * rows.cells};
 }
 
-/// (E19)  Reads y_p, m_p; writes M_c. Per particle xi: 2 d, V_p: 1, powers: 3 d, V eta^b: 5, times xi^a: 25, added up:
+/// (E19)  Reads y_p, V_p; writes M_c. Per particle xi: 2 d, powers: 3 d, V eta^b: 5, times xi^a: 25, added up:
 /// 25, in space 2 * 125.
 template <int Dim>
 Work moments(const Rows& rows) {
   const double products = 30 + (Dim == 3 ? 2 * 125 : 25);
-  return {8 * ((Dim + 1) * rows.particles + stencil<Dim> * rows.cells), rows.particles * (5 * Dim + 1 + products)};
+  return {8 * ((Dim + 1) * rows.particles + stencil<Dim> * rows.cells), rows.particles * (5 * Dim + products)};
 }
 
 /// (E20)  From 5^d moments to 9^d entries, direction by direction, 5 multiply-adds per number made.
 template <int Dim>
 inline constexpr double integral_flops = 10 * (Dim == 3 ? 9 * 25 + 81 * 5 + 729 : 9 * 5 + 81);
 
-/// (E21)  Reads M_c; writes D_IJ. Per cell d cell matrices, 2 per entry to scale and add.
+/// (E21), (E24)  Reads M_c; writes D_IJ, G_IJ. Per cell d cell matrices, 4 per entry to scale and add it to both.
 template <int Dim>
 Work divergence_matrix(const Rows& rows) {
-  return {8 * stencil<Dim> * (rows.cells + Dim * rows.nodes),
-          rows.cells * Dim * (integral_flops<Dim> + 2 * pairs<Dim>)};
+  return {8 * stencil<Dim> * (rows.cells + 2 * Dim * rows.nodes),
+          rows.cells * Dim * (integral_flops<Dim> + 4 * pairs<Dim>)};
 }
 
-/// (E22)  Reads M_c; writes L_IJ. Per cell d cell matrices, d - 1 per entry to sum them, 2 to scale and add.
+/// (E22), (E24)  Reads M_c; writes T_IJ. Per cell d cell matrices, d - 1 per entry to sum them, 2 to scale and add.
 template <int Dim>
 Work laplacian_matrix(const Rows& rows) {
   return {8 * stencil<Dim> * (rows.cells + rows.nodes),
           rows.cells * (Dim * integral_flops<Dim> + (Dim + 1) * pairs<Dim>)};
 }
 
-/// (E23)  Reads M_c; writes K_IJ. Per cell d (d + 1) / 2 cell matrices, 2 d - 1 per entry to sum squares, 2 d^2 to
-/// scale and add.
+/// (E23)  Reads M_c; writes K_IJ, T_IJ. Per cell d (d + 1) / 2 cell matrices, 2 d - 1 per entry to sum squares,
+/// 2 d^2 + 2 to scale and add.
 template <int Dim>
 Work viscosity_matrix(const Rows& rows) {
   const double matrices = Dim * (Dim + 1) / 2.0;
-  return {8 * stencil<Dim> * (rows.cells + Dim * Dim * rows.nodes),
-          rows.cells * (matrices * integral_flops<Dim> + (2 * Dim - 1 + 2 * Dim * Dim) * pairs<Dim>)};
+  return {8 * stencil<Dim> * (rows.cells + (Dim * Dim + 1) * rows.nodes),
+          rows.cells * (matrices * integral_flops<Dim> + (2 * Dim + 1 + 2 * Dim * Dim) * pairs<Dim>)};
 }
 
 /// (E55), (E56)  Reads D_IJ, K_IJ and the stabilization once, and per iteration D_IJ there and back and the
