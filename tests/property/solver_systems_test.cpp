@@ -1,5 +1,6 @@
 #include "support/scene_run.hpp"
 
+#include "components/matrix.hpp"
 #include "engine/schedule.hpp"
 #include "systems/setup/schemes.hpp"
 
