@@ -54,11 +54,11 @@ void append(std::vector<std::string>& systems, const std::vector<std::string>& m
 }
 
 /// Volume and capacity of the nodes that particles touch where they are.
-std::vector<std::string> node_volume_systems() { return {"gather_node_volume", "find_end_capacity"}; }
+std::vector<std::string> node_volume_systems() { return {"gather_node_volume", "find_advected_capacity"}; }
 
 std::vector<std::string> force_systems(const Needs& needs) {
-  if (needs.uniform_force) return {needs.ode ? "uniform_body_force_ode" : "uniform_body_force", "free_flight"};
-  return {needs.ode ? "sample_body_force_ode" : "sample_body_force", "p2g_body_force", "free_flight"};
+  if (needs.uniform_force) return {needs.ode ? "uniform_body_force_ode" : "uniform_body_force", "move_ballistic_nodes"};
+  return {needs.ode ? "sample_body_force_ode" : "sample_body_force", "p2g_body_force", "move_ballistic_nodes"};
 }
 
 /// VMS adds a bulk viscosity even to an inviscid liquid.
@@ -70,7 +70,7 @@ std::vector<std::string> material_systems(const Needs& needs) {
 
 std::vector<std::string> assemble_systems(const Needs& needs) {
   std::vector<std::string> systems;
-  if (needs.quadrature == "mixed") systems.emplace_back("find_full_nodes");
+  if (needs.quadrature == "mixed") systems.emplace_back("find_filled_nodes");
   systems.emplace_back("moments");
   if (needs.stabilization == "oss") {
     append(systems, {"p2g_pressure_gradient", "divergence_matrix_oss"});
@@ -127,11 +127,13 @@ std::vector<std::string> volume_systems(const Needs& needs) {
 /// Not with newmark, whose configuration lags behind by more than what this mends.
 bool carries_gradient_along(const Needs& needs) { return needs.corrected_inertia && !needs.newmark; }
 
-bool needs_liquid_share(const Needs& needs) { return needs.corrected_inertia || needs.transfer.reads_liquid_share; }
+bool needs_liquid_indicator(const Needs& needs) {
+  return needs.corrected_inertia || needs.transfer.reads_liquid_indicator;
+}
 
 std::vector<std::string> p2g_systems(const Needs& needs) {
   std::vector<std::string> systems{"p2g_mass"};
-  if (needs_liquid_share(needs)) systems.emplace_back("find_liquid");
+  if (needs_liquid_indicator(needs)) systems.emplace_back("find_liquid_cells");
   if (carries_gradient_along(needs)) systems.emplace_back("carry_gradient_to_middle");
   append(systems, needs.transfer.p2g_velocity);
   if (needs.newmark) append(systems, needs.transfer.p2g_acceleration);
@@ -148,8 +150,8 @@ std::vector<std::string> g2p_systems(const Needs& needs) {
 
 std::vector<Slot> step_slots(const Needs& needs) {
   return {
-      {"configure", with({needs.newmark ? "configure_at_start" : "configure_at_middle"}, limits_shift(needs),
-                         "keep_kinetic_energy")},
+      {"configure", with({needs.newmark ? "place_quadrature_at_start" : "place_quadrature_at_middle"},
+                         limits_shift(needs), "store_kinetic_energy")},
       {"bin", {"bin", "number_nodes", "find_capacity"}},
       {"p2g", p2g_systems(needs)},
       {"walls", with({"activate", "find_neighbours", "apply_wall_condition"}, needs.newmark,
@@ -171,7 +173,7 @@ std::vector<Slot> step_slots(const Needs& needs) {
 /// A backward Euler step on a configuration beside x^0 that leaves the particles where they are.
 std::vector<std::string> standing_step(const Needs& needs, const std::string& configure) {
   std::vector<std::string> systems{configure, "bin", "number_nodes", "find_capacity", "p2g_mass"};
-  if (needs_liquid_share(needs)) systems.emplace_back("find_liquid");
+  if (needs_liquid_indicator(needs)) systems.emplace_back("find_liquid_cells");
   append(systems, needs.transfer.p2g_velocity);
   append(systems, {"activate", "find_neighbours", "apply_wall_condition", "predict_backward_euler"});
   for (const auto& part :
@@ -182,7 +184,7 @@ std::vector<std::string> standing_step(const Needs& needs, const std::string& co
 
 std::vector<std::string> start_systems(const Needs& needs) {
   std::vector<std::string> systems;
-  const std::string beside = needs.newmark ? "configure_step_before" : "configure_step_ahead";
+  const std::string beside = needs.newmark ? "place_quadrature_step_before" : "place_quadrature_step_ahead";
   if (needs.ode) append(systems, {"hold_ode"});
   if (needs.corrected_inertia) {
     append(systems, standing_step(needs, beside));
@@ -194,7 +196,7 @@ std::vector<std::string> start_systems(const Needs& needs) {
     append(systems, needs.transfer.g2p_acceleration);
   }
   // The pressure that the first frame shows.
-  append(systems, standing_step(needs, "configure_step_ahead"));
+  append(systems, standing_step(needs, "place_quadrature_step_ahead"));
   append(systems, measure_systems(needs, "measure_probes_at_start"));
   append(systems, {"write_history"});
   return systems;

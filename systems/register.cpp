@@ -11,8 +11,8 @@
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
 #include "systems/grid/capacity.hpp"
-#include "systems/grid/full_nodes.hpp"
-#include "systems/grid/liquid.hpp"
+#include "systems/grid/filled_nodes.hpp"
+#include "systems/grid/liquid_cells.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/measure/acceptance.hpp"
@@ -26,11 +26,11 @@
 #include "systems/solve/monolithic.hpp"
 #include "systems/solve/umfpack.hpp"
 #include "systems/time/body_force.hpp"
-#include "systems/time/configuration.hpp"
 #include "systems/time/damp_divergence.hpp"
 #include "systems/time/midpoint.hpp"
 #include "systems/time/newmark.hpp"
 #include "systems/time/ode.hpp"
+#include "systems/time/quadrature_position.hpp"
 #include "systems/transfer/advect.hpp"
 #include "systems/transfer/apic.hpp"
 #include "systems/transfer/carry_gradient.hpp"
@@ -48,14 +48,14 @@
 namespace minamo {
 
 void register_systems(SystemRegistry& registry) {
-  registry.add<ConfigureAtStart>("configure_at_start");
-  registry.add<ConfigureAtMiddle>("configure_at_middle");
-  registry.add<ConfigureStepBefore>("configure_step_before");
-  registry.add<ConfigureStepAhead>("configure_step_ahead");
+  registry.add<PlaceQuadratureAtStart>("place_quadrature_at_start");
+  registry.add<PlaceQuadratureAtMiddle>("place_quadrature_at_middle");
+  registry.add<PlaceQuadratureStepBefore>("place_quadrature_step_before");
+  registry.add<PlaceQuadratureStepAhead>("place_quadrature_step_ahead");
   registry.add<Bin>("bin");
   registry.add<NumberNodes>("number_nodes");
   registry.add<FindCapacity>("find_capacity");
-  registry.add<FindEndCapacity>("find_end_capacity");
+  registry.add<FindAdvectedCapacity>("find_advected_capacity");
 
   registry.add<P2GMass>("p2g_mass");
   registry.add<P2GVelocityPic>("p2g_velocity_pic");
@@ -85,9 +85,9 @@ void register_systems(SystemRegistry& registry) {
   registry.add<SampleBodyForce>("sample_body_force");
   registry.add<SampleBodyForceOde>("sample_body_force_ode");
   registry.add<P2GBodyForce>("p2g_body_force");
-  registry.add<FreeFlight>("free_flight");
+  registry.add<MoveBallisticNodes>("move_ballistic_nodes");
 
-  registry.add<FindFullNodes>("find_full_nodes");
+  registry.add<FindFilledNodes>("find_filled_nodes");
   registry.add<GatherMoments>("moments");
   registry.add<SetMaterial>("set_material");
   registry.add<FindTau>("find_tau");
@@ -100,7 +100,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<P2GPressureGradient>("p2g_pressure_gradient");
   registry.add<AssembleMonolithic>("assemble_monolithic");
   registry.add<AssembleMonolithicViscous>("assemble_monolithic_viscous");
-  registry.add<FindLiquid>("find_liquid");
+  registry.add<FindLiquidCells>("find_liquid_cells");
   registry.add<CarryGradient>("carry_gradient_to_middle");
   registry.add<CarryGradient>("carry_gradient_to_end");
   registry.add<AddInertiaCorrection>("add_inertia_correction");
@@ -130,7 +130,7 @@ void register_systems(SystemRegistry& registry) {
   registry.add<FindVolumeExcess>("find_volume_excess");
   registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
   registry.add<SolveVolumeBlock>("solve_volume_block");
-  registry.add<KeepKineticEnergy>("keep_kinetic_energy");
+  registry.add<StoreKineticEnergy>("store_kinetic_energy");
   registry.add<LimitShift>("limit_shift");
   registry.add<ShiftParticles>("shift_particles");
   registry.add<ShiftByDelta>("shift_by_delta");

@@ -83,7 +83,8 @@ void MeasureErrorVelocityAt<Dim, When>::operator()(Read<exact::Velocity> exact, 
 
 template <int Dim, class When>
 void MeasureErrorPressureAt<Dim, When>::operator()(Read<exact::Pressure> exact, Read<When> when,
-                                                   Read<particle::Volume> V_p, Read<particle::Configuration<Dim>> y_p,
+                                                   Read<particle::Volume> V_p,
+                                                   Read<particle::QuadraturePosition<Dim>> y_p,
                                                    Read<particle::Pressure> p_p,
                                                    Update<measure::Columns> columns) const {
   if (instant_of(*when).time > exact->until) return columns->set("error_pressure", not_known);

@@ -36,7 +36,7 @@ template <int Dim, class When>
 struct MeasureErrorPressureAt {
   static constexpr std::string_view doc = "(E42) error of the pressure";
   void operator()(Read<exact::Pressure> exact, Read<When> when, Read<particle::Volume> V_p,
-                  Read<particle::Configuration<Dim>> y_p, Read<particle::Pressure> p_p,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Pressure> p_p,
                   Update<measure::Columns> columns) const;
 };
 template <int Dim>

@@ -240,7 +240,7 @@ void solve_again(BlockFactors<Dim>& factors, const std::vector<double>& b, const
 template <int Dim>
 void SolveBlock<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                  Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                                 Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows,
+                                 Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<NodeIndex<Dim>> rows,
                                  Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                  Read<matrix::Divergence<Dim>> divergence,
                                  Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
@@ -267,7 +267,7 @@ template <int Dim>
 void SolveBlockViscous<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                         Read<SolverTolerance> tolerance, Read<node::Row> row,
                                         Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<node::Pressure> p_i,
-                                        Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                        Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                         Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::Stabilization<Dim>> stabilization,
                                         Read<matrix::StabilizationScale> scale, Read<matrix::Viscosity<Dim>> viscosity,

@@ -44,7 +44,7 @@ struct SolveBlock {
   ///   velocities of a stiff liquid do not converge, which shorter steps help.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                   Read<matrix::RightHandSide> right_hand_side, Update<WholeFactors> whole,
@@ -58,7 +58,7 @@ struct SolveBlockViscous {
   ///   velocities of a stiff liquid do not converge, which shorter steps help.
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                   Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Read<matrix::StabilizationScale> scale,
                   Read<matrix::Viscosity<Dim>> viscosity, Read<matrix::RightHandSide> right_hand_side,

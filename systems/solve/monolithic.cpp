@@ -123,7 +123,7 @@ void fill_monolithic(const EquationTerms<Dim>& t, const Grid<Dim>& grid, matrix:
 template <int Dim>
 void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                          Read<node::Row> row, Read<node::Constraint> fixed, Read<node::Mass> m_i,
-                                         Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                         Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                          Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
                                          Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
@@ -145,7 +145,7 @@ void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid
 template <int Dim>
 void AssembleMonolithicViscous<Dim>::operator()(
     Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-    Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+    Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
     Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
     Read<matrix::Viscosity<Dim>> viscosity, Update<matrix::Pattern> pattern, Write<matrix::Values> values) const {
   fill_monolithic<Dim>({rates->velocity, rates->acceleration,

@@ -28,7 +28,7 @@ using UniformBodyForceOde = UniformBodyForceAt<Dim, ode::AtBalances>;
 template <int Dim, class When>
 struct SampleBodyForceAt {
   static constexpr std::string_view doc = "b_p at the particles";
-  void operator()(Read<BodyForce> b, Read<When> when, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<BodyForce> b, Read<When> when, Read<particle::QuadraturePosition<Dim>> y_p,
                   Write<particle::BodyForce<Dim>> b_p) const;
 };
 template <int Dim>
@@ -40,22 +40,22 @@ using SampleBodyForceOde = SampleBodyForceAt<Dim, ode::AtBalances>;
 template <int Dim>
 struct P2GBodyForce {
   static constexpr std::string_view doc = "(E14) b_I, from the particles";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p, Read<node::Mass> m_i,
                   Write<node::BodyForce<Dim>> b_i) const;
 };
 
-/// (E15)  Light nodes move freely, a_I = b_I: u_I = (b_I - a^_I)/c_a. Active nodes get what walls
+/// (E15)  Nodes below the mass threshold are ballistic, a_I = b_I: u_I = (b_I - a^_I)/c_a. Active nodes get what walls
 /// prescribe, zero where they are at rest; the solve adds the rest.
 /// With this every node with mass has a velocity: a uniform flow has no divergence, and of the linear momentum only the
-/// pressure force on light nodes is lost, less than 1e-5 in tests/property/conservation_test.cpp.
+/// pressure force on ballistic nodes is lost, less than 1e-5 in tests/property/conservation_test.cpp.
 template <int Dim>
-struct FreeFlight {
-  static constexpr std::string_view doc = "(E15) u_I of light nodes";
+struct MoveBallisticNodes {
+  static constexpr std::string_view doc = "(E15) u_I of ballistic nodes";
   void operator()(Read<node::Row> row, Read<node::Constraint> constraint,
                   Optional<Read<node::ConstraintFrame<Dim>>> frame, Optional<Read<node::ConstraintVelocity<Dim>>> w_i,
                   Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
-                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+                  Read<node::PredictedVelocity<Dim>> v_predicted, Read<node::PredictedAcceleration<Dim>> a_predicted,
                   Write<node::Displacement<Dim>> u_i) const;
 };
 

@@ -18,7 +18,7 @@ namespace minamo {
 template <int Dim>
 struct FilterVelocityFmpm {
   static constexpr std::string_view doc = "(E66) v*_I, FMPM";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<FilterOrder> order, Read<node::Mass> m_i,
                   Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
                   Read<node::NewVelocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
@@ -29,7 +29,7 @@ struct FilterVelocityFmpm {
 template <int Dim>
 struct G2PVelocityFmpm {
   static constexpr std::string_view doc = "(E66) v_p, FMPM";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::FilteredVelocity<Dim>> v_filtered, Write<particle::Velocity<Dim>> v_p) const;
 };
 

@@ -2,7 +2,7 @@
 
 #include "systems/assemble/stencil.hpp"
 #include "systems/grid/node_volume.hpp"
-#include "systems/grid/place.hpp"
+#include "systems/grid/point_locator.hpp"
 #include "systems/solve/equations.hpp"
 #include "systems/transfer/cell_polynomial.hpp"
 #include "systems/volume/shift.hpp"
@@ -11,16 +11,17 @@ namespace minamo {
 
 template <int Dim>
 void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
-                                       Read<particle::Volume> V_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
-                                       Write<end_node::Site<Dim>> sites, Write<end_node::Volume> v_i) const {
-  number_end_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
+                                       Read<particle::Volume> V_p, Resize<AdvectedNodes> nodes,
+                                       Write<AdvectedNodeIndex<Dim>> rows, Write<advected_node::Site<Dim>> sites,
+                                       Write<advected_node::Volume> v_i) const {
+  number_advected_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
   gather_node_volume<Dim>(*grid, *rows, x_p.span(), V_p.span(), v_i.span());
 }
 
 template <int Dim>
-void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>> rows, Read<end_node::Site<Dim>> sites,
-                                       Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
-                                       Write<end_node::VolumeExcess> e_i) const {
+void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<AdvectedNodeIndex<Dim>> rows,
+                                       Read<advected_node::Site<Dim>> sites, Read<advected_node::Capacity> capacity,
+                                       Read<advected_node::Volume> v_i, Write<advected_node::VolumeExcess> e_i) const {
   // Deep inside: all nodes within two rings are at least half full, so that the support holds no part of the surface.
   const Stencil<Dim> stencil(*grid, *rows, sites.span());
   const auto half_full = [&](std::size_t j) { return v_i[j] > 0.5 * capacity[j]; };
@@ -38,7 +39,7 @@ namespace {
 /// (0; c_v r E_I), I a node of the step, which no particle may touch any more.
 template <int Dim>
 void fill_source(double scale, std::span<const std::uint32_t> node, std::span<const Index<Dim>> sites,
-                 const EndSites<Dim>& end_rows, std::span<const double> e_i, std::vector<double>& b) {
+                 const AdvectedNodeIndex<Dim>& end_rows, std::span<const double> e_i, std::vector<double>& b) {
   constexpr std::size_t width = unknowns_per_row(Dim);
   b.assign(width * node.size(), 0.0);
   for (std::size_t r = 0; r < node.size(); ++r) {
@@ -65,7 +66,7 @@ double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2,
 template <int Dim>
 void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Row> row,
                                          Read<matrix::Node> node, Read<node::Site<Dim>> sites,
-                                         Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
+                                         Read<AdvectedNodeIndex<Dim>> end_rows, Read<advected_node::VolumeExcess> e_i,
                                          Read<matrix::Values>,  // the backend refines its solution with them
                                          Update<UmfpackFactors> factors, Update<VolumeEquations> equations,
                                          Write<node::Shift<Dim>> d_i) const {
@@ -78,10 +79,10 @@ void SolveVolumeUmfpack<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rat
 template <int Dim>
 void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<Rates> rates, Read<VolumeRate> rate,
                                        Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint>,
-                                       Read<node::Mass>, Read<WetSites<Dim>>, Read<node::Site<Dim>> sites,
+                                       Read<node::Mass>, Read<NodeIndex<Dim>>, Read<node::Site<Dim>> sites,
                                        Read<matrix::Node> node, Read<matrix::Divergence<Dim>>,
-                                       Read<matrix::Stabilization<Dim>>, Read<EndSites<Dim>> end_rows,
-                                       Read<end_node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
+                                       Read<matrix::Stabilization<Dim>>, Read<AdvectedNodeIndex<Dim>> end_rows,
+                                       Read<advected_node::VolumeExcess> e_i, Update<BlockFactors<Dim>> factors,
                                        Update<VolumeEquations> equations, Write<node::Shift<Dim>> d_i) const {
   auto& [b, x] = *equations;
   fill_source<Dim>(rates->velocity * rate->rate, node.span(), sites.span(), *end_rows, e_i.span(), b);
@@ -93,9 +94,9 @@ namespace {
 
 /// The shift within a dual cell; nodes that the step did not have shift nothing.
 template <int Dim>
-CellPolynomial<Dim> shift_within(const Grid<Dim>& grid, const WetSites<Dim>& rows, const Index<Dim>& own,
+CellPolynomial<Dim> shift_within(const Grid<Dim>& grid, const NodeIndex<Dim>& rows, const Index<Dim>& own,
                                  std::span<const Vec<Dim>> d_i) {
-  const Surroundings<Dim> around(grid, rows, own);
+  const NodeStencil<Dim> around(grid, rows, own);
   return {around.support, around.node, [&](std::optional<std::uint32_t> i) -> Vec<Dim> {
             if (!i) return Vec<Dim>::Zero();
             return d_i[*i];
@@ -105,7 +106,7 @@ CellPolynomial<Dim> shift_within(const Grid<Dim>& grid, const WetSites<Dim>& row
 }  // namespace
 
 template <int Dim>
-void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Shift<Dim>> d_i,
+void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<node::Shift<Dim>> d_i,
                                      Update<particle::Position<Dim>> x_p) const {
   for_each_range(x_p.size(), [&](std::size_t begin, std::size_t end) {
     DualCellFinder<Dim> cell(*grid);

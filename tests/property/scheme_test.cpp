@@ -39,7 +39,7 @@ double nodal_angular_momentum(World& world) {
 
 /// The same of the particles at their weights' places, affine part included (E30), about the origin.
 double particle_angular_momentum(World& world) {
-  const auto y_p = world.column<particle::Configuration<2>>();
+  const auto y_p = world.column<particle::QuadraturePosition<2>>();
   const auto x_p = world.column<particle::Position<2>>();
   std::copy(y_p.begin(), y_p.end(), x_p.begin());
   run<MeasureMomentumAffine<2>>(world);
@@ -61,7 +61,7 @@ void fill_away_from_walls(World& world) {
   fill<2>(world, 400, 11);
   const Grid<2> grid = small_grid<2>();
   const Vec<2> half = Vec<2>::Constant(0.5 * grid.spacing);
-  for (Vec<2>& y : world.column<particle::Configuration<2>>()) {
+  for (Vec<2>& y : world.column<particle::QuadraturePosition<2>>()) {
     y = y.cwiseMax(grid.low + half).cwiseMin(grid.high - half);
   }
   sort<2>(world);
@@ -142,9 +142,7 @@ TEST_CASE("TPIC of second order hands it to the particles and back, whatever it 
   World world;
   fill_away_from_walls(world);
   Random random(13);
-  auto& interior = world.resource<LiquidShare>().interior;
-  interior.resize(world.resource<OccupiedCells<2>>().cells.size());
-  for (double& share : interior) share = 0.5 + 0.5 * random.vector<2>(-1, 1)[0];
+  for (double& b_c : world.column<cell::BulkIndicator>()) b_c = 0.5 + 0.5 * random.vector<2>(-1, 1)[0];
   run<G2PVelocityTpic2<2>>(world);
   run<P2GVelocityTpic2<2>>(world);
   // 400 terms of size 1 and rounding 1e-16 each.
@@ -173,7 +171,7 @@ TEMPLATE_TEST_CASE_SIG("APIC's affine part is the sum over nodes that defines it
   double worst = 0;
   std::size_t compared = 0;
   for (std::size_t p = 0; p < world.rows<Particles>(); ++p) {
-    const Vec<Dim> y = world.column<particle::Configuration<Dim>>()[p];
+    const Vec<Dim> y = world.column<particle::QuadraturePosition<Dim>>()[p];
     const PlainWeights<Dim> plain(grid, y);
     Mat<Dim> sum = Mat<Dim>::Zero();
     Vec<Dim> second_moment = Vec<Dim>::Zero();
@@ -205,7 +203,7 @@ TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velo
   run<G2PVelocityApic<Dim>>(world);
   double worst = 0;
   for (std::size_t p = 0; p < world.rows<Particles>(); ++p) {
-    const Vec<Dim> y = world.column<particle::Configuration<Dim>>()[p];
+    const Vec<Dim> y = world.column<particle::QuadraturePosition<Dim>>()[p];
     worst = std::max(worst, (world.column<particle::Velocity<Dim>>()[p] - (a * y + b)).norm());
     worst = std::max(worst, (world.column<particle::VelocityGradient<Dim>>()[p] - a).norm());
   }

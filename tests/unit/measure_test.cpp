@@ -87,7 +87,7 @@ TEST_CASE("overlap is what particles have beyond the volume of their nodes", "[u
   full_box(world, 700);
   for (double& V : world.column<particle::Volume>()) V *= times;
   run<GatherNodeVolume<2>>(world);
-  run<FindEndCapacity<2>>(world);
+  run<FindAdvectedCapacity<2>>(world);
   run<MeasureOverlap<2>>(world);
   // Per direction a lattice of 2 particles gives the nodes 17/32, 31/32, 1, ... of h; the integrals of their weights
   // are 13/24, 23/24, 1, ... of h.

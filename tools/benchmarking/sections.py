@@ -33,8 +33,8 @@ DISTANCE_TEXT = """\
 Share of the water that is not where interFoam on 160 x 160 cells has it (`tools/compare_interfoam.py`), at output
 times within 2 ms of the reference's:
 """
-ASSEMBLY = ("find_full_nodes", "moments_mixed", "divergence_matrix", "laplacian_matrix", "viscosity_matrix",
-            "stabilize_pspg", "right_hand_side_viscous", "add_inertia_correction")
+ASSEMBLY = ("find_filled_nodes", "moments", "divergence_matrix", "laplacian_matrix", "viscosity_matrix",
+            "right_hand_side", "add_inertia_correction")
 
 
 def per_simulated_second(row: Row) -> float:
