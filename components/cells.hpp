@@ -62,6 +62,16 @@ struct Tau : Column<Cells, double> {
   static constexpr ComponentInfo info{"cell.tau", "tau_c", "m^3 s/kg", Lifetime::scratch};
 };
 
+/// w_c of (E61): 0 in spray, 1 in liquid. [1]
+struct LiquidIndicator : Column<Cells, double> {
+  static constexpr ComponentInfo info{"cell.liquid_indicator", "w_c", "1", Lifetime::scratch};
+};
+
+/// b_c of (E61): 0 in spray and thin films, 1 in the bulk. [1]
+struct BulkIndicator : Column<Cells, double> {
+  static constexpr ComponentInfo info{"cell.bulk_indicator", "b_c", "1", Lifetime::scratch};
+};
+
 }  // namespace cell
 
 /// sum over the particles of a cell of V_p xi^a eta^b (zeta^c), 0 <= a, b, c <= 4, at [a + 5 b + 25 c]; xi, eta, zeta
@@ -70,15 +80,8 @@ struct Tau : Column<Cells, double> {
 template <int Dim>
 struct Moments {
   std::vector<std::array<double, stencil_size<Dim>>> of_cell;
-  std::vector<std::uint8_t> is_full;  ///< 1 where they are those of a cell full of liquid, (E68)
+  std::vector<std::uint8_t> is_filled;  ///< 1 where they are those of a filled cell, (E68)
   static constexpr ComponentInfo info{"cells.moments", "M_c", "m^d", Lifetime::scratch};
-};
-
-/// Where particles are spray, liquid, and liquid away from its surface. One entry per occupied cell each. [1]
-struct LiquidShare {
-  std::vector<double> of_cell;   ///< w_c of (E61): 0 in spray, 1 in liquid
-  std::vector<double> interior;  ///< b_c of (E61): 0 in spray and thin films, 1 in the bulk
-  static constexpr ComponentInfo info{"cells.liquid", "w_c", "1", Lifetime::scratch};
 };
 
 /// Work space of the sort, kept so that a step does not allocate.

@@ -2,7 +2,8 @@
 /// \file
 /// What grid nodes carry. One row per node of an occupied dual cell, in the order of their sites, x fastest; numbered
 /// anew whenever particles are sorted (sites.hpp).
-/// A node is empty (no mass), light (too little mass for a pressure; it moves freely), or active (a row of the matrix).
+/// A node is empty (no mass), ballistic (below the mass threshold: no pressure, it moves freely), or active (a row of
+/// the matrix).
 
 #include "components/types.hpp"
 #include "engine/component.hpp"
@@ -55,14 +56,14 @@ struct Capacity : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.capacity", "V_I", "m^d", Lifetime::scratch};
 };
 
-/// phi_I of (E67): the share of the node's volume that the particles fill. [1]
-struct Filling : Column<Nodes, double> {
-  static constexpr ComponentInfo info{"node.filling", "phi_I", "1", Lifetime::scratch};
+/// Fill fraction phi_I of (E67): what the particles fill of the capacity. [1]
+struct FillFraction : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.fill_fraction", "phi_I", "1", Lifetime::scratch};
 };
 
-/// theta_I of (E67): 1 where the liquid fills all around the node, so that integrals need no particles. [1]
-struct Fullness : Column<Nodes, double> {
-  static constexpr ComponentInfo info{"node.fullness", "theta_I", "1", Lifetime::scratch};
+/// theta_I of (E67): 1 where all nodes around are filled, so that integrals need no particles. [1]
+struct FilledIndicator : Column<Nodes, double> {
+  static constexpr ComponentInfo info{"node.filled_indicator", "theta_I", "1", Lifetime::scratch};
 };
 
 /// Velocity v_I^n at the start of the step. [m/s]
@@ -85,14 +86,14 @@ struct BodyForce : Column<Nodes, Vec<Dim>> {
 
 /// Part of the velocity in the balances that does not depend on the unknown displacement. [m/s]
 template <int Dim>
-struct KnownVelocity : Column<Nodes, Vec<Dim>> {
-  static constexpr ComponentInfo info{"node.known_velocity", "v^_I", "m/s", Lifetime::scratch};
+struct PredictedVelocity : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.predicted_velocity", "v^_I", "m/s", Lifetime::scratch};
 };
 
 /// Part of the acceleration in the balances that does not depend on the unknown displacement. [m/s^2]
 template <int Dim>
-struct KnownAcceleration : Column<Nodes, Vec<Dim>> {
-  static constexpr ComponentInfo info{"node.known_acceleration", "a^_I", "m/s^2", Lifetime::scratch};
+struct PredictedAcceleration : Column<Nodes, Vec<Dim>> {
+  static constexpr ComponentInfo info{"node.predicted_acceleration", "a^_I", "m/s^2", Lifetime::scratch};
 };
 
 /// Lumped projection g_I of the pressure gradient of the step before. [Pa/m]

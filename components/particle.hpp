@@ -34,11 +34,11 @@ struct Position : Column<Particles, Vec<Dim>> {
   static constexpr ComponentInfo info{"particle.position", "x_p", "m", Lifetime::state};
 };
 
-/// Where the step takes its weights, y_p: x_p^n, or the middle of the step. [m]
+/// Quadrature position y_p, at which the step takes its weights: x_p^n, or the middle of the step. [m]
 template <int Dim>
-struct Configuration : Column<Particles, Vec<Dim>> {
+struct QuadraturePosition : Column<Particles, Vec<Dim>> {
   // State, because the sort of the particles carries it along and output samples nodal fields there.
-  static constexpr ComponentInfo info{"particle.configuration", "y_p", "m", Lifetime::state};
+  static constexpr ComponentInfo info{"particle.quadrature_position", "y_p", "m", Lifetime::state};
 };
 
 /// Velocity v_p. [m/s]

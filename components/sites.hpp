@@ -150,8 +150,8 @@ void SiteRows<Dim>::for_each(const Body& body) const {
 
 /// The rows of Nodes.
 template <int Dim>
-struct WetSites : SiteRows<Dim> {
-  static constexpr ComponentInfo info{"node.rows", "", "1", Lifetime::cache};
+struct NodeIndex : SiteRows<Dim> {
+  static constexpr ComponentInfo info{"node.index", "", "1", Lifetime::cache};
 };
 
 }  // namespace minamo

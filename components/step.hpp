@@ -52,9 +52,9 @@ struct ForceStep {
 };
 
 /// Particles that a step would have carried out of the box, so far. [1]
-struct PutBack {
+struct Clamped {
   std::int64_t count = 0;
-  static constexpr ComponentInfo info{"put_back", "", "1", Lifetime::state};
+  static constexpr ComponentInfo info{"clamped", "", "1", Lifetime::state};
 };
 
 }  // namespace minamo

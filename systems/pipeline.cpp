@@ -49,7 +49,7 @@ std::vector<System> make_start(const Recipe& recipe) {
   };
   for (const Recipe::StandingStep& step : recipe.standing_steps()) stand(step.configure, step.after);
   // The pressure that the first frame shows.
-  stand(recipe.make("configure_step_ahead"), standing_slots(recipe, "measure", "record"));
+  stand(recipe.make("place_quadrature_step_ahead"), standing_slots(recipe, "measure", "record"));
   return start;
 }
 

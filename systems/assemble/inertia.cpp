@@ -35,11 +35,11 @@ Mat<Dim> mean(const typename OccupiedCells<Dim>::Cell& cell, std::span<const dou
 template <int Dim>
 void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const double> rho_c,
                           const Moments<Dim>& moments, std::span<const double> m_p, std::span<const Mat<Dim>> grad_f_p,
-                          const LiquidShare& liquid, std::span<Vec<Dim>> out) {
+                          std::span<const double> w_c, std::span<Vec<Dim>> out) {
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
   for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(grid, cell);
-    const double share = liquid.of_cell[c];
+    const double share = w_c[c];
     if (share == 0) return;
     const Mat<Dim> gradient = share * rho_c[c] * grid.spacing * mean<Dim>(cell, m_p, grad_f_p);
     for (int d = 0; d < Dim; ++d) {
@@ -54,19 +54,19 @@ void scatter_first_moment(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells
 template <int Dim>
 void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Read<Grid<Dim>> grid,
                                            Read<OccupiedCells<Dim>> cells, Read<cell::Density> rho_c,
-                                           Read<Moments<Dim>> moments, Read<LiquidShare> liquid,
+                                           Read<Moments<Dim>> moments, Read<cell::LiquidIndicator> w_c,
                                            Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p,
                                            Read<node::Row> row, Read<node::Constraint> constraint,
                                            Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
                                            Read<matrix::Node> node, Write<node::InertiaCorrection<Dim>> c_i,
                                            Update<matrix::Momentum<Dim>> f) const {
-  scatter_first_moment<Dim>(*grid, *cells, rho_c.span(), *moments, m_p.span(), grad_f_p.span(), *liquid, c_i.span());
+  scatter_first_moment<Dim>(*grid, *cells, rho_c.span(), *moments, m_p.span(), grad_f_p.span(), w_c.span(), c_i.span());
   const double share = std::min(1.0, step->seconds / clock->step);
-  const double light = light_mass(m_i.span());
+  const double threshold = mass_threshold(m_i.span());
   const Constraints<Dim> constraints{constraint.span(), frame.span()};
   for_each_row(c_i.size(), [&](std::size_t i) {
-    // What the liquid does to a light node next to a wall is not to come back to it as inertia of its own.
-    if (row[i] < 0 || m_i[i] <= light) {
+    // What the liquid does to a node below the threshold next to a wall is not to come back to it as inertia of its own.
+    if (row[i] < 0 || m_i[i] <= threshold) {
       c_i[i].setZero();
     } else {
       c_i[i] *= share / m_i[i];

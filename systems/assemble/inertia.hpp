@@ -30,7 +30,7 @@ template <int Dim>
 struct AddInertiaCorrection {
   static constexpr std::string_view doc = "(E53) first moment that lumping the mass leaves out";
   void operator()(Read<Clock> clock, Read<ForceStep> step, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                  Read<cell::Density> rho_c, Read<Moments<Dim>> moments, Read<LiquidShare> liquid,
+                  Read<cell::Density> rho_c, Read<Moments<Dim>> moments, Read<cell::LiquidIndicator> w_c,
                   Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p, Read<node::Row> row,
                   Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
                   Read<node::Mass> m_i, Read<matrix::Node> node, Write<node::InertiaCorrection<Dim>> c_i,

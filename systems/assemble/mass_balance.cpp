@@ -59,8 +59,8 @@ template <int Dim>
 void AssembleDivergence<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                                          Read<Moments<Dim>> moments, Read<cell::Density> rho_c, Read<cell::Tau> tau_c,
                                          Read<node::Row> row, Read<node::BodyForce<Dim>> b_i,
-                                         Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
-                                         Write<matrix::Divergence<Dim>> divergence,
+                                         Read<node::PredictedAcceleration<Dim>> a_predicted,
+                                         Read<node::Displacement<Dim>> u_i, Write<matrix::Divergence<Dim>> divergence,
                                          Write<matrix::Stabilization<Dim>> stabilization,
                                          Write<matrix::StabilizationSource> source) const {
   const MassBalance<Dim> rows{divergence.span(), stabilization.span(), source.span()};
@@ -72,7 +72,7 @@ void AssembleDivergence<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid
     for (std::size_t k = 0; k < force.size(); ++k) {
       const std::size_t j = support.node[k];
       force[k].setZero();
-      if (row[j] >= 0) force[k] = rho_c[c] * (b_i[j] - (a_known[j] + rates->acceleration * u_i[j]));
+      if (row[j] >= 0) force[k] = rho_c[c] * (b_i[j] - (a_predicted[j] + rates->acceleration * u_i[j]));
     }
     add_divergence<true, Dim>(support, matrices, row.span(), tau_c[c], tau_c[c] * rho_c[c], force, rows);
   });

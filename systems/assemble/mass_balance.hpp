@@ -23,7 +23,7 @@ struct AssembleDivergence {
   static constexpr std::string_view doc = "(E21) (E24) (E50) D_IJ, G_IJ, s_I, PSPG and VMS";
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments,
                   Read<cell::Density> rho_c, Read<cell::Tau> tau_c, Read<node::Row> row, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
+                  Read<node::PredictedAcceleration<Dim>> a_predicted, Read<node::Displacement<Dim>> u_i,
                   Write<matrix::Divergence<Dim>> divergence, Write<matrix::Stabilization<Dim>> stabilization,
                   Write<matrix::StabilizationSource> source) const;
 };

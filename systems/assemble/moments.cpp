@@ -88,9 +88,9 @@ class MomentSum {
 
 /// theta = sum_J theta_J S_J within a dual cell, as a polynomial.
 template <int Dim>
-class FullnessWithin {
+class IndicatorWithin {
  public:
-  FullnessWithin(const CellBasis<Dim>& basis, const std::array<double, support_size<Dim>>& theta)
+  IndicatorWithin(const CellBasis<Dim>& basis, const std::array<double, support_size<Dim>>& theta)
       : coefficient_(contract_axes<Dim, 3, weight_powers>(theta, [&](std::size_t d) {
           return [&w = basis[d]->weight](std::size_t q, std::size_t k) { return w[k][q]; };
         })) {}
@@ -127,10 +127,10 @@ CellMoments<Dim> sum_over_particles(const Support<Dim>& support, const typename 
 
 template <int Dim>
 void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                    Read<particle::Configuration<Dim>> y_p, Read<particle::Volume> V_p,
-                                    Optional<Read<node::Fullness>> theta_i, Write<Moments<Dim>> moments) const {
+                                    Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
+                                    Optional<Read<node::FilledIndicator>> theta_i, Write<Moments<Dim>> moments) const {
   moments->of_cell.resize(cells->cells.size());
-  moments->is_full.resize(cells->cells.size());
+  moments->is_filled.resize(cells->cells.size());
   const double cell_volume = std::pow(grid->spacing, Dim);
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
@@ -139,7 +139,7 @@ void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim
       for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = theta_i[support.node[k]];
     }
     const auto [least, most] = std::minmax_element(theta.begin(), theta.end());
-    moments->is_full[c] = *least == 1;
+    moments->is_filled[c] = *least == 1;
     CellMoments<Dim>& sum = moments->of_cell[c];
     if (*most == 0) {
       sum = sum_over_particles<Dim>(support, cell, y_p.span(), V_p.span(), [](const Vec<Dim>&) { return 1.0; });
@@ -147,9 +147,9 @@ void GatherMoments<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim
     }
     sum.fill(0);
     if (*least < 1) {
-      const FullnessWithin<Dim> fullness(support.basis, theta);
+      const IndicatorWithin<Dim> indicator(support.basis, theta);
       sum = sum_over_particles<Dim>(support, cell, y_p.span(), V_p.span(),
-                                    [&](const Vec<Dim>& xi) { return 1 - fullness.at(xi); });
+                                    [&](const Vec<Dim>& xi) { return 1 - indicator.at(xi); });
     }
     const CellMoments<Dim> inside = integrate_theta<Dim>(support.basis, theta);
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += cell_volume * inside[k];

@@ -6,7 +6,7 @@
 namespace minamo {
 
 template <int Dim>
-void FindNeighbours<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> sites,
+void FindNeighbours<Dim>::operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> sites,
                                      Read<matrix::Node> node, Write<matrix::Neighbour<Dim>> neighbour) const {
   constexpr std::size_t rows_per_task = 256;
   const Stencil<Dim> stencil(*grid, *rows, sites.span());

@@ -7,7 +7,7 @@ namespace minamo {
 
 template <int Dim>
 void G2PPressureGradient<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                          Read<particle::Configuration<Dim>> y_p, Read<node::Pressure> p_i,
+                                          Read<particle::QuadraturePosition<Dim>> y_p, Read<node::Pressure> p_i,
                                           Write<particle::PressureGradient<Dim>> grad_p_p) const {
   for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
     const Support<Dim> support(*grid, cell);
@@ -24,7 +24,7 @@ void G2PPressureGradient<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCel
 
 template <int Dim>
 void P2GPressureGradient<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                          Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                          Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                           Read<particle::PressureGradient<Dim>> grad_p_p, Read<node::Mass> m_i,
                                           Write<node::PressureGradient<Dim>> g_i) const {
   scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, grad_p_p.span(), g_i.span());

@@ -14,7 +14,7 @@ namespace minamo {
 template <int Dim>
 struct G2PPressureGradient {
   static constexpr std::string_view doc = "(E49) grad p_p";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::Pressure> p_i, Write<particle::PressureGradient<Dim>> grad_p_p) const;
 };
 
@@ -22,7 +22,7 @@ struct G2PPressureGradient {
 template <int Dim>
 struct P2GPressureGradient {
   static constexpr std::string_view doc = "(E49) g_I";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::PressureGradient<Dim>> grad_p_p, Read<node::Mass> m_i,
                   Write<node::PressureGradient<Dim>> g_i) const;
 };

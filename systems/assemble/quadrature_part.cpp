@@ -1,4 +1,4 @@
-#include "systems/grid/full_nodes.hpp"
+#include "systems/grid/filled_nodes.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/lattice.hpp"
 #include "systems/setup/schemes.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 Contribution read_mixed(Input&, Scene& scene) {
   scene.facts.set(LatticePlaces::nearer_to_walls);
-  return adds("assemble", {"find_full_nodes", "moments"});
+  return adds("assemble", {"find_filled_nodes", "moments"});
 }
 
 Contribution read_particles(Input&, Scene& scene) {
@@ -21,7 +21,7 @@ Contribution read_particles(Input&, Scene& scene) {
 }  // namespace
 
 void add_quadrature(SystemRegistry& registry) {
-  registry.add<FindFullNodes>("find_full_nodes");
+  registry.add<FindFilledNodes>("find_filled_nodes");
   registry.add<GatherMoments>("moments");
   registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});

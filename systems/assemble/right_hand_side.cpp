@@ -9,13 +9,13 @@ namespace minamo {
 namespace {
 
 template <int Dim>
-struct KnownTerms {
+struct RightHandSideTerms {
   double c_v;
   Constraints<Dim> constraints;
   std::span<const double> m_i;
   std::span<const Vec<Dim>> b_i;
-  std::span<const Vec<Dim>> v_known;
-  std::span<const Vec<Dim>> a_known;
+  std::span<const Vec<Dim>> v_predicted;
+  std::span<const Vec<Dim>> a_predicted;
   std::span<const Vec<Dim>> u_i;
   std::span<const std::uint32_t> node;
   std::span<const typename matrix::Neighbour<Dim>::value_type> neighbour;
@@ -26,12 +26,12 @@ struct KnownTerms {
 
 /// Right-hand sides of (E25) and (E26) for one row.
 template <int Dim>
-void fill_row(const KnownTerms<Dim>& t, std::size_t r, Vec<Dim>& f, double& g) {
+void fill_row(const RightHandSideTerms<Dim>& t, std::size_t r, Vec<Dim>& f, double& g) {
   const std::uint32_t i = t.node[r];
-  Vec<Dim> momentum = t.m_i[i] * (t.b_i[i] - t.a_known[i]);
+  Vec<Dim> momentum = t.m_i[i] * (t.b_i[i] - t.a_predicted[i]);
   double mass = t.source[r];
   for_each_neighbour<Dim>(t.neighbour[r], [&](std::size_t to_j, std::uint32_t j) {
-    const Vec<Dim> v = t.v_known[j] + t.c_v * t.u_i[j];
+    const Vec<Dim> v = t.v_predicted[j] + t.c_v * t.u_i[j];
     if (v.isZero(0)) return;
     for (std::size_t d = 0; d < Dim; ++d) {
       mass -= t.divergence[r][Dim * to_j + d] * v[static_cast<Eigen::Index>(d)];
@@ -48,7 +48,7 @@ void fill_row(const KnownTerms<Dim>& t, std::size_t r, Vec<Dim>& f, double& g) {
 }
 
 template <int Dim>
-void fill(const KnownTerms<Dim>& terms, std::span<Vec<Dim>> f, std::span<double> g) {
+void fill(const RightHandSideTerms<Dim>& terms, std::span<Vec<Dim>> f, std::span<double> g) {
   constexpr std::size_t rows_per_task = 256;
   for_each_row(
       terms.node.size(), [&](std::size_t r) { fill_row<Dim>(terms, r, f[r], g[r]); }, rows_per_task);
@@ -59,8 +59,8 @@ void fill(const KnownTerms<Dim>& terms, std::span<Vec<Dim>> f, std::span<double>
 template <int Dim>
 void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Constraint> constraint,
                                         Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
-                                        Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
-                                        Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
+                                        Read<node::BodyForce<Dim>> b_i, Read<node::PredictedVelocity<Dim>> v_predicted,
+                                        Read<node::PredictedAcceleration<Dim>> a_predicted, Read<node::Displacement<Dim>> u_i,
                                         Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                                         Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::StabilizationSource> source,
@@ -70,8 +70,8 @@ void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Constraint
              {constraint.span(), frame.span()},
              m_i.span(),
              b_i.span(),
-             v_known.span(),
-             a_known.span(),
+             v_predicted.span(),
+             a_predicted.span(),
              u_i.span(),
              node.span(),
              neighbour.span(),

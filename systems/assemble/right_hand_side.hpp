@@ -17,8 +17,8 @@ struct FillRightHandSide {
   static constexpr std::string_view doc = "(E25) (E26) right-hand side";
   void operator()(Read<Rates> rates, Read<node::Constraint> constraint,
                   Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
-                  Read<node::BodyForce<Dim>> b_i, Read<node::KnownVelocity<Dim>> v_known,
-                  Read<node::KnownAcceleration<Dim>> a_known, Read<node::Displacement<Dim>> u_i,
+                  Read<node::BodyForce<Dim>> b_i, Read<node::PredictedVelocity<Dim>> v_predicted,
+                  Read<node::PredictedAcceleration<Dim>> a_predicted, Read<node::Displacement<Dim>> u_i,
                   Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationSource> source,
                   Optional<Read<matrix::Viscosity<Dim>>> viscosity, Write<matrix::Momentum<Dim>> f,

@@ -14,7 +14,7 @@ constexpr std::array<const AxisBasis*, 3> all_bases{&low_wall_basis, &inner_basi
 template <int Dim>
 SlopeMatrices<Dim>::SlopeMatrices(const SupportBox<Dim>& support, const Moments<Dim>& moments, std::size_t c)
     : basis_(&support.basis), moments_(&moments.of_cell[c]), full_(nullptr), volume_(1) {
-  if (moments.is_full[c] == 0) return;
+  if (moments.is_filled[c] == 0) return;
   full_ = &of_full_cell(support.basis);
   for (int d = 0; d < Dim; ++d) volume_ /= support.per_spacing;
 }

@@ -2,7 +2,7 @@
 
 namespace minamo {
 
-double light_mass(std::span<const double> m_i) {
+double mass_threshold(std::span<const double> m_i) {
   double mass = 0;
   std::size_t count = 0;
   for (const double m : m_i) {
@@ -28,21 +28,21 @@ Index<Dim> on_wall(const Grid<Dim>& grid, Index<Dim> site) {
 }  // namespace
 
 template <int Dim>
-void Activate<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> wet, Read<node::Site<Dim>> site,
+void Activate<Dim>::operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> index, Read<node::Site<Dim>> site,
                                Read<node::Mass> m_i, Resize<ActiveNodes> rows, Write<node::Row> row,
                                Write<matrix::Node> node) const {
   // (E7): the rows of lighter nodes are noise to the solver and their accelerations are noise to the particles. Not so
   // next to a wall: water that lies flat on it gives the first node inside hardly any mass but all of its thickening,
-  // since the slope of its weight does not vanish, (E2). In free flight it would thin the water out for ever.
-  const double light = light_mass(m_i.span());
+  // since the slope of its weight does not vanish, (E2). As a ballistic node it would thin the water out for ever.
+  const double threshold = mass_threshold(m_i.span());
   const auto lies_on_wall = [&](std::size_t i) {
     const Index<Dim> wall = on_wall<Dim>(*grid, site[i]);
     if (wall == site[i] || m_i[i] == 0) return false;
-    const auto at_wall = wet->find(wall);
-    return at_wall && m_i[*at_wall] > light;
+    const auto at_wall = index->find(wall);
+    return at_wall && m_i[*at_wall] > threshold;
   };
   std::int32_t count = 0;
-  for (std::size_t i = 0; i < m_i.size(); ++i) row[i] = m_i[i] > light || lies_on_wall(i) ? count++ : -1;
+  for (std::size_t i = 0; i < m_i.size(); ++i) row[i] = m_i[i] > threshold || lies_on_wall(i) ? count++ : -1;
   rows.resize(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < m_i.size(); ++i) {
     if (row[i] >= 0) node[static_cast<std::size_t>(row[i])] = static_cast<std::uint32_t>(i);

@@ -130,8 +130,9 @@ void list_occupied(const Blocks<Dim>& blocks, const BinBuffer& buffer, OccupiedC
 }  // namespace
 
 template <int Dim>
-void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim>> y_p, Resize<Particles> particles,
-                          Write<OccupiedCells<Dim>> cells, Resize<Cells> rows, Update<BinBuffer> buffer) const {
+void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::QuadraturePosition<Dim>> y_p,
+                          Resize<Particles> particles, Write<OccupiedCells<Dim>> cells, Resize<Cells> rows,
+                          Update<BinBuffer> buffer) const {
   const Blocks<Dim> blocks(*grid);
   const std::size_t cell_count = number_cells<Dim>(*grid, blocks, y_p.span(), *buffer);
   auto& [used, first_of_block, number, first, place] = *buffer;

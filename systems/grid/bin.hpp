@@ -13,7 +13,7 @@ namespace minamo {
 template <int Dim>
 struct Bin {
   static constexpr std::string_view doc = "sort particles by dual cell, colour the blocks of cells";
-  void operator()(Read<Grid<Dim>> grid, Read<particle::Configuration<Dim>> y_p, Resize<Particles> particles,
+  void operator()(Read<Grid<Dim>> grid, Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
                   Write<OccupiedCells<Dim>> cells, Resize<Cells> rows, Update<BinBuffer> buffer) const;
 };
 

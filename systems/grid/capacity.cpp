@@ -11,14 +11,14 @@ void FindCapacity<Dim>::operator()(Read<Grid<Dim>> grid, Read<node::Site<Dim>> s
 }
 
 template <int Dim>
-void FindEndCapacity<Dim>::operator()(Read<Grid<Dim>> grid, Read<end_node::Site<Dim>> sites,
-                                      Write<end_node::Capacity> capacity) const {
+void FindAdvectedCapacity<Dim>::operator()(Read<Grid<Dim>> grid, Read<advected_node::Site<Dim>> sites,
+                                           Write<advected_node::Capacity> capacity) const {
   for_each_row(sites.size(), [&](std::size_t i) { capacity[i] = full_volume<Dim>(*grid, sites[i]); });
 }
 
 template struct FindCapacity<2>;
 template struct FindCapacity<3>;
-template struct FindEndCapacity<2>;
-template struct FindEndCapacity<3>;
+template struct FindAdvectedCapacity<2>;
+template struct FindAdvectedCapacity<3>;
 
 }  // namespace minamo

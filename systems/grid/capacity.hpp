@@ -2,7 +2,7 @@
 /// \file
 /// Capacity of the nodes: the volume that each can hold. What a node holds over its capacity is its fill fraction.
 
-#include "components/end_node.hpp"
+#include "components/advected_node.hpp"
 #include "components/node.hpp"
 #include "engine/system.hpp"
 
@@ -17,9 +17,10 @@ struct FindCapacity {
 
 /// (E39)  V_I of the nodes that particles touch where the step has moved them.
 template <int Dim>
-struct FindEndCapacity {
+struct FindAdvectedCapacity {
   static constexpr std::string_view doc = "(E39) V_I at the end of the step";
-  void operator()(Read<Grid<Dim>> grid, Read<end_node::Site<Dim>> sites, Write<end_node::Capacity> capacity) const;
+  void operator()(Read<Grid<Dim>> grid, Read<advected_node::Site<Dim>> sites,
+                  Write<advected_node::Capacity> capacity) const;
 };
 
 }  // namespace minamo

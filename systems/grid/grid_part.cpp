@@ -58,7 +58,7 @@ void add_grid(SystemRegistry& registry) {
   registry.add<Bin>("bin");
   registry.add<NumberNodes>("number_nodes");
   registry.add<FindCapacity>("find_capacity");
-  registry.add<FindEndCapacity>("find_end_capacity");
+  registry.add<FindAdvectedCapacity>("find_advected_capacity");
   registry.add<Activate>("activate");
   registry.add<FindNeighbours>("find_neighbours");
   registry.add(Part{"grid", "the box and its cells", read_grid});

@@ -2,10 +2,10 @@
 /// \file
 /// Volume around nodes: of the grid, and of the particles.
 
-#include "components/end_node.hpp"
+#include "components/advected_node.hpp"
 #include "engine/system.hpp"
 #include "systems/grid/contract.hpp"
-#include "systems/grid/place.hpp"
+#include "systems/grid/point_locator.hpp"
 
 #include <span>
 
@@ -25,8 +25,8 @@ double full_volume(const Grid<Dim>& grid, const Index<Dim>& site) {
 
 /// Numbers the nodes that particles touch, wherever they are.
 template <int Dim>
-void number_end_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resize<EndNodes> nodes, EndSites<Dim>& rows,
-                      Write<end_node::Site<Dim>> sites) {
+void number_advected_nodes(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, Resize<AdvectedNodes> nodes,
+                           AdvectedNodeIndex<Dim>& rows, Write<advected_node::Site<Dim>> sites) {
   rows.start(grid);
   rows.runs.clear();
   typename SiteRows<Dim>::Adder add(rows);
@@ -69,7 +69,7 @@ std::array<double, support_size<Dim>> volume_of_run(const Grid<Dim>& grid, const
 /// (E35)  V~_I = sum_p S_I(x_p) V_p: first in every run, then one run after the other.
 /// \pre the rows are those of these particles.
 template <int Dim>
-void gather_node_volume(const Grid<Dim>& grid, EndSites<Dim>& rows, std::span<const Vec<Dim>> x_p,
+void gather_node_volume(const Grid<Dim>& grid, AdvectedNodeIndex<Dim>& rows, std::span<const Vec<Dim>> x_p,
                         std::span<const double> V_p, std::span<double> v_i) {
   constexpr std::size_t runs_per_task = 64;
   const auto add_up = [&](std::size_t r) {

@@ -1,6 +1,6 @@
 #include "systems/grid/number_nodes.hpp"
 
-#include "systems/grid/place.hpp"
+#include "systems/grid/point_locator.hpp"
 
 namespace minamo {
 
@@ -19,7 +19,7 @@ std::uint8_t held_at(const Grid<Dim>& grid, const Walls<Dim>& walls, const Index
 
 /// Which row every row was before, from the sites of the rows before.
 template <int Dim>
-void find_origin(const WetSites<Dim>& rows, std::span<const Index<Dim>> sites,
+void find_origin(const NodeIndex<Dim>& rows, std::span<const Index<Dim>> sites,
                  std::vector<std::optional<std::uint32_t>>& from) {
   std::fill(from.begin(), from.end(), std::nullopt);
   for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -29,7 +29,7 @@ void find_origin(const WetSites<Dim>& rows, std::span<const Index<Dim>> sites,
 
 /// Tells every cell the rows of its nodes.
 template <int Dim>
-void look_up(const Grid<Dim>& grid, const WetSites<Dim>& rows, OccupiedCells<Dim>& cells) {
+void look_up(const Grid<Dim>& grid, const NodeIndex<Dim>& rows, OccupiedCells<Dim>& cells) {
   constexpr std::size_t cells_per_task = 64;
   const auto of_cell = [&](std::size_t c) {
     auto& cell = cells.cells[c];
@@ -44,7 +44,7 @@ void look_up(const Grid<Dim>& grid, const WetSites<Dim>& rows, OccupiedCells<Dim
 
 template <int Dim>
 void NumberNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, Resize<Nodes> nodes,
-                                  Update<OccupiedCells<Dim>> cells, Update<WetSites<Dim>> rows,
+                                  Update<OccupiedCells<Dim>> cells, Update<NodeIndex<Dim>> rows,
                                   Update<node::Site<Dim>> sites, Write<node::Constraint> constraint,
                                   Update<NumberingBuffer> buffer) const {
   rows->start(*grid);

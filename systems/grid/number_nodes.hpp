@@ -17,12 +17,12 @@ struct NumberingBuffer {
 };
 
 /// Gives the nodes of occupied dual cells rows, in the order of their sites. What outlives a step moves along; nodes
-/// that were dry start from zero.
+/// that had no row start from zero.
 template <int Dim>
 struct NumberNodes {
   static constexpr std::string_view doc = "number the nodes of occupied dual cells";
   void operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, Resize<Nodes> nodes, Update<OccupiedCells<Dim>> cells,
-                  Update<WetSites<Dim>> rows, Update<node::Site<Dim>> sites, Write<node::Constraint> constraint,
+                  Update<NodeIndex<Dim>> rows, Update<node::Site<Dim>> sites, Write<node::Constraint> constraint,
                   Update<NumberingBuffer> buffer) const;
 };
 

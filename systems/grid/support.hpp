@@ -2,7 +2,7 @@
 /// \file
 /// The 3^d nodes of a dual cell, the weights of a particle on them, and the loops that all kernels share:
 /// for_each_support() over the nodes, for_each_cell() to gather, for_each_cell_coloured() to scatter. For points that
-/// are in no occupied cell: place.hpp.
+/// are in no occupied cell: point_locator.hpp.
 
 #include "components/cells.hpp"
 #include "engine/parallel.hpp"

@@ -33,9 +33,9 @@ double length(const Vec<Dim>& u) {
 template <int Dim>
 void require_moderate(const Grid<Dim>& grid, double cells, std::span<const Index<Dim>> site,
                       std::span<const double> m_i, std::span<const Vec<Dim>> u_i) {
-  // A light node moves particles by next to nothing, however far it moves itself.
-  const double light = light_mass(m_i);
-  const auto move = [&](std::size_t i) { return m_i[i] <= light && u_i[i].allFinite() ? 0 : length<Dim>(u_i[i]); };
+  // A node below the mass threshold moves particles by next to nothing, however far it moves itself.
+  const double threshold = mass_threshold(m_i);
+  const auto move = [&](std::size_t i) { return m_i[i] <= threshold && u_i[i].allFinite() ? 0 : length<Dim>(u_i[i]); };
   const double largest = reduce_rows(u_i.size(), 0.0, move, [](double x, double y) { return std::max(x, y); });
   if (largest <= cells * grid.spacing) return;
   std::size_t worst = 0;

@@ -14,8 +14,8 @@
 namespace minamo {
 
 /// (E58)  Accepts a step if |r| <= 1e-6 |b| (or the solver's tolerance, where that is more), all u_I are finite and
-/// those of nodes that are not light (E7) at most LargestMove, energy and momenta are finite, and the overlap (E32) has
-/// not grown by more than a fifth of the liquid.
+/// those of nodes above the mass threshold (E7) at most LargestMove, energy and momenta are finite, and the overlap
+/// (E32) has not grown by more than a fifth of the liquid.
 template <int Dim>
 struct AcceptStep {
   static constexpr std::string_view doc = "(E58) reject the step if it cannot be trusted";

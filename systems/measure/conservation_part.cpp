@@ -12,7 +12,7 @@ void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureOverlap>("measure_overlap");
   registry.add(Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
                       return adds("measure", {"measure_energy", "measure_momentum", "measure_max_speed",
-                                              "measure_divergence", "gather_node_volume", "find_end_capacity", "measure_overlap"});
+                                              "measure_divergence", "gather_node_volume", "find_advected_capacity", "measure_overlap"});
                     }});
 }
 

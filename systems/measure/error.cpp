@@ -84,7 +84,7 @@ void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clo
 
 template <int Dim>
 void MeasureErrorPressure<Dim>::operator()(Read<exact::Pressure> exact, Read<Rates> rates,
-                                           Optional<Read<ode::AtBalances>> ode, Read<particle::Volume> V_p, Read<particle::Configuration<Dim>> y_p,
+                                           Optional<Read<ode::AtBalances>> ode, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
                                                    Read<particle::Pressure> p_p,
                                                    Update<measure::Columns> columns) const {
   const Instant now = instant_of(ode, rates);

@@ -31,7 +31,7 @@ template <int Dim>
 struct MeasureErrorPressure {
   static constexpr std::string_view doc = "(E42) error of the pressure";
   void operator()(Read<exact::Pressure> exact, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
-                  Read<particle::Volume> V_p, Read<particle::Configuration<Dim>> y_p, Read<particle::Pressure> p_p,
+                  Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Pressure> p_p,
                   Update<measure::Columns> columns) const;
 };
 

@@ -1,15 +1,15 @@
 #include "systems/measure/probes.hpp"
 
-#include "systems/grid/place.hpp"
+#include "systems/grid/point_locator.hpp"
 
 namespace minamo {
 
 template <int Dim, class Velocity>
-void MeasureProbesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
+void MeasureProbesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows,
                                                 Read<measure::Probes<Dim>> probes, Read<node::Mass> m_i,
                                                 Read<node::Pressure> p_i, Read<Velocity> v_i,
                                                 Update<measure::Columns> columns) const {
-  PlaceFinder<Dim> places(*grid, *rows);
+  PointLocator<Dim> places(*grid, *rows);
   for (const auto& probe : probes->probes) {
     double wet = 0;
     double p_s = 0;

@@ -17,7 +17,7 @@ namespace minamo {
 template <int Dim, class Velocity>
 struct MeasureProbesIn {
   static constexpr std::string_view doc = "(E43), (E44) pressure and velocity at the probes";
-  void operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<measure::Probes<Dim>> probes,
+  void operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<measure::Probes<Dim>> probes,
                   Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<Velocity> v_i,
                   Update<measure::Columns> columns) const;
 };

@@ -11,12 +11,13 @@ template <int Dim>
 void MeasureDivergence<Dim>::operator()(Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node,
                                         Read<matrix::Neighbour<Dim>> neighbour,
                                         Read<matrix::Divergence<Dim>> divergence, Read<node::Mass> m_i,
-                                        Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
+                                        Read<node::PredictedVelocity<Dim>> v_predicted,
+                                        Read<node::Displacement<Dim>> u_i,
                                         Write<measure::MaxDivergence> largest) const {
   const auto of_row = [&](std::size_t r) {
     double sum = 0;
     for_each_neighbour<Dim>(neighbour[r], [&](std::size_t k, std::uint32_t j) {
-      const Vec<Dim> v = rates->velocity * u_i[j] + v_known[j];
+      const Vec<Dim> v = rates->velocity * u_i[j] + v_predicted[j];
       for (std::size_t d = 0; d < Dim; ++d) sum += divergence[r][Dim * k + d] * v[static_cast<Eigen::Index>(d)];
     });
     return std::abs(sum) * fluid->density / m_i[node[r]];
@@ -25,8 +26,8 @@ void MeasureDivergence<Dim>::operator()(Read<Fluid> fluid, Read<Rates> rates, Re
 }
 
 template <int Dim>
-void MeasureOverlap<Dim>::operator()(Read<particle::Volume> V_p, Read<end_node::Capacity> capacity,
-                                     Read<end_node::Volume> v_i, Write<measure::Overlap> overlap) const {
+void MeasureOverlap<Dim>::operator()(Read<particle::Volume> V_p, Read<advected_node::Capacity> capacity,
+                                     Read<advected_node::Volume> v_i, Write<measure::Overlap> overlap) const {
   const auto excess_of = [&](std::size_t i) { return v_i[i] > 0 ? std::max(0.0, v_i[i] - capacity[i]) : 0; };
   const double excess = reduce_rows(v_i.size(), 0.0, excess_of, std::plus<>());
   const double volume = reduce_rows(

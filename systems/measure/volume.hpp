@@ -2,7 +2,7 @@
 /// \file
 /// How well the volume is kept: divergence of the nodal velocity, overlap of the particles.
 
-#include "components/end_node.hpp"
+#include "components/advected_node.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
@@ -21,7 +21,7 @@ struct MeasureDivergence {
   static constexpr std::string_view doc = "(E31) largest divergence";
   void operator()(Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<node::Mass> m_i,
-                  Read<node::KnownVelocity<Dim>> v_known, Read<node::Displacement<Dim>> u_i,
+                  Read<node::PredictedVelocity<Dim>> v_predicted, Read<node::Displacement<Dim>> u_i,
                   Write<measure::MaxDivergence> largest) const;
 };
 
@@ -29,7 +29,7 @@ struct MeasureDivergence {
 template <int Dim>
 struct MeasureOverlap {
   static constexpr std::string_view doc = "(E32) overlap";
-  void operator()(Read<particle::Volume> V_p, Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
+  void operator()(Read<particle::Volume> V_p, Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
                   Write<measure::Overlap> overlap) const;
 };
 

@@ -1,7 +1,7 @@
 #include "systems/output/fields.hpp"
 
 #include "engine/hdf5.hpp"
-#include "systems/grid/place.hpp"
+#include "systems/grid/point_locator.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -73,11 +73,11 @@ std::string grid_text(const FieldsFile::Frame& frame, std::size_t k) {
 }  // namespace
 
 template <int Dim>
-void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows,
-                                     Read<particle::Configuration<Dim>> y_p, Read<node::Pressure> p_i,
+void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows,
+                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<node::Pressure> p_i,
                                      Write<particle::Pressure> p_p) const {
   for_each_range(y_p.size(), [&](std::size_t begin, std::size_t end) {
-    PlaceFinder<Dim> places(*grid, *rows);
+    PointLocator<Dim> places(*grid, *rows);
     for (std::size_t p = begin; p < end; ++p) {
       double sum = 0;
       places.visit(y_p[p], [&](const auto& place, const auto& weights) {

@@ -17,7 +17,7 @@ namespace minamo {
 template <int Dim>
 struct SamplePressure {
   static constexpr std::string_view doc = "(E33) p_p";
-  void operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const;
 };
 

@@ -168,7 +168,7 @@ double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2,
 template <int Dim>
 void AssembleSchur<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                     Read<node::Row> row, Read<node::Constraint> fixed, Read<node::Mass> m_i,
-                                    Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                    Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                     Read<matrix::Divergence<Dim>> divergence,
                                     Read<matrix::Stabilization<Dim>> stabilization,
                                     Optional<Read<matrix::Viscosity<Dim>>> viscosity,
@@ -189,7 +189,7 @@ void AssembleSchur<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
 
 template <int Dim>
 void ApproximateSchur<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
-                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows,
+                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
                                        Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                        Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
                                        Read<SchurOperator<Dim>> schur,
@@ -231,7 +231,7 @@ void FactorizePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid,
 template <int Dim>
 void SolveBlock<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-    Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+    Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
     Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
     Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
     Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
@@ -274,7 +274,7 @@ void SolveBlock<Dim>::operator()(
 
 template <int Dim>
 void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row,
-                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows,
+                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
                                        Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                        Read<matrix::Divergence<Dim>> divergence,
                                        Read<matrix::Stabilization<Dim>> stabilization,

@@ -49,7 +49,7 @@ template <int Dim>
 struct AssembleSchur {
   static constexpr std::string_view doc = "(E55) operator of the pressure";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                   Write<SchurOperator<Dim>> schur) const;
@@ -59,7 +59,7 @@ template <int Dim>
 struct ApproximateSchur {
   static constexpr std::string_view doc = "(E56) matrix near the operator of the pressure";
   void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                  Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
                   Read<SchurOperator<Dim>> schur, Write<SchurApproximation<Dim>> approximation) const;
 };
@@ -90,7 +90,7 @@ struct SolveBlock {
   /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size, or if iterations for the
   ///   velocities of a stiff liquid do not converge, which shorter steps help.
   void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site,
+                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                   Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
@@ -105,7 +105,7 @@ struct SolveVolumeBlock {
   static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
   /// \throws StepRejected as SolveBlock.
   void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                  Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
                   Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
                   Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,

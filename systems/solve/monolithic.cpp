@@ -117,7 +117,7 @@ void fill_monolithic(const Operators<Dim>& t, const Grid<Dim>& grid, matrix::Mon
 template <int Dim>
 void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                          Read<node::Row> row, Read<node::Constraint> fixed, Read<node::Mass> m_i,
-                                         Read<WetSites<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                         Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                          Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
                                          Optional<Read<matrix::Viscosity<Dim>>> viscosity,

@@ -30,7 +30,7 @@ void UniformBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Opt
 
 template <int Dim>
 void SampleBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
-                                      Read<particle::Configuration<Dim>> y_p,
+                                      Read<particle::QuadraturePosition<Dim>> y_p,
                                       Write<particle::BodyForce<Dim>> b_p) const {
   const Instant now = instant_of(ode, rates);
   Arguments arguments(now);
@@ -44,25 +44,25 @@ void SampleBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Opti
 
 template <int Dim>
 void P2GBodyForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                   Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                    Read<particle::BodyForce<Dim>> b_p, Read<node::Mass> m_i,
                                    Write<node::BodyForce<Dim>> b_i) const {
   scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, b_p.span(), b_i.span());
 }
 
 template <int Dim>
-void FreeFlight<Dim>::operator()(Read<node::Row> row, Read<node::Constraint> constraint,
+void MoveBallisticNodes<Dim>::operator()(Read<node::Row> row, Read<node::Constraint> constraint,
                                  Optional<Read<node::ConstraintFrame<Dim>>> frame,
                                  Optional<Read<node::ConstraintVelocity<Dim>>> w_i, Read<node::Mass> m_i,
                                  Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
-                                 Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+                                 Read<node::PredictedVelocity<Dim>> v_predicted, Read<node::PredictedAcceleration<Dim>> a_predicted,
                                  Write<node::Displacement<Dim>> u_i) const {
   const Constraints<Dim> constraints{constraint.span(), frame.span(), w_i.span()};
   for_each_row(u_i.size(), [&](std::size_t i) {
     u_i[i].setZero();
     if (m_i[i] == 0) return;
-    if (row[i] < 0) u_i[i] = (b_i[i] - a_known[i]) / rates->acceleration;
-    hold_displacement<Dim>(constraints, i, rates->velocity, v_known[i], u_i[i]);
+    if (row[i] < 0) u_i[i] = (b_i[i] - a_predicted[i]) / rates->acceleration;
+    hold_displacement<Dim>(constraints, i, rates->velocity, v_predicted[i], u_i[i]);
   });
 }
 
@@ -72,7 +72,7 @@ template struct SampleBodyForce<2>;
 template struct SampleBodyForce<3>;
 template struct P2GBodyForce<2>;
 template struct P2GBodyForce<3>;
-template struct FreeFlight<2>;
-template struct FreeFlight<3>;
+template struct MoveBallisticNodes<2>;
+template struct MoveBallisticNodes<3>;
 
 }  // namespace minamo

@@ -26,14 +26,14 @@ template <int Dim>
 struct SampleBodyForce {
   static constexpr std::string_view doc = "b_p at the particles";
   void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
-                  Read<particle::Configuration<Dim>> y_p, Write<particle::BodyForce<Dim>> b_p) const;
+                  Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::BodyForce<Dim>> b_p) const;
 };
 
 /// (E14)  b_I = sum_p S_Ip m_p b_p / m_I.
 template <int Dim>
 struct P2GBodyForce {
   static constexpr std::string_view doc = "(E14) b_I, from the particles";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p, Read<node::Mass> m_i,
                   Write<node::BodyForce<Dim>> b_i) const;
 };
@@ -43,12 +43,12 @@ struct P2GBodyForce {
 /// With this every node with mass has a velocity: a uniform flow has no divergence, and of the linear momentum only the
 /// pressure force on light nodes is lost, less than 1e-5 in tests/property/conservation_test.cpp.
 template <int Dim>
-struct FreeFlight {
+struct MoveBallisticNodes {
   static constexpr std::string_view doc = "(E15) u_I of light nodes";
   void operator()(Read<node::Row> row, Read<node::Constraint> constraint,
                   Optional<Read<node::ConstraintFrame<Dim>>> frame, Optional<Read<node::ConstraintVelocity<Dim>>> w_i,
                   Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
-                  Read<node::KnownVelocity<Dim>> v_known, Read<node::KnownAcceleration<Dim>> a_known,
+                  Read<node::PredictedVelocity<Dim>> v_predicted, Read<node::PredictedAcceleration<Dim>> a_predicted,
                   Write<node::Displacement<Dim>> u_i) const;
 };
 

@@ -31,7 +31,7 @@ Contribution read_body_force(Input& input, Scene& scene) {
       recipe.add("forces", "sample_body_force");
       recipe.add("forces", "p2g_body_force");
     }
-    recipe.add("ballistic", "free_flight");
+    recipe.add("ballistic", "move_ballistic_nodes");
     recipe.constant(force);
     recipe.seed([force](const Scene& of, World& world, SeedProblems& problems) {
       with_dimension(of.dimension, [&](auto dim) { check<dim()>(force, of, world, problems); });
@@ -45,7 +45,7 @@ void add_body_force(SystemRegistry& registry) {
   registry.add<UniformBodyForce>("uniform_body_force");
   registry.add<SampleBodyForce>("sample_body_force");
   registry.add<P2GBodyForce>("p2g_body_force");
-  registry.add<FreeFlight>("free_flight");
+  registry.add<MoveBallisticNodes>("move_ballistic_nodes");
   registry.add(Part{"body_force", "force per unit mass, uniform or in space and time", read_body_force});
 }
 

@@ -2,7 +2,7 @@
 
 #include "engine/parallel.hpp"
 #include "systems/assemble/neighbours.hpp"
-#include "systems/grid/liquid.hpp"
+#include "systems/grid/liquid_cells.hpp"
 #include "systems/grid/node_volume.hpp"
 #include "systems/transfer/carry_gradient.hpp"
 
@@ -33,7 +33,7 @@ double liquid_around(const Grid<Dim>& grid, const Index<Dim>& own, double densit
       volume += capacity[static_cast<std::size_t>(j)];
     }
   });
-  return liquid_share(mass / (density * volume));
+  return liquid_indicator(mass / (density * volume));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include "systems/grid/walls.hpp"
-#include "systems/time/configuration.hpp"
+#include "systems/time/quadrature_position.hpp"
 #include "systems/time/damp_divergence.hpp"
 #include "systems/time/midpoint.hpp"
 #include "systems/time/newmark.hpp"
@@ -13,9 +13,9 @@ namespace minamo {
 namespace {
 
 Contribution read_midpoint(Input&, Scene& scene) {
-  scene.facts.set(IntegratorNeeds{.configure_beside = "configure_step_ahead", .gradients_move = true});
+  scene.facts.set(IntegratorNeeds{.configure_beside = "place_quadrature_step_ahead", .gradients_move = true});
   return [](const Scene&, Recipe& recipe) {
-    recipe.add("configure", "configure_at_middle", When::step);
+    recipe.add("configure", "place_quadrature_at_middle", When::step);
     recipe.add("predict", "predict_midpoint", When::step);
     recipe.add("predict", "predict_backward_euler", When::standing);
     recipe.add("right_hand_side", "damp_divergence", When::step);
@@ -25,14 +25,14 @@ Contribution read_midpoint(Input&, Scene& scene) {
 
 Contribution read_newmark(Input& input, Scene& scene) {
   // The weights lag behind by more than what moving gradients mend.
-  scene.facts.set(IntegratorNeeds{.configure_beside = "configure_step_before", .gradients_move = false});
+  scene.facts.set(IntegratorNeeds{.configure_beside = "place_quadrature_step_before", .gradients_move = false});
   NewmarkParameters parameters;
   parameters.beta = input.number("beta", {.doc = "Newmark's beta", .fallback = 0.25, .at_most = 0.5, .above = 0});
   parameters.gamma = input.number("gamma", {.doc = "Newmark's gamma", .fallback = 0.5, .at_least = 0.5, .at_most = 1});
   scene.facts.set(parameters);
   return [parameters](const Scene& of, Recipe& recipe) {
     const auto& acceleration = of.facts.get<AccelerationTransfer>();
-    recipe.add("configure", "configure_at_start", When::step);
+    recipe.add("configure", "place_quadrature_at_start", When::step);
     for (const System& system : acceleration.p2g) recipe.add("p2g", system, When::step);
     recipe.add("boundaries", "apply_wall_condition_acceleration", When::step);
     recipe.add("predict", "predict_newmark", When::step);
@@ -41,7 +41,7 @@ Contribution read_newmark(Input& input, Scene& scene) {
     for (const System& system : acceleration.g2p) recipe.add("g2p", system, When::step);
     std::vector<System> after{recipe.make("correct_backward_euler")};
     after.insert(after.end(), acceleration.g2p.begin(), acceleration.g2p.end());
-    recipe.add_standing_step("configure_step_before", after);
+    recipe.add_standing_step("place_quadrature_step_before", after);
     recipe.constant(parameters);
   };
 }
@@ -49,10 +49,10 @@ Contribution read_newmark(Input& input, Scene& scene) {
 }  // namespace
 
 void add_integrator(SystemRegistry& registry) {
-  registry.add<ConfigureAtStart>("configure_at_start");
-  registry.add<ConfigureAtMiddle>("configure_at_middle");
-  registry.add<ConfigureStepBefore>("configure_step_before");
-  registry.add<ConfigureStepAhead>("configure_step_ahead");
+  registry.add<PlaceQuadratureAtStart>("place_quadrature_at_start");
+  registry.add<PlaceQuadratureAtMiddle>("place_quadrature_at_middle");
+  registry.add<PlaceQuadratureStepBefore>("place_quadrature_step_before");
+  registry.add<PlaceQuadratureStepAhead>("place_quadrature_step_ahead");
   registry.add<ApplyWallConditionAcceleration>("apply_wall_condition_acceleration");
   registry.add<PredictNewmark>("predict_newmark");
   registry.add<PredictMidpoint>("predict_midpoint");

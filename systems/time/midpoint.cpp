@@ -6,13 +6,13 @@ namespace minamo {
 
 template <int Dim>
 void PredictMidpoint<Dim>::operator()(Read<Clock> clock, Read<node::Velocity<Dim>> v_i, Write<Rates> rates,
-                                      Write<node::KnownVelocity<Dim>> v_known,
-                                      Write<node::KnownAcceleration<Dim>> a_known) const {
+                                      Write<node::PredictedVelocity<Dim>> v_predicted,
+                                      Write<node::PredictedAcceleration<Dim>> a_predicted) const {
   const double dt = clock->step;
   *rates = {.velocity = 1 / dt, .acceleration = 2 / (dt * dt), .time = clock->time + dt / 2};
   for_each_row(v_i.size(), [&](std::size_t i) {
-    v_known[i].setZero();
-    a_known[i] = -2 / dt * v_i[i];
+    v_predicted[i].setZero();
+    a_predicted[i] = -2 / dt * v_i[i];
   });
 }
 

@@ -15,7 +15,8 @@ template <int Dim>
 struct PredictMidpoint {
   static constexpr std::string_view doc = "(E12) rates and known parts, midpoint";
   void operator()(Read<Clock> clock, Read<node::Velocity<Dim>> v_i, Write<Rates> rates,
-                  Write<node::KnownVelocity<Dim>> v_known, Write<node::KnownAcceleration<Dim>> a_known) const;
+                  Write<node::PredictedVelocity<Dim>> v_predicted,
+                  Write<node::PredictedAcceleration<Dim>> a_predicted) const;
 };
 
 /// (E12)  v^{n+1} = 2 u/dt - v^n.

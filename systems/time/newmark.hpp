@@ -21,16 +21,17 @@ template <int Dim>
 struct PredictNewmark {
   static constexpr std::string_view doc = "(E10) rates and known parts, newmark";
   void operator()(Read<Clock> clock, Read<NewmarkParameters> newmark, Read<node::Velocity<Dim>> v_i,
-                  Read<node::Acceleration<Dim>> a_i, Write<Rates> rates, Write<node::KnownVelocity<Dim>> v_known,
-                  Write<node::KnownAcceleration<Dim>> a_known) const;
+                  Read<node::Acceleration<Dim>> a_i, Write<Rates> rates,
+                  Write<node::PredictedVelocity<Dim>> v_predicted,
+                  Write<node::PredictedAcceleration<Dim>> a_predicted) const;
 };
 
 /// (E10)  v^{n+1} = c_v u + v^, a^{n+1} = c_a u + a^.
 template <int Dim>
 struct CorrectNewmark {
   static constexpr std::string_view doc = "(E10) v_I and a_I at the end of the step, newmark";
-  void operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i, Read<node::KnownVelocity<Dim>> v_known,
-                  Read<node::KnownAcceleration<Dim>> a_known, Write<node::NewVelocity<Dim>> v_new,
+  void operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i, Read<node::PredictedVelocity<Dim>> v_predicted,
+                  Read<node::PredictedAcceleration<Dim>> a_predicted, Write<node::NewVelocity<Dim>> v_new,
                   Write<node::NewAcceleration<Dim>> a_new) const;
 };
 
@@ -39,15 +40,16 @@ template <int Dim>
 struct PredictBackwardEuler {
   static constexpr std::string_view doc = "(E13) rates and known parts, starting step";
   void operator()(Read<Clock> clock, Read<node::Velocity<Dim>> v_i, Write<Rates> rates,
-                  Write<node::KnownVelocity<Dim>> v_known, Write<node::KnownAcceleration<Dim>> a_known) const;
+                  Write<node::PredictedVelocity<Dim>> v_predicted,
+                  Write<node::PredictedAcceleration<Dim>> a_predicted) const;
 };
 
 /// (E13)  a^0 = c_a u + a^.
 template <int Dim>
 struct CorrectBackwardEuler {
   static constexpr std::string_view doc = "(E13) a_I of the starting step";
-  void operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i, Read<node::KnownAcceleration<Dim>> a_known,
-                  Write<node::NewAcceleration<Dim>> a_new) const;
+  void operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i,
+                  Read<node::PredictedAcceleration<Dim>> a_predicted, Write<node::NewAcceleration<Dim>> a_new) const;
 };
 
 /// (E13)  v = c_v u.

@@ -8,30 +8,30 @@ namespace minamo {
 
 template <int Dim>
 Placed<Dim> put_inside_box(const Grid<Dim>& grid, Vec<Dim> x) {
-  bool put_back = false;
+  bool clamped = false;
   for (int d = 0; d < Dim; ++d) {
     if (x[d] >= grid.low[d] && x[d] <= grid.high[d]) continue;
     if (grid.periodic[static_cast<std::size_t>(d)]) {
       const double length = grid.high[d] - grid.low[d];
       x[d] -= length * std::floor((x[d] - grid.low[d]) / length);
     } else {
-      put_back = true;
+      clamped = true;
     }
   }
-  return {keep_off_walls<Dim>(grid, x), put_back};
+  return {keep_off_walls<Dim>(grid, x), clamped};
 }
 
 template <int Dim>
 void Advect<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                             Read<particle::Configuration<Dim>> y_p, Read<node::Displacement<Dim>> u_i,
-                             Update<particle::Position<Dim>> x_p, Update<PutBack> put_back) const {
+                             Read<particle::QuadraturePosition<Dim>> y_p, Read<node::Displacement<Dim>> u_i,
+                             Update<particle::Position<Dim>> x_p, Update<Clamped> clamped) const {
   std::atomic<std::int64_t> count = 0;
   gather<Dim>(*grid, *cells, y_p.span(), u_i.span(), [&](std::size_t p, const Vec<Dim>& u) {
     const Placed<Dim> placed = inside_box<Dim>(*grid, x_p[p] + u);
     x_p[p] = placed.x;
-    if (placed.put_back) ++count;
+    if (placed.clamped) ++count;
   });
-  put_back->count += count;
+  clamped->count += count;
 }
 
 template Placed<2> put_inside_box<2>(const Grid<2>&, Vec<2>);

@@ -16,7 +16,7 @@ namespace minamo {
 template <int Dim>
 struct Placed {
   Vec<Dim> x;
-  bool put_back;  ///< whether a wall had to hold it
+  bool clamped;  ///< whether a wall had to hold it
 };
 
 /// inside_box() of a point that may lie outside.
@@ -34,14 +34,14 @@ inline Placed<Dim> inside_box(const Grid<Dim>& grid, const Vec<Dim>& x) {
   return stays ? Placed<Dim>{x, false} : put_inside_box<Dim>(grid, x);
 }
 
-/// (E11)  x_p^{n+1} = x_p^n + sum_I S_I(y_p) u_I. A particle that would leave the box is put back just inside the wall
-/// and counted.
+/// (E11)  x_p^{n+1} = x_p^n + sum_I S_I(y_p) u_I. A particle that would leave the box is clamped to just inside the
+/// wall and counted.
 template <int Dim>
 struct Advect {
-  static constexpr std::string_view doc = "(E11) x_p; put back at walls, counted";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  static constexpr std::string_view doc = "(E11) x_p; clamped at walls, counted";
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::Displacement<Dim>> u_i, Update<particle::Position<Dim>> x_p,
-                  Update<PutBack> put_back) const;
+                  Update<Clamped> clamped) const;
 };
 
 }  // namespace minamo

@@ -6,7 +6,7 @@ namespace minamo {
 
 template <int Dim>
 void G2PVelocityApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
                                       Write<particle::Velocity<Dim>> v_p,
                                       Write<particle::VelocityGradient<Dim>> c_p) const {
   gather_with_affine<Dim>(*grid, *cells, y_p.span(), v_i.span(),
@@ -18,8 +18,8 @@ void G2PVelocityApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
 
 template <int Dim>
 void G2PAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                          Read<particle::Configuration<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
-                                          Write<particle::Acceleration<Dim>> a_p,
+                                          Read<particle::QuadraturePosition<Dim>> y_p,
+                                          Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p,
                                           Write<particle::AccelerationGradient<Dim>> c_p) const {
   gather_with_affine<Dim>(*grid, *cells, y_p.span(), a_i.span(),
                           [&](std::size_t, std::size_t p, const Jet<Dim>& a, const Mat<Dim>& beyond) {

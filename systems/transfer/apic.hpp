@@ -20,7 +20,7 @@ namespace minamo {
 template <int Dim>
 struct G2PVelocityApic {
   static constexpr std::string_view doc = "(E17) (E45) v_p and C_p, APIC";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
                   Write<particle::VelocityGradient<Dim>> c_p) const;
 };
@@ -29,7 +29,7 @@ struct G2PVelocityApic {
 template <int Dim>
 struct G2PAccelerationApic {
   static constexpr std::string_view doc = "(E17) (E45) a_p and its affine part, APIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p,
                   Write<particle::AccelerationGradient<Dim>> c_p) const;
 };

@@ -25,10 +25,10 @@ Mat<Dim> carried(double tau, const Mat<Dim>& grad_v) {
 double resolved_share(double strain) { return std::clamp((unresolved - strain) / (unresolved - resolved), 0.0, 1.0); }
 
 template <int Dim>
-void CarryGradient<Dim>::operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
+void CarryGradient<Dim>::operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
                                     Update<particle::VelocityGradient<Dim>> grad_v_p) const {
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-    const double tau = 0.5 * clock->step * liquid->of_cell[c];
+    const double tau = 0.5 * clock->step * w_c[c];
     if (tau == 0) return;
     for (std::size_t p = cell.begin; p < cell.end; ++p) grad_v_p[p] = carried<Dim>(tau, grad_v_p[p]);
   });

@@ -26,7 +26,7 @@ double resolved_share(double strain);
 template <int Dim>
 struct CarryGradient {
   static constexpr std::string_view doc = "(E62) velocity gradient, carried on by half a step";
-  void operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
+  void operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
                   Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 

@@ -7,7 +7,7 @@ namespace minamo {
 
 template <int Dim>
 void FilterVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                         Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                         Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                          Read<node::Mass> m_i,
                                          Read<node::Constraint> constraint,
                                          Optional<Read<node::ConstraintFrame<Dim>>> frame,
@@ -20,7 +20,7 @@ void FilterVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCell
 
 template <int Dim>
 void G2PVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::Configuration<Dim>> y_p,
+                                      Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<node::FilteredVelocity<Dim>> v_filtered,
                                       Write<particle::Velocity<Dim>> v_p) const {
   const auto at_node = [&](std::size_t i) { return v_filtered[i]; };

@@ -24,7 +24,7 @@ struct FilterVelocityFmpm {
   FilterVelocityFmpm() = default;
   explicit FilterVelocityFmpm(int order_of_filter) : order(order_of_filter) {}
   explicit FilterVelocityFmpm(Input& input) : order(filter_order(input)) {}
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<node::Mass> m_i,
                   Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
                   Read<node::NewVelocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
@@ -35,7 +35,7 @@ struct FilterVelocityFmpm {
 template <int Dim>
 struct G2PVelocityFmpm {
   static constexpr std::string_view doc = "(E66) v_p, FMPM";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::FilteredVelocity<Dim>> v_filtered, Write<particle::Velocity<Dim>> v_p) const;
 };
 

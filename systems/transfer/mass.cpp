@@ -6,7 +6,7 @@ namespace minamo {
 
 template <int Dim>
 void P2GMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                              Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                              Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                               Write<node::Mass> m_i) const {
   const auto m_node = m_i.span();
   std::fill(m_node.begin(), m_node.end(), 0.0);

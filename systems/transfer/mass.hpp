@@ -14,7 +14,7 @@ namespace minamo {
 template <int Dim>
 struct P2GMass {
   static constexpr std::string_view doc = "(E3) m_I";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Write<node::Mass> m_i) const;
 };
 

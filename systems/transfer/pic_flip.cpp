@@ -7,7 +7,7 @@ namespace minamo {
 
 template <int Dim>
 void P2GVelocityPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                     Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                      Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i,
                                      Write<node::Velocity<Dim>> v_i) const {
   scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, v_p.span(), v_i.span());
@@ -15,7 +15,7 @@ void P2GVelocityPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Di
 
 template <int Dim>
 void P2GAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                         Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                         Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                          Read<particle::Acceleration<Dim>> a_p, Read<node::Mass> m_i,
                                          Write<node::Acceleration<Dim>> a_i) const {
   scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, a_p.span(), a_i.span());
@@ -23,7 +23,7 @@ void P2GAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCell
 
 template <int Dim>
 void G2PVelocityPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                     Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
                                      Write<particle::Velocity<Dim>> v_p) const {
   gather<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
 }
@@ -35,7 +35,7 @@ G2PVelocityFlip<Dim>::G2PVelocityFlip(Input& input)
 
 template <int Dim>
 void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::Configuration<Dim>> y_p, Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
+                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
                                       Update<particle::Velocity<Dim>> v_p) const {
   const double alpha = blend;
   // alpha (v_p + S (v_new - v_old)) + (1 - alpha) S v_new = alpha v_p + S (v_new - alpha v_old).
@@ -46,7 +46,7 @@ void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
 
 template <int Dim>
 void G2PAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                         Read<particle::Configuration<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
+                                         Read<particle::QuadraturePosition<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
                                          Write<particle::Acceleration<Dim>> a_p) const {
   gather<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Vec<Dim>& a) { a_p[p] = a; });
 }

@@ -17,7 +17,7 @@ namespace minamo {
 template <int Dim>
 struct P2GVelocityPic {
   static constexpr std::string_view doc = "(E4) v_I^n, PIC and FLIP";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i,
                   Write<node::Velocity<Dim>> v_i) const;
 };
@@ -26,7 +26,7 @@ struct P2GVelocityPic {
 template <int Dim>
 struct P2GAccelerationPic {
   static constexpr std::string_view doc = "(E4) a_I^n, PIC and FLIP with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p, Read<node::Mass> m_i,
                   Write<node::Acceleration<Dim>> a_i) const;
 };
@@ -35,7 +35,7 @@ struct P2GAccelerationPic {
 template <int Dim>
 struct G2PVelocityPic {
   static constexpr std::string_view doc = "(E17) v_p, PIC";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p) const;
 };
 
@@ -48,7 +48,7 @@ struct G2PVelocityFlip {
   G2PVelocityFlip() = default;
   explicit G2PVelocityFlip(double blend_of_flip) : blend(blend_of_flip) {}
   explicit G2PVelocityFlip(Input& input);
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new, Update<particle::Velocity<Dim>> v_p) const;
 };
 
@@ -56,7 +56,7 @@ struct G2PVelocityFlip {
 template <int Dim>
 struct G2PAccelerationPic {
   static constexpr std::string_view doc = "(E17) a_p, PIC and FLIP with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p) const;
 };
 

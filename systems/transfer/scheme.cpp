@@ -36,7 +36,7 @@ std::vector<TransferScheme> built_in_transfer_schemes() {
            .g2p_velocity = {"g2p_velocity_tpic2"},
            .g2p_acceleration = {"g2p_acceleration_tpic"},
            .carries_gradient = true,
-           .reads_liquid_share = true},
+           .reads_liquid_indicator = true},
           {.name = "xpic",
            .doc = "PIC whose damping shrinks with the order; XPIC(1) is PIC",
            .p2g_velocity = {"p2g_velocity_pic"},

@@ -20,7 +20,7 @@ struct TransferScheme {
   std::vector<std::string> g2p_acceleration = {"g2p_acceleration_pic"};
   bool carries_gradient =
       false;  ///< in particle.velocity_gradient, and with p2g_acceleration_tpic that of acceleration
-  bool reads_liquid_share = false;  ///< liquid or spray, (E61)
+  bool reads_liquid_indicator = false;  ///< liquid or spray, (E61)
 };
 
 /// The systems of the chosen scheme for accelerations, for integrators that carry them.

@@ -8,7 +8,7 @@ namespace minamo {
 
 template <int Dim>
 void P2GVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                       Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> grad_v_p,
                                       Read<node::Mass> m_i, Write<node::Velocity<Dim>> v_i) const {
   scatter_taylor<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, v_p.span(), grad_v_p.span(), v_i.span());
@@ -16,7 +16,7 @@ void P2GVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
 
 template <int Dim>
 void P2GAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                          Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                          Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                           Read<particle::Acceleration<Dim>> a_p,
                                           Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<node::Mass> m_i,
                                           Write<node::Acceleration<Dim>> a_i) const {
@@ -32,7 +32,7 @@ G2PVelocityTpic<Dim>::G2PVelocityTpic(Input& in)
 
 template <int Dim>
 void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
                                       Write<particle::Velocity<Dim>> v_p,
                                       Write<particle::VelocityGradient<Dim>> grad_v_p) const {
   if (!conserves_spin) {
@@ -51,8 +51,8 @@ void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
 
 template <int Dim>
 void G2PAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                          Read<particle::Configuration<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
-                                          Write<particle::Acceleration<Dim>> a_p,
+                                          Read<particle::QuadraturePosition<Dim>> y_p,
+                                          Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p,
                                           Write<particle::AccelerationGradient<Dim>> grad_a_p) const {
   gather_with_gradient<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Jet<Dim>& a) {
     a_p[p] = a.value;

@@ -16,7 +16,7 @@ namespace minamo {
 template <int Dim>
 struct P2GVelocityTpic {
   static constexpr std::string_view doc = "(E5) v_I^n, TPIC";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                   Read<particle::VelocityGradient<Dim>> grad_v_p, Read<node::Mass> m_i,
                   Write<node::Velocity<Dim>> v_i) const;
@@ -26,7 +26,7 @@ struct P2GVelocityTpic {
 template <int Dim>
 struct P2GAccelerationTpic {
   static constexpr std::string_view doc = "(E5) a_I^n, TPIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p,
                   Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<node::Mass> m_i,
                   Write<node::Acceleration<Dim>> a_i) const;
@@ -41,7 +41,7 @@ struct G2PVelocityTpic {
 
   G2PVelocityTpic() = default;
   explicit G2PVelocityTpic(Input& in);
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
                   Write<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
@@ -50,7 +50,7 @@ struct G2PVelocityTpic {
 template <int Dim>
 struct G2PAccelerationTpic {
   static constexpr std::string_view doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p,
                   Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
 };

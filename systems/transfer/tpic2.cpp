@@ -80,7 +80,7 @@ double resolved_curvature(const Mat<Dim>& gradient, const SecondDerivatives<Dim>
 
 template <int Dim>
 void P2GVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                       Read<particle::Configuration<Dim>> y_p, Read<particle::Mass> m_p,
+                                       Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                        Read<particle::Velocity<Dim>> v_p,
                                        Read<particle::VelocityGradient<Dim>> grad_v_p,
                                        Read<particle::VelocityCurvature<Dim>> h_p, Read<node::Mass> m_i,
@@ -101,15 +101,15 @@ G2PVelocityTpic2<Dim>::G2PVelocityTpic2(Input& in)
                                 .at_most = 1})) {}
 
 template <int Dim>
-void G2PVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
-                                       Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
-                                       Write<particle::Velocity<Dim>> v_p,
+void G2PVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                       Read<cell::BulkIndicator> b_c, Read<particle::QuadraturePosition<Dim>> y_p,
+                                       Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
                                        Write<particle::VelocityGradient<Dim>> grad_v_p,
                                        Write<particle::VelocityCurvature<Dim>> h_p) const {
   gather_with_affine<Dim>(*grid, *cells, y_p.span(), v_i.span(),
                           [&](std::size_t c, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& beyond) {
                             const double resolved = resolved_curvature<Dim>(v.gradient, v.second, grid->spacing);
-                            const double kept = share * liquid->interior[c] * resolved;
+                            const double kept = share * b_c[c] * resolved;
                             v_p[p] = v.value;
                             grad_v_p[p] = v.gradient + (1 - kept) * antisymmetric<Dim>(beyond);
                             h_p[p] = kept * v.second;

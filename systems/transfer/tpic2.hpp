@@ -18,7 +18,7 @@ namespace minamo {
 template <int Dim>
 struct P2GVelocityTpic2 {
   static constexpr std::string_view doc = "(E64) v_I^n, TPIC of second order";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                   Read<particle::VelocityGradient<Dim>> grad_v_p, Read<particle::VelocityCurvature<Dim>> h_p,
                   Read<node::Mass> m_i, Write<node::Velocity<Dim>> v_i) const;
@@ -36,8 +36,8 @@ struct G2PVelocityTpic2 {
 
   G2PVelocityTpic2() = default;
   explicit G2PVelocityTpic2(Input& in);
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<LiquidShare> liquid,
-                  Read<particle::Configuration<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<cell::BulkIndicator> b_c,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p,
                   Write<particle::VelocityCurvature<Dim>> h_p) const;
 };

@@ -1,4 +1,4 @@
-#include "systems/grid/liquid.hpp"
+#include "systems/grid/liquid_cells.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/schemes.hpp"
@@ -44,7 +44,7 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
   return [scheme, p2g, g2p, corrected](const Scene& of, Recipe& recipe) {
     const auto& integrator = of.facts.get<IntegratorNeeds>();
     recipe.add("p2g", "p2g_mass");
-    if (corrected || scheme.reads_liquid_share) recipe.add("p2g", "find_liquid");
+    if (corrected || scheme.reads_liquid_indicator) recipe.add("p2g", "find_liquid_cells");
     if (corrected && integrator.gradients_move) recipe.add("p2g", "carry_gradient_to_middle", When::step);
     for (const System& system : p2g) recipe.add("p2g", system);
     for (const System& system : g2p) recipe.add("g2p", system, When::step);
@@ -74,7 +74,7 @@ void add_transfer(SystemRegistry& registry) {
   registry.add<G2PVelocityFmpm>("g2p_velocity_fmpm");
   registry.add<G2PAccelerationPic>("g2p_acceleration_pic");
   registry.add<G2PAccelerationTpic>("g2p_acceleration_tpic");
-  registry.add<FindLiquid>("find_liquid");
+  registry.add<FindLiquidCells>("find_liquid_cells");
   registry.add<CarryGradient>("carry_gradient_to_middle");
   registry.add<CarryGradient>("carry_gradient_to_end");
   registry.add<AddInertiaCorrection>("add_inertia_correction");

@@ -7,7 +7,7 @@ namespace minamo {
 
 template <int Dim>
 void FilterVelocityXpic<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+    Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
     Read<particle::Mass> m_p, Read<node::Mass> m_i, Read<node::Constraint> constraint,
     Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Velocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
     Write<node::Smoothed<Dim>> smoothed, Write<node::FilteredVelocity<Dim>> v_filtered) const {
@@ -17,7 +17,7 @@ void FilterVelocityXpic<Dim>::operator()(
 
 template <int Dim>
 void G2PVelocityXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::Configuration<Dim>> y_p,
+                                      Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<node::FilteredVelocity<Dim>> v_filtered, Read<node::Velocity<Dim>> v_old,
                                       Read<node::NewVelocity<Dim>> v_new, Write<particle::Velocity<Dim>> v_p) const {
   const auto at_node = [&](std::size_t i) { return Vec<Dim>(v_filtered[i] + v_new[i] - v_old[i]); };

@@ -24,7 +24,7 @@ struct FilterVelocityXpic {
   FilterVelocityXpic() = default;
   explicit FilterVelocityXpic(int order_of_filter) : order(order_of_filter) {}
   explicit FilterVelocityXpic(Input& input) : order(filter_order(input)) {}
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<node::Mass> m_i,
                   Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
                   Read<node::Velocity<Dim>> v_i, Write<node::Residue<Dim>> residue, Write<node::Smoothed<Dim>> smoothed,
@@ -35,7 +35,7 @@ struct FilterVelocityXpic {
 template <int Dim>
 struct G2PVelocityXpic {
   static constexpr std::string_view doc = "(E47) v_p, XPIC";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::FilteredVelocity<Dim>> v_filtered, Read<node::Velocity<Dim>> v_old,
                   Read<node::NewVelocity<Dim>> v_new, Write<particle::Velocity<Dim>> v_p) const;
 };

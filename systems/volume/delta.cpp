@@ -1,7 +1,7 @@
 #include "systems/volume/delta.hpp"
 
 #include "systems/grid/node_volume.hpp"
-#include "systems/grid/place.hpp"
+#include "systems/grid/point_locator.hpp"
 #include "systems/volume/shift.hpp"
 
 namespace minamo {
@@ -10,7 +10,7 @@ namespace {
 
 /// g_p of (E52).
 template <int Dim>
-Vec<Dim> slope(const Surroundings<Dim>& place, const Weights<Dim>& weights, std::span<const double> e_i) {
+Vec<Dim> slope(const NodeStencil<Dim>& place, const Weights<Dim>& weights, std::span<const double> e_i) {
   Vec<Dim> g = Vec<Dim>::Zero();
   place.for_each_node([&](std::size_t i, const Index<Dim>& offset) { g += e_i[i] * weights.gradient(offset); });
   return g;
@@ -31,16 +31,16 @@ double step_length(std::span<const double> e_i, std::span<const double> r_i) {
 }  // namespace
 
 template <int Dim>
-void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Volume> V_p, Read<EndSites<Dim>> rows,
-                                   Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
-                                   Write<end_node::VolumeExcess> e_i, Write<end_node::VolumeResponse> r_i,
+void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Volume> V_p, Read<AdvectedNodeIndex<Dim>> rows,
+                                   Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
+                                   Write<advected_node::VolumeExcess> e_i, Write<advected_node::VolumeResponse> r_i,
                                    Update<particle::Position<Dim>> x_p) const {
   for_each_row(e_i.size(), [&](std::size_t i) {
     e_i[i] = std::max(0.0, v_i[i] - capacity[i]);
     r_i[i] = 0;
   });
   // One after the other: particles have left the cells that they are sorted by.
-  PlaceFinder<Dim> places(*grid, *rows);
+  PointLocator<Dim> places(*grid, *rows);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     places.visit(x_p[p], [&](const auto& place, const auto& weights) {
       const Vec<Dim> g = V_p[p] * slope<Dim>(place, weights, e_i.span());
@@ -49,7 +49,7 @@ void ShiftByDelta<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Volume> 
   }
   const double lambda = step_length(e_i.span(), r_i.span());
   for_each_range(x_p.size(), [&](std::size_t begin, std::size_t end) {
-    PlaceFinder<Dim> places_of_range(*grid, *rows);
+    PointLocator<Dim> places_of_range(*grid, *rows);
     for (std::size_t p = begin; p < end; ++p) {
       places_of_range.visit(x_p[p], [&](const auto& place, const auto& weights) {
         x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(-lambda * slope<Dim>(place, weights, e_i.span())));

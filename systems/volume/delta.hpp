@@ -5,7 +5,7 @@
 /// Chandra et al., CMAME 419 (2024) 116644, doi:10.1016/j.cma.2023.116644; the length of the step by a line search is
 /// ours.
 
-#include "components/end_node.hpp"
+#include "components/advected_node.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "engine/system.hpp"
@@ -17,9 +17,10 @@ namespace minamo {
 template <int Dim>
 struct ShiftByDelta {
   static constexpr std::string_view doc = "(E52) x_p, delta-correction";
-  void operator()(Read<Grid<Dim>> grid, Read<particle::Volume> V_p, Read<EndSites<Dim>> rows,
-                  Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i, Write<end_node::VolumeExcess> e_i,
-                  Write<end_node::VolumeResponse> r_i, Update<particle::Position<Dim>> x_p) const;
+  void operator()(Read<Grid<Dim>> grid, Read<particle::Volume> V_p, Read<AdvectedNodeIndex<Dim>> rows,
+                  Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
+                  Write<advected_node::VolumeExcess> e_i, Write<advected_node::VolumeResponse> r_i,
+                  Update<particle::Position<Dim>> x_p) const;
 };
 
 }  // namespace minamo

@@ -18,8 +18,8 @@ double sum_rows(std::size_t rows, const Value& value) {
 }  // namespace
 
 template <int Dim>
-void KeepKineticEnergy<Dim>::operator()(Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-                                        Write<EnergyBefore> before) const {
+void StoreKineticEnergy<Dim>::operator()(Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                                         Write<EnergyBefore> before) const {
   before->kinetic = kinetic_energy<Dim>(m_p.span(), v_p.span());
 }
 
@@ -27,8 +27,8 @@ template <int Dim>
 void LimitShift<Dim>::operator()(Read<Fluid> fluid, Read<EnergyBefore> before, Read<particle::Mass> m_p,
                                  Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i,
                                  Read<node::BodyForce<Dim>> b_i, Read<node::Displacement<Dim>> u_i,
-                                 Read<node::Site<Dim>> sites, Read<EndSites<Dim>> end_rows,
-                                 Read<end_node::Volume> end_v_i, Update<node::Shift<Dim>> d_i) const {
+                                 Read<node::Site<Dim>> sites, Read<AdvectedNodeIndex<Dim>> end_rows,
+                                 Read<advected_node::Volume> end_v_i, Update<node::Shift<Dim>> d_i) const {
   const double lifted = -sum_rows(d_i.size(), [&](std::size_t i) {
     const auto end = d_i[i].isZero(0) ? std::nullopt : end_rows->find(sites[i]);
     return end ? fluid->density * end_v_i[*end] * b_i[i].dot(d_i[i]) : 0.0;
@@ -40,8 +40,8 @@ void LimitShift<Dim>::operator()(Read<Fluid> fluid, Read<EnergyBefore> before, R
   for_each_row(d_i.size(), [&](std::size_t i) { d_i[i] *= share; });
 }
 
-template struct KeepKineticEnergy<2>;
-template struct KeepKineticEnergy<3>;
+template struct StoreKineticEnergy<2>;
+template struct StoreKineticEnergy<3>;
 template struct LimitShift<2>;
 template struct LimitShift<3>;
 

@@ -5,7 +5,7 @@
 /// later, when nothing else takes energy, and then the energy of the run rises. So a step may lift no more than it has
 /// lost.
 
-#include "components/end_node.hpp"
+#include "components/advected_node.hpp"
 #include "components/fluid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
@@ -17,7 +17,7 @@ namespace minamo {
 
 /// K^n of (E69), before the velocities change.
 template <int Dim>
-struct KeepKineticEnergy {
+struct StoreKineticEnergy {
   static constexpr std::string_view doc = "(E69) K^n";
   void operator()(Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p, Write<EnergyBefore> before) const;
 };
@@ -29,8 +29,8 @@ struct LimitShift {
   static constexpr std::string_view doc = "(E69) d_I, lifting no more than the step has lost";
   void operator()(Read<Fluid> fluid, Read<EnergyBefore> before, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
-                  Read<node::Displacement<Dim>> u_i, Read<node::Site<Dim>> sites, Read<EndSites<Dim>> end_rows,
-                  Read<end_node::Volume> end_v_i, Update<node::Shift<Dim>> d_i) const;
+                  Read<node::Displacement<Dim>> u_i, Read<node::Site<Dim>> sites, Read<AdvectedNodeIndex<Dim>> end_rows,
+                  Read<advected_node::Volume> end_v_i, Update<node::Shift<Dim>> d_i) const;
 };
 
 }  // namespace minamo

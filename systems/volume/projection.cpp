@@ -2,7 +2,7 @@
 
 #include "systems/assemble/stencil.hpp"
 #include "systems/grid/node_volume.hpp"
-#include "systems/grid/place.hpp"
+#include "systems/grid/point_locator.hpp"
 #include "systems/transfer/cell_polynomial.hpp"
 #include "systems/volume/shift.hpp"
 
@@ -10,16 +10,16 @@ namespace minamo {
 
 template <int Dim>
 void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
-                                       Read<particle::Volume> V_p, Resize<EndNodes> nodes, Write<EndSites<Dim>> rows,
-                                       Write<end_node::Site<Dim>> sites, Write<end_node::Volume> v_i) const {
-  number_end_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
+                                       Read<particle::Volume> V_p, Resize<AdvectedNodes> nodes, Write<AdvectedNodeIndex<Dim>> rows,
+                                       Write<advected_node::Site<Dim>> sites, Write<advected_node::Volume> v_i) const {
+  number_advected_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
   gather_node_volume<Dim>(*grid, *rows, x_p.span(), V_p.span(), v_i.span());
 }
 
 template <int Dim>
-void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>> rows, Read<end_node::Site<Dim>> sites,
-                                       Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
-                                       Write<end_node::VolumeExcess> e_i) const {
+void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<AdvectedNodeIndex<Dim>> rows, Read<advected_node::Site<Dim>> sites,
+                                       Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
+                                       Write<advected_node::VolumeExcess> e_i) const {
   // Deep inside: all nodes within two rings are at least half full, so that the support holds no part of the surface.
   const Stencil<Dim> stencil(*grid, *rows, sites.span());
   const auto half_full = [&](std::size_t j) { return v_i[j] > 0.5 * capacity[j]; };
@@ -34,8 +34,8 @@ void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>>
 
 template <int Dim>
 void FillVolumeSource<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Site<Dim>> sites,
-                                       Read<matrix::Node> node, Read<EndSites<Dim>> end_rows,
-                                       Read<end_node::VolumeExcess> e_i, Write<matrix::VolumeSource> source) const {
+                                       Read<matrix::Node> node, Read<AdvectedNodeIndex<Dim>> end_rows,
+                                       Read<advected_node::VolumeExcess> e_i, Write<matrix::VolumeSource> source) const {
   const double scale = rates->velocity * rate->rate;
   for_each_row(source.size(), [&](std::size_t r) {
     const auto i = end_rows->find(sites[node[r]]);  // no particle may touch the node any more
@@ -59,9 +59,9 @@ namespace {
 
 /// The shift within a dual cell; nodes that the step did not have shift nothing.
 template <int Dim>
-CellPolynomial<Dim> shift_within(const Grid<Dim>& grid, const WetSites<Dim>& rows, const Index<Dim>& own,
+CellPolynomial<Dim> shift_within(const Grid<Dim>& grid, const NodeIndex<Dim>& rows, const Index<Dim>& own,
                                  std::span<const Vec<Dim>> d_i) {
-  const Surroundings<Dim> around(grid, rows, own);
+  const NodeStencil<Dim> around(grid, rows, own);
   return {around.support, around.node, [&](std::optional<std::uint32_t> i) -> Vec<Dim> {
             if (!i) return Vec<Dim>::Zero();
             return d_i[*i];
@@ -71,7 +71,7 @@ CellPolynomial<Dim> shift_within(const Grid<Dim>& grid, const WetSites<Dim>& row
 }  // namespace
 
 template <int Dim>
-void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Shift<Dim>> d_i,
+void ShiftParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<node::Shift<Dim>> d_i,
                                      Update<particle::Position<Dim>> x_p) const {
   for_each_range(x_p.size(), [&](std::size_t begin, std::size_t end) {
     DualCellFinder<Dim> cell(*grid);

@@ -6,7 +6,7 @@
 /// volume conserving liquids, IEEE TVCG 27 (2021) 2385, doi:10.1109/TVCG.2019.2947437; there a second Poisson solve,
 /// here the factors of the step.
 
-#include "components/end_node.hpp"
+#include "components/advected_node.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
@@ -23,17 +23,17 @@ template <int Dim>
 struct GatherNodeVolume {
   static constexpr std::string_view doc = "(E35) V~_I at the end of the step";
   void operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p, Read<particle::Volume> V_p,
-                  Resize<EndNodes> nodes, Write<EndSites<Dim>> rows, Write<end_node::Site<Dim>> sites,
-                  Write<end_node::Volume> v_i) const;
+                  Resize<AdvectedNodes> nodes, Write<AdvectedNodeIndex<Dim>> rows, Write<advected_node::Site<Dim>> sites,
+                  Write<advected_node::Volume> v_i) const;
 };
 
 /// (E36)  E_I = V~_I - V_I where positive, or where the node is deep inside the liquid.
 template <int Dim>
 struct FindVolumeExcess {
   static constexpr std::string_view doc = "(E36) E_I";
-  void operator()(Read<Grid<Dim>> grid, Read<EndSites<Dim>> rows, Read<end_node::Site<Dim>> sites,
-                  Read<end_node::Capacity> capacity, Read<end_node::Volume> v_i,
-                  Write<end_node::VolumeExcess> e_i) const;
+  void operator()(Read<Grid<Dim>> grid, Read<AdvectedNodeIndex<Dim>> rows, Read<advected_node::Site<Dim>> sites,
+                  Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
+                  Write<advected_node::VolumeExcess> e_i) const;
 };
 
 /// (E37)  The system of the step with right-hand side (0; c_v r E_I) instead has a displacement d_I with D d = r E. The
@@ -42,7 +42,7 @@ template <int Dim>
 struct FillVolumeSource {
   static constexpr std::string_view doc = "(E37) c_v r E_I";
   void operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Site<Dim>> sites, Read<matrix::Node> node,
-                  Read<EndSites<Dim>> end_rows, Read<end_node::VolumeExcess> e_i,
+                  Read<AdvectedNodeIndex<Dim>> end_rows, Read<advected_node::VolumeExcess> e_i,
                   Write<matrix::VolumeSource> source) const;
 };
 
@@ -56,7 +56,7 @@ struct UnpackShift {
 template <int Dim>
 struct ShiftParticles {
   static constexpr std::string_view doc = "(E38) x_p, shifted";
-  void operator()(Read<Grid<Dim>> grid, Read<WetSites<Dim>> rows, Read<node::Shift<Dim>> d_i,
+  void operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<node::Shift<Dim>> d_i,
                   Update<particle::Position<Dim>> x_p) const;
 };
 

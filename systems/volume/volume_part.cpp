@@ -19,9 +19,9 @@ Contribution read_projection(Input& input, Scene&) {
   return [rate](const Scene& scene, Recipe& recipe) {
     // Without a body force nothing is lifted.
     const bool limited = !scene.facts.get<BodyForce>().is_zero();
-    if (limited) recipe.add("configure", "keep_kinetic_energy", When::step);
+    if (limited) recipe.add("configure", "store_kinetic_energy", When::step);
     recipe.add("volume", "gather_node_volume", When::step);
-    recipe.add("volume", "find_end_capacity", When::step);
+    recipe.add("volume", "find_advected_capacity", When::step);
     recipe.add("volume", "find_volume_excess", When::step);
     recipe.add("volume", "volume_source", When::step);
     for (const std::string& system : scene.facts.get<LinearSolver>().solve_volume)
@@ -36,7 +36,7 @@ Contribution read_projection(Input& input, Scene&) {
 Contribution read_delta(Input&, Scene&) {
   return [](const Scene&, Recipe& recipe) {
     recipe.add("volume", "gather_node_volume", When::step);
-    recipe.add("volume", "find_end_capacity", When::step);
+    recipe.add("volume", "find_advected_capacity", When::step);
     recipe.add("volume", "shift_by_delta", When::step);
   };
 }
@@ -48,7 +48,7 @@ void add_volume(SystemRegistry& registry) {
   registry.add<FindVolumeExcess>("find_volume_excess");
   registry.add<FillVolumeSource>("volume_source");
   registry.add<UnpackShift>("unpack_shift");
-  registry.add<KeepKineticEnergy>("keep_kinetic_energy");
+  registry.add<StoreKineticEnergy>("store_kinetic_energy");
   registry.add<LimitShift>("limit_shift");
   registry.add<ShiftParticles>("shift_particles");
   registry.add<ShiftByDelta>("shift_by_delta");

@@ -43,7 +43,7 @@ void fill(World& world) {
   world.resource<Fluid>() = {.density = 1, .viscosity = 1};
   world.resize<Particles>(per_cell * power(static_cast<std::size_t>(cells), Dim));
   kernels::Random random(1);
-  for (Vec<Dim>& y : world.column<particle::Configuration<Dim>>()) y = random.vector<Dim>(0, 1);
+  for (Vec<Dim>& y : world.column<particle::QuadraturePosition<Dim>>()) y = random.vector<Dim>(0, 1);
   for (Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) v = random.vector<Dim>(-1, 1);
   for (Mat<Dim>& gradient : world.column<particle::VelocityGradient<Dim>>()) gradient = random.matrix<Dim>(-1, 1);
   for (double& m : world.column<particle::Mass>()) m = 1;

@@ -1,7 +1,7 @@
 #include "support/scenes.hpp"
 
+#include "components/advected_node.hpp"
 #include "components/cells.hpp"
-#include "components/end_node.hpp"
 #include "components/node.hpp"
 
 using namespace minamo;
@@ -41,8 +41,8 @@ std::map<std::string, std::size_t> sizes(World& world) {
   const auto& bin = world.resource<BinBuffer>();
   sizes["cells of blocks"] = bin.first.size();
   sizes["blocks"] = bin.blocks.size();
-  sizes["pages"] = world.resource<WetSites<Dim>>().page_count();
-  sizes["pages at the end"] = world.resource<EndSites<Dim>>().page_count();
+  sizes["pages"] = world.resource<NodeIndex<Dim>>().page_count();
+  sizes["pages at the end"] = world.resource<AdvectedNodeIndex<Dim>>().page_count();
   sizes["occupied cells"] = world.resource<OccupiedCells<Dim>>().cells.size();
   return sizes;
 }

@@ -27,7 +27,7 @@ template <int Dim>
 Mat<Dim> carried(World& world, double share, const Mat<Dim>& before) {
   fill<Dim>(world, 20, 1);
   world.resource<Clock>().step = 0.1;
-  world.resource<LiquidShare>().of_cell.assign(world.resource<OccupiedCells<Dim>>().cells.size(), share);
+  for (double& w_c : world.column<cell::LiquidIndicator>()) w_c = share;
   for (Mat<Dim>& grad_v : world.column<particle::VelocityGradient<Dim>>()) grad_v = before;
   run<CarryGradient<Dim>>(world);
   return world.column<particle::VelocityGradient<Dim>>()[7];

@@ -92,7 +92,7 @@ template <int Dim>
 std::vector<Vec<Dim>> first_moment(World& world, const std::vector<Mat<Dim>>& gradient) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   const auto m_i = kernels::on_grid<Dim, node::Mass>(world);
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   std::vector<Vec<Dim>> sum(grid.node_count(), Vec<Dim>(Vec<Dim>::Zero()));
   for (std::size_t p = 0; p < y_p.size(); ++p) {
@@ -110,7 +110,7 @@ template <int Dim>
 std::vector<Mat<Dim>> force_gradient(World& world) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   const double dt = world.resource<Clock>().step;
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto v_old = kernels::on_grid<Dim, node::Velocity<Dim>>(world);
   const auto v_new = kernels::on_grid<Dim, node::NewVelocity<Dim>>(world);
   const auto c_i = kernels::on_grid<Dim, node::InertiaCorrection<Dim>>(world);

@@ -16,7 +16,7 @@ namespace {
 
 template <int Dim>
 Stencil<Dim> stencil_of(World& world) {
-  return {world.resource<Grid<Dim>>(), world.resource<WetSites<Dim>>(), world.column<node::Site<Dim>>()};
+  return {world.resource<Grid<Dim>>(), world.resource<NodeIndex<Dim>>(), world.column<node::Site<Dim>>()};
 }
 
 /// Random particles, the moments of their cells, and in every cell another liquid.
@@ -56,7 +56,7 @@ std::vector<double> at_particles(World& world) {
 /// Calls body(p, weights) for every particle.
 template <int Dim, class Body>
 void for_each_particle(World& world, const Body& body) {
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     body(p, PlainWeights<Dim>(small_grid<Dim>(), y_p[p]));
   }
@@ -242,7 +242,7 @@ TEMPLATE_TEST_CASE_SIG("the source of PSPG and VMS is what is known of rho (a - 
                        3) {
   World world;
   prepare<Dim>(world, 31);
-  set_random<node::KnownAcceleration<Dim>, Dim>(world, 1);
+  set_random<node::PredictedAcceleration<Dim>, Dim>(world, 1);
   set_random<node::Displacement<Dim>, Dim>(world, 2);
   set_random<node::BodyForce<Dim>, Dim>(world, 3);
   world.resource<Rates>().acceleration = 0.7;
@@ -252,7 +252,7 @@ TEMPLATE_TEST_CASE_SIG("the source of PSPG and VMS is what is known of rho (a - 
   for (std::size_t p = 0; p < rho.size(); ++p) tau_rho[p] *= rho[p];
   std::vector<Vec<Dim>> f_i;
   for (std::size_t i = 0; i < world.rows<Nodes>(); ++i) {
-    f_i.push_back(world.column<node::BodyForce<Dim>>()[i] - world.column<node::KnownAcceleration<Dim>>()[i] -
+    f_i.push_back(world.column<node::BodyForce<Dim>>()[i] - world.column<node::PredictedAcceleration<Dim>>()[i] -
                   0.7 * world.column<node::Displacement<Dim>>()[i]);
   }
   CHECK(source_difference<Dim>(world, plain_source<Dim>(world, tau_rho, f_i)) < rounding_of_sums);
@@ -281,10 +281,10 @@ TEMPLATE_TEST_CASE_SIG("OSS has the D of PSPG, no G, and the projected pressure 
   std::vector<Vec<Dim>> f_i;
   std::size_t full = 0;
   for (std::size_t i = 0; i < world.rows<Nodes>(); ++i) {
-    const bool is_full = world.column<node::Mass>()[i] > 0.6 * 2 * world.column<node::Capacity>()[i];
-    f_i.push_back(is_full ? world.column<node::PressureGradient<Dim>>()[i]
-                          : Vec<Dim>(3 * world.column<node::BodyForce<Dim>>()[i]));
-    full += is_full;
+    const bool is_filled = world.column<node::Mass>()[i] > 0.6 * 2 * world.column<node::Capacity>()[i];
+    f_i.push_back(is_filled ? world.column<node::PressureGradient<Dim>>()[i]
+                            : Vec<Dim>(3 * world.column<node::BodyForce<Dim>>()[i]));
+    full += is_filled;
   }
   CHECK(full > 0);
   CHECK(source_difference<Dim>(world, plain_source<Dim>(world, at_particles<Dim, cell::Tau>(world), f_i)) <

@@ -5,7 +5,7 @@
 
 #include "systems/assemble/mass_balance.hpp"
 #include "systems/grid/activate.hpp"
-#include "systems/grid/full_nodes.hpp"
+#include "systems/grid/filled_nodes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -44,7 +44,7 @@ void fill_lattice(World& world, double shift, double surface, std::uint64_t seed
   };
   add_row(add_row, Index<Dim>{}, Dim - 1);
   world.resize<Particles>(places.size());
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   const auto id = world.column<particle::Id>();
   for (std::size_t p = 0; p < places.size(); ++p) {
@@ -55,7 +55,7 @@ void fill_lattice(World& world, double shift, double surface, std::uint64_t seed
   set_volumes(world);
   sort<Dim>(world);
   run<P2GMass<Dim>>(world);
-  run<FindFullNodes<Dim>>(world);
+  run<FindFilledNodes<Dim>>(world);
 }
 
 /// A tank with jittered particles that fill it up to 4.75 of 7 cells: walls, full cells, a surface.
@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE_SIG("theta of a node is that of the least filled node around 
   World world;
   fill_lattice<Dim>(world, 0.2, 4.75, 31);
   const Grid<Dim> grid = small_grid<Dim>();
-  const auto theta = on_grid<Dim, node::Fullness>(world);
+  const auto theta = on_grid<Dim, node::FilledIndicator>(world);
   const auto m_i = on_grid<Dim, node::Mass>(world);
   std::size_t full = 0;
   std::size_t partly = 0;
@@ -129,7 +129,7 @@ TEMPLATE_TEST_CASE_SIG("mixed quadrature is the integral of theta and the sum of
   if constexpr (Dim == 2) integrator = GENERATE(as<std::string>(), "midpoint", "newmark");  // 3-D takes 20 s sanitized
   SceneRun run(with(tank<Dim>(), {R"(/integrator={"scheme": ")" + integrator + "\"}"}));
   run.step();
-  const auto theta = run.world().template column<node::Fullness>();
+  const auto theta = run.world().template column<node::FilledIndicator>();
   CHECK(std::count(theta.begin(), theta.end(), 0) > 0);
   CHECK(std::count(theta.begin(), theta.end(), 1) > 0);
   CHECK(std::count_if(theta.begin(), theta.end(), [](double t) { return t > 0 && t < 1; }) > 0);
@@ -161,7 +161,7 @@ TEMPLATE_TEST_CASE_SIG("where nothing is full, mixed quadrature is that of the p
   world.resource<Fluid>() = {1e9, 0};  // the particles have hardly any volume
   run<GatherMoments<Dim>>(world);
   const auto sums = world.resource<Moments<Dim>>();
-  run<FindFullNodes<Dim>>(world);
+  run<FindFilledNodes<Dim>>(world);
   run<GatherMoments<Dim>>(world);
   const auto& mixed = world.resource<Moments<Dim>>();
   Largest worst;
@@ -171,14 +171,14 @@ TEMPLATE_TEST_CASE_SIG("where nothing is full, mixed quadrature is that of the p
     }
   }
   CHECK(worst.value() < 1e-15);  // 0 measured
-  CHECK(std::count(mixed.is_full.begin(), mixed.is_full.end(), 1) == 0);
+  CHECK(std::count(mixed.is_filled.begin(), mixed.is_filled.end(), 1) == 0);
 }
 
 TEST_CASE("the integral ends where dual cells hold no particle", "[property]") {
   // One particle in the middle of every cell lies in the corner of a dual cell: those at the low walls have none.
   SceneRun run(with(tank<2>(), {R"(/particles=[{"shape": {"where": "1"}, "per_cell": 1}])"}));
   run.step();
-  const auto theta = run.world().column<node::Fullness>();
+  const auto theta = run.world().column<node::FilledIndicator>();
   CHECK(std::count(theta.begin(), theta.end(), 1) > 0);
   check_equations<2>(run);
 }

@@ -39,7 +39,7 @@ Vec<rotations<Dim>> nodal_angular_momentum(World& world) {
 /// The same of the particles at their weights' places, affine part included (E30), about the origin.
 template <int Dim>
 Vec<rotations<Dim>> particle_angular_momentum(World& world) {
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto x_p = world.column<particle::Position<Dim>>();
   std::copy(y_p.begin(), y_p.end(), x_p.begin());
   run<MeasureMomentum<Dim>>(world);
@@ -81,7 +81,7 @@ template <int Dim>
 void keep_away_from_walls(World& world) {
   const Grid<Dim> grid = small_grid<Dim>();
   const Vec<Dim> half = Vec<Dim>::Constant(0.5 * grid.spacing);
-  for (Vec<Dim>& y : world.column<particle::Configuration<Dim>>()) {
+  for (Vec<Dim>& y : world.column<particle::QuadraturePosition<Dim>>()) {
     y = y.cwiseMax(grid.low + half).cwiseMin(grid.high - half);
   }
   sort<Dim>(world);
@@ -174,9 +174,7 @@ TEMPLATE_TEST_CASE_SIG(
   keep_away_from_walls<Dim>(world);
   turn_nodes<Dim>(world, rotation);
   Random random(13);
-  auto& interior = world.resource<LiquidShare>().interior;
-  interior.resize(world.resource<OccupiedCells<Dim>>().cells.size());
-  for (double& share : interior) share = random(0, 1);
+  for (double& b_c : world.column<cell::BulkIndicator>()) b_c = random(0, 1);
   const auto before = nodal_angular_momentum<Dim>(world);
   run<G2PVelocityTpic2<Dim>>(world);
   run<P2GVelocityTpic2<Dim>>(world);
@@ -206,7 +204,7 @@ TEMPLATE_TEST_CASE_SIG("APIC's affine part is the sum over nodes that defines it
   Largest worst;
   std::size_t compared = 0;
   for (std::size_t p = 0; p < world.rows<Particles>(); ++p) {
-    const Vec<Dim> y = world.column<particle::Configuration<Dim>>()[p];
+    const Vec<Dim> y = world.column<particle::QuadraturePosition<Dim>>()[p];
     const PlainWeights<Dim> plain(grid, y);
     Mat<Dim> sum = Mat<Dim>::Zero();
     Vec<Dim> second_moment = Vec<Dim>::Zero();
@@ -239,7 +237,7 @@ TEMPLATE_TEST_CASE_SIG("APIC G2P reproduces value and gradient of an affine velo
   run<G2PVelocityApic<Dim>>(world);
   Largest worst;
   for (std::size_t p = 0; p < world.rows<Particles>(); ++p) {
-    const Vec<Dim> y = world.column<particle::Configuration<Dim>>()[p];
+    const Vec<Dim> y = world.column<particle::QuadraturePosition<Dim>>()[p];
     worst.add((world.column<particle::Velocity<Dim>>()[p] - (a * y + b)).norm());
     worst.add((world.column<particle::VelocityGradient<Dim>>()[p] - a).norm());
   }

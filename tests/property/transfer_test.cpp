@@ -63,10 +63,8 @@ void set_new_velocity(World& world, const Field& field) {
 
 template <int Dim>
 void make_all_liquid(World& world) {
-  auto& liquid = world.resource<LiquidShare>();
-  const std::size_t cells = world.resource<OccupiedCells<Dim>>().cells.size();
-  liquid.of_cell.assign(cells, 1);
-  liquid.interior.assign(cells, 1);
+  for (double& w_c : world.column<cell::LiquidIndicator>()) w_c = 1;
+  for (double& b_c : world.column<cell::BulkIndicator>()) b_c = 1;
 }
 
 template <int Dim>
@@ -107,7 +105,7 @@ TEMPLATE_TEST_CASE_SIG("P2G gives every node the mass of the plain sum", "[prope
   fill<Dim>(world, particles, 2);
   const Grid<Dim> grid = small_grid<Dim>();
   std::vector<double> expected(grid.node_count(), 0.0);
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     const PlainWeights<Dim> weights(grid, y_p[p]);
@@ -141,7 +139,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC P2G reproduces an affine velocity at every node wit
   fill<Dim>(world, particles, 7);
   Random random(8);
   const Affine<Dim> affine(random);
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const auto grad_v_p = world.column<particle::VelocityGradient<Dim>>();
   for (std::size_t p = 0; p < y_p.size(); ++p) {
@@ -219,7 +217,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC of second order keeps the second derivatives by as 
     v_i[i][0] = std::cos(k * grid.index(i)[0]);
   }
   run<G2PVelocityTpic2<Dim>>(world);
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto h_p = world.column<particle::VelocityCurvature<Dim>>();
   Largest worst;
   for (std::size_t p = 0; p < y_p.size(); ++p) {
@@ -265,7 +263,7 @@ TEMPLATE_TEST_CASE_SIG("P2G leaves a node without mass at rest", "[property]", (
   World world;
   set_grid<Dim>(world, small_grid<Dim>());
   world.resize<Particles>(1);
-  world.column<particle::Configuration<Dim>>()[0] = small_grid<Dim>().low;
+  world.column<particle::QuadraturePosition<Dim>>()[0] = small_grid<Dim>().low;
   world.column<particle::Mass>()[0] = 1;
   sort<Dim>(world);
   run<P2GMass<Dim>>(world);
@@ -283,7 +281,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC G2P reproduces value and gradient of an affine velo
   const Affine<Dim> affine(random);
   set_new_velocity<Dim>(world, affine);
   run<G2PVelocityTpic<Dim>>(world);
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const auto grad_v_p = world.column<particle::VelocityGradient<Dim>>();
   Largest worst;
@@ -302,7 +300,7 @@ TEMPLATE_TEST_CASE_SIG("PIC G2P is the plain sum over the nodes", "[property]", 
   const auto v_i = world.column<node::NewVelocity<Dim>>();
   for (Vec<Dim>& v : v_i) v = random.vector<Dim>(-1, 1);
   run<G2PVelocityPic<Dim>>(world);
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto v_p = world.column<particle::Velocity<Dim>>();
   Largest worst;
   for (std::size_t p = 0; p < y_p.size(); ++p) {
@@ -328,7 +326,7 @@ TEMPLATE_TEST_CASE_SIG("FLIP G2P blends its formula with PIC", "[property]", ((i
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const std::vector<Vec<Dim>> before(v_p.begin(), v_p.end());
   run(world, G2PVelocityFlip<Dim>(alpha));
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   Largest worst;
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     const PlainWeights<Dim> weights(small_grid<Dim>(), y_p[p]);

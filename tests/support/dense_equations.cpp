@@ -15,8 +15,8 @@ struct Kinematics {
   double c_v = 0;
   double c_a = 0;
   double time = 0;  ///< at which the momentum balance holds
-  std::vector<Vec<Dim>> v_known;
-  std::vector<Vec<Dim>> a_known;
+  std::vector<Vec<Dim>> v_predicted;
+  std::vector<Vec<Dim>> a_predicted;
 
   explicit Kinematics(scene_run::SceneRun& run) {
     World& world = run.world();
@@ -31,11 +31,11 @@ struct Kinematics {
     time = newmark ? clock.time : clock.time - dt / 2;
     for (std::size_t i = 0; i < v_n.size(); ++i) {
       if (newmark) {
-        v_known.push_back(-(gamma / beta - 1) * v_n[i] - dt / 2 * (gamma / beta - 2) * a_n[i]);
-        a_known.push_back(-1 / (beta * dt) * v_n[i] - (1 / (2 * beta) - 1) * a_n[i]);
+        v_predicted.push_back(-(gamma / beta - 1) * v_n[i] - dt / 2 * (gamma / beta - 2) * a_n[i]);
+        a_predicted.push_back(-1 / (beta * dt) * v_n[i] - (1 / (2 * beta) - 1) * a_n[i]);
       } else {
-        v_known.push_back(Vec<Dim>::Zero());
-        a_known.push_back(-2 / dt * v_n[i]);
+        v_predicted.push_back(Vec<Dim>::Zero());
+        a_predicted.push_back(-2 / dt * v_n[i]);
       }
     }
   }
@@ -92,9 +92,9 @@ Sums<Dim> sum_over_points(scene_run::SceneRun& run, double time) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   const double viscosity = run.scene().facts.get<Fluid>().viscosity;
   const bool mixed = run.scene().schemes.at("quadrature") == "mixed";
-  const auto theta = mixed ? kernels::on_grid<Dim, node::Fullness>(world) : std::vector<double>{};
+  const auto theta = mixed ? kernels::on_grid<Dim, node::FilledIndicator>(world) : std::vector<double>{};
   Sums<Dim> s = no_sums<Dim>(grid);
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   for (std::size_t p = 0; p < y_p.size(); ++p) {
     const kernels::PlainWeights<Dim> w(grid, y_p[p]);
@@ -189,7 +189,7 @@ Equations assemble(scene_run::SceneRun& run) {
     const Vec<Dim> b_i = s.force[i] / s.mass[I];
     for (int d = 0; d < Dim; ++d) {
       eq.matrix(at(i, d), at(i, d)) += s.mass[I] * kin.c_a;
-      eq.right_hand_side[at(i, d)] += s.mass[I] * (b_i[d] - kin.a_known[i][d]);
+      eq.right_hand_side[at(i, d)] += s.mass[I] * (b_i[d] - kin.a_predicted[i][d]);
     }
     eq.matrix(at(i, Dim), at(i, Dim)) += e * s.mass[I];
     eq.right_hand_side[at(i, Dim)] += let_out[I];
@@ -201,17 +201,17 @@ Equations assemble(scene_run::SceneRun& run) {
         const double D_ij = s.divergence(I, Dim * J + d);
         const double D_ji = s.divergence(J, Dim * I + d);
         // Light nodes fall freely where no wall holds them; what they do is known.
-        const double u_light = held(j, d) ? 0 : (b_j[d] - kin.a_known[j][d]) / kin.c_a;
-        const double v_known = kin.v_known[j][d] + (row[j] < 0 ? kin.c_v * u_light : 0);
+        const double u_light = held(j, d) ? 0 : (b_j[d] - kin.a_predicted[j][d]) / kin.c_a;
+        const double v_predicted = kin.v_predicted[j][d] + (row[j] < 0 ? kin.c_v * u_light : 0);
         for (int c = 0; c < Dim; ++c) {
           const double K = s.friction(Dim * I + c, Dim * J + d);
           if (row[j] >= 0 && !held(j, d)) eq.matrix(at(i, c), at(j, d)) += kin.c_v * K;
-          eq.right_hand_side[at(i, c)] -= K * v_known;
+          eq.right_hand_side[at(i, c)] -= K * v_predicted;
         }
-        eq.right_hand_side[at(i, Dim)] -= D_ij * v_known;
+        eq.right_hand_side[at(i, Dim)] -= D_ij * v_predicted;
         if (row[j] < 0) continue;
         eq.matrix(at(i, d), at(j, Dim)) -= D_ji;
-        eq.right_hand_side[at(i, Dim)] -= tau * rho * D_ji * (kin.a_known[j][d] - b_j[d]);
+        eq.right_hand_side[at(i, Dim)] -= tau * rho * D_ji * (kin.a_predicted[j][d] - b_j[d]);
         if (!held(j, d)) eq.matrix(at(i, Dim), at(j, d)) += kin.c_v * D_ij + tau * rho * kin.c_a * D_ji;
       }
       if (row[j] >= 0) eq.matrix(at(i, Dim), at(j, Dim)) += tau * s.laplacian(I, J);
@@ -272,7 +272,7 @@ Operators<Dim> terms_of_step(World& world) {
           world.column<node::Constraint>(),
           world.column<node::Mass>(),
           world.column<node::Site<Dim>>(),
-          &world.resource<WetSites<Dim>>(),
+          &world.resource<NodeIndex<Dim>>(),
           world.column<matrix::Node>(),
           world.column<matrix::Divergence<Dim>>(),
           world.column<matrix::Stabilization<Dim>>(),

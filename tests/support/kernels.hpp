@@ -82,7 +82,7 @@ Vec<Dim> random_place(Random& random, const Grid<Dim>& grid, std::size_t number)
 template <int Dim>
 void number_all_nodes(World& world) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
-  auto& rows = world.resource<WetSites<Dim>>();
+  auto& rows = world.resource<NodeIndex<Dim>>();
   rows.start(grid);
   for (std::size_t i = 0; i < grid.node_count(); ++i) rows.add(grid.index(i));
   world.resize<Nodes>(rows.number_rows());
@@ -133,7 +133,7 @@ void fill(World& world, std::size_t count, std::uint64_t seed, const Grid<Dim>& 
   set_grid<Dim>(world, grid);
   world.resize<Particles>(count);
   Random random(seed);
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   const auto id = world.column<particle::Id>();
   for (std::size_t p = 0; p < count; ++p) {

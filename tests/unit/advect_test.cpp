@@ -14,7 +14,7 @@ namespace {
 /// Random particles and a displacement of all nodes.
 void displace(World& world, const Vec<2>& u) {
   fill<2>(world, 300, 41);
-  const auto y_p = world.column<particle::Configuration<2>>();
+  const auto y_p = world.column<particle::QuadraturePosition<2>>();
   std::copy(y_p.begin(), y_p.end(), world.column<particle::Position<2>>().begin());
   for (Vec<2>& u_i : world.column<node::Displacement<2>>()) u_i = u;
   run<Advect<2>>(world);
@@ -27,7 +27,7 @@ TEST_CASE("particles move with the displacement of the nodes", "[unit]") {
   const Vec<2> u(0.01, -0.02);
   displace(world, u);
   const Grid<2> grid = small_grid<2>();
-  const auto y_p = world.column<particle::Configuration<2>>();
+  const auto y_p = world.column<particle::QuadraturePosition<2>>();
   const auto x_p = world.column<particle::Position<2>>();
   Largest worst;
   for (std::size_t p = 0; p < x_p.size(); ++p) {
@@ -38,11 +38,11 @@ TEST_CASE("particles move with the displacement of the nodes", "[unit]") {
   CHECK(worst.value() < 1e-15);  // a rounding of coordinates of size 5
 }
 
-TEST_CASE("a particle that would leave the box is put back just inside the wall", "[unit]") {
+TEST_CASE("a particle that would leave the box is clamped to just inside the wall", "[unit]") {
   World world;
   displace(world, {0.4, 0});
   const Grid<2> grid = small_grid<2>();
-  const auto y_p = world.column<particle::Configuration<2>>();
+  const auto y_p = world.column<particle::QuadraturePosition<2>>();
   const auto x_p = world.column<particle::Position<2>>();
   std::size_t wrong = 0;
   for (std::size_t p = 0; p < x_p.size(); ++p) {
@@ -52,14 +52,14 @@ TEST_CASE("a particle that would leave the box is put back just inside the wall"
   CHECK(wrong == 0);
 }
 
-TEST_CASE("particles that are put back are counted", "[unit]") {
+TEST_CASE("particles that are clamped are counted", "[unit]") {
   World world;
   displace(world, {0.4, -0.3});
   const Grid<2> grid = small_grid<2>();
   std::int64_t expected = 0;
-  for (const Vec<2>& y : world.column<particle::Configuration<2>>()) {
+  for (const Vec<2>& y : world.column<particle::QuadraturePosition<2>>()) {
     expected += y[0] + 0.4 > grid.high[0] || y[1] - 0.3 < grid.low[1];
   }
   CHECK(expected > 0);
-  CHECK(world.resource<PutBack>().count == expected);
+  CHECK(world.resource<Clamped>().count == expected);
 }

@@ -60,7 +60,7 @@ TEMPLATE_TEST_CASE_SIG("a particle is in the dual cell of the nearest node", "[u
   World world;
   bin_random<Dim>(world);
   const Grid<Dim> grid = wide_grid<Dim>();
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   Largest farthest;
   for (const auto& cell : world.resource<OccupiedCells<Dim>>().cells) {
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
@@ -87,7 +87,7 @@ TEMPLATE_TEST_CASE_SIG("what a particle carries is sorted with it", "[unit]", ((
   set_grid<Dim>(world, grid);
   world.resize<Particles>(particles);
   const auto carry = [&](const auto& check) {
-    const auto y_p = world.column<particle::Configuration<Dim>>();
+    const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
     const auto v_p = world.column<particle::Velocity<Dim>>();
     const auto id = world.column<particle::Id>();
     for (std::size_t p = 0; p < particles; ++p) check(id[p], y_p[p], v_p[p]);
@@ -148,7 +148,7 @@ TEST_CASE("blocks of one colour share no node across the ends of periodic axes",
   set_grid<2>(world, grid);
   world.resize<Particles>(grid.node_count());
   for (std::size_t i = 0; i < grid.node_count(); ++i) {
-    world.column<particle::Configuration<2>>()[i] = node_position<2>(grid, i);
+    world.column<particle::QuadraturePosition<2>>()[i] = node_position<2>(grid, i);
   }
   sort<2>(world);
   const auto& occupied = world.resource<OccupiedCells<2>>();

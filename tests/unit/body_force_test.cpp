@@ -44,7 +44,7 @@ TEST_CASE("a body force in space is sampled at the particles at the time of the 
   fill<2>(world, 40, 52);
   set_force(world, "x*t", "y - g", 2);
   run<SampleBodyForce<2>>(world);
-  const auto y_p = world.column<particle::Configuration<2>>();
+  const auto y_p = world.column<particle::QuadraturePosition<2>>();
   const auto b_p = world.column<particle::BodyForce<2>>();
   Largest worst;
   for (std::size_t p = 0; p < y_p.size(); ++p) {

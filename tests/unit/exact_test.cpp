@@ -23,7 +23,7 @@ void exact_particles(World& world, std::size_t count) {
   fill<2>(world, count, 61);
   const auto x_p = world.column<particle::Position<2>>();
   for (std::size_t p = 0; p < count; ++p) {
-    x_p[p] = world.column<particle::Configuration<2>>()[p];
+    x_p[p] = world.column<particle::QuadraturePosition<2>>()[p];
     world.column<particle::Velocity<2>>()[p] = {x_p[p][0], -2 * x_p[p][1]};
     world.column<particle::Pressure>()[p] = 2 * x_p[p][0];
   }
@@ -148,7 +148,7 @@ TEST_CASE("velocity is compared at the end of the step, pressure when and where 
   world.resource<Clock>() = {.time = 1, .step = 1, .end_of_step = 2, .index = 1};
   world.resource<Rates>().time = 1.5;
   change_all<particle::Pressure>(world, [](double p) { return 0.75 * p; });
-  change_all<particle::Configuration<2>>(world, [](const Vec<2>& y) { return Vec<2>(y + Vec<2>(1, 0)); });
+  change_all<particle::QuadraturePosition<2>>(world, [](const Vec<2>& y) { return Vec<2>(y + Vec<2>(1, 0)); });
   world.resource<exact::Pressure>() = {std::vector(exact::parts, field("(x - 1)*t")), false};
   CHECK(error(world, "velocity") < 1e-15);
   CHECK(error(world, "pressure") < 2e-15);

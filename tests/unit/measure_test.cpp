@@ -86,7 +86,7 @@ TEMPLATE_TEST_CASE_SIG("angular momentum follows the right hand about every axis
   const RigidRotation<Dim> rotation{axis, rate};
   const auto m_p = world.column<particle::Mass>();
   const auto x_p = world.column<particle::Position<Dim>>();
-  const auto y_p = world.column<particle::Configuration<Dim>>();
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
   std::copy(y_p.begin(), y_p.end(), x_p.begin());
   const Vec<Dim> centre =
       std::inner_product(m_p.begin(), m_p.end(), x_p.begin(), Vec<Dim>(Vec<Dim>::Zero()), std::plus<>(),
@@ -127,7 +127,7 @@ TEST_CASE("overlap is what particles have beyond the volume of their nodes", "[u
   full_box(world, 700);
   for (double& V : world.column<particle::Volume>()) V *= times;
   run<GatherNodeVolume<2>>(world);
-  run<FindEndCapacity<2>>(world);
+  run<FindAdvectedCapacity<2>>(world);
   run<MeasureOverlap<2>>(world);
   // Per direction a lattice of 2 particles gives the nodes 17/32, 31/32, 1, ... of h; the integrals of their weights
   // are 13/24, 23/24, 1, ... of h.

@@ -26,7 +26,7 @@ void place(World& world, double low, double high, std::uint64_t seed) {
   world.resource<Grid<Dim>>() = roomy_grid<Dim>();
   world.resize<Particles>(50);
   Random random(seed);
-  for (Vec<Dim>& y : world.column<particle::Configuration<Dim>>()) {
+  for (Vec<Dim>& y : world.column<particle::QuadraturePosition<Dim>>()) {
     y = fold<Dim>(roomy_grid<Dim>(), random.vector<Dim>(low, high));
   }
   run<Bin<Dim>>(world);

@@ -126,7 +126,7 @@ TEMPLATE_TEST_CASE_SIG("a splash of a scene that names no method has spray, a su
                        "[verification][threads]", ((int Dim), Dim), 2, 3) {
   SceneRun run(Splash<Dim>::scene());
   run.step(Splash<Dim>::steps);
-  const auto theta = run.world().template column<node::Fullness>();
+  const auto theta = run.world().template column<node::FilledIndicator>();
   CHECK(std::count(theta.begin(), theta.end(), 1) > 0);
   CHECK(std::count_if(theta.begin(), theta.end(), [](double share) { return share > 0 && share < 1; }) > 0);
   CHECK(lone_particles<Dim>(run.world()) > 0);

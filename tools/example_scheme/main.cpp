@@ -17,7 +17,7 @@ template <int Dim>
 struct ScatterVelocity {
   static constexpr const char* doc = "v_I, RPIC";
 
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                   Read<particle::VelocityGradient<Dim>> G_p, Read<node::Mass> m_i,
                   Write<node::Velocity<Dim>> v_i) const {
@@ -47,7 +47,7 @@ struct GatherVelocity {
     strain = in.number("strain", {.doc = "share of the strain kept", .fallback = 0, .at_least = 0, .at_most = 1});
   }
 
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::Configuration<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
                   Write<particle::VelocityGradient<Dim>> G_p) const {
     gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Jet<Dim>& v) {

@@ -12,31 +12,31 @@ namespace minamo {
 /// (E9)  y_p = x_p^n + s dt v_p^n, kept inside the box and, along periodic axes, folded into it. The share s of the
 /// step is what tells these systems apart.
 template <int Dim>
-struct ConfigureAtStart {  // s = 0
+struct PlaceQuadratureAtStart {  // s = 0
   static constexpr std::string_view doc = "(E9) y_p = x_p, newmark";
   void operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
-                  Write<particle::Configuration<Dim>> y_p) const;
+                  Write<particle::QuadraturePosition<Dim>> y_p) const;
 };
 
 template <int Dim>
-struct ConfigureAtMiddle {  // s = 1/2
+struct PlaceQuadratureAtMiddle {  // s = 1/2
   static constexpr std::string_view doc = "(E9) y_p = x_p + dt/2 v_p, midpoint";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Write<particle::Configuration<Dim>> y_p) const;
+                  Read<particle::Velocity<Dim>> v_p, Write<particle::QuadraturePosition<Dim>> y_p) const;
 };
 
 template <int Dim>
-struct ConfigureStepBefore {  // s = -1
+struct PlaceQuadratureStepBefore {  // s = -1
   static constexpr std::string_view doc = "(E9) y_p = x_p - dt v_p, start of newmark";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Write<particle::Configuration<Dim>> y_p) const;
+                  Read<particle::Velocity<Dim>> v_p, Write<particle::QuadraturePosition<Dim>> y_p) const;
 };
 
 template <int Dim>
-struct ConfigureStepAhead {  // s = 1
+struct PlaceQuadratureStepAhead {  // s = 1
   static constexpr std::string_view doc = "(E9) y_p = x_p + dt v_p, initial pressure";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Write<particle::Configuration<Dim>> y_p) const;
+                  Read<particle::Velocity<Dim>> v_p, Write<particle::QuadraturePosition<Dim>> y_p) const;
 };
 
 }  // namespace minamo

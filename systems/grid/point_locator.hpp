@@ -28,12 +28,12 @@ void for_each_address(const Grid<Dim>& grid, const SiteRows<Dim>& rows, const Su
 
 /// The nodes of any dual cell.
 template <int Dim>
-struct Surroundings {
+struct NodeStencil {
   SupportBox<Dim> support;
   /// Rows of the nodes in the table of `rows`; none for a node that is not in it.
   std::array<std::optional<std::uint32_t>, support_size<Dim>> node;
 
-  Surroundings(const Grid<Dim>& grid, const SiteRows<Dim>& rows, const Index<Dim>& own) : support(grid, own) {
+  NodeStencil(const Grid<Dim>& grid, const SiteRows<Dim>& rows, const Index<Dim>& own) : support(grid, own) {
     typename SiteRows<Dim>::Finder find(rows);
     for_each_address<Dim>(grid, rows, support, [&](std::size_t k, const auto& address) { node[k] = find(address); });
   }
@@ -88,13 +88,13 @@ class DualCellFinder {
   Vec<Dim> high_ = Vec<Dim>::Constant(-1);
 };
 
-/// Surroundings of one point after the other.
+/// NodeStencil of one point after the other.
 template <int Dim>
-class PlaceFinder {
+class PointLocator {
  public:
-  PlaceFinder(const Grid<Dim>& grid, const SiteRows<Dim>& rows) : grid_(grid), rows_(rows), cell_(grid) {}
+  PointLocator(const Grid<Dim>& grid, const SiteRows<Dim>& rows) : grid_(grid), rows_(rows), cell_(grid) {}
 
-  /// Calls body(surroundings, weights) for a point.
+  /// Calls body(stencil, weights) for a point.
   template <class Body>
   void visit(const Vec<Dim>& x, const Body& body) {
     Vec<Dim> y;
@@ -106,7 +106,7 @@ class PlaceFinder {
   const Grid<Dim>& grid_;
   const SiteRows<Dim>& rows_;
   DualCellFinder<Dim> cell_;
-  std::optional<Surroundings<Dim>> found_;
+  std::optional<NodeStencil<Dim>> found_;
 };
 
 }  // namespace minamo

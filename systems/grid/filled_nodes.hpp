@@ -13,10 +13,11 @@ namespace minamo {
 /// (E67)  phi_I = m_I/(rho V_I), V_I (E39), 0 if no particle is in the dual cell of I;
 /// theta_I = min(1, max(0, (f_I - 0.9)/0.07)), f_I the least phi_J of the nodes of the dual cell of I.
 template <int Dim>
-struct FindFullNodes {
-  static constexpr std::string_view doc = "(E67) nodes that the liquid fills";
+struct FindFilledNodes {
+  static constexpr std::string_view doc = "(E67) filled nodes";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid, Read<node::Mass> m_i,
-                  Read<node::Capacity> capacity, Write<node::Filling> phi_i, Write<node::Fullness> theta_i) const;
+                  Read<node::Capacity> capacity, Write<node::FillFraction> phi_i,
+                  Write<node::FilledIndicator> theta_i) const;
 };
 
 }  // namespace minamo

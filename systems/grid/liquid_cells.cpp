@@ -1,4 +1,4 @@
-#include "systems/grid/liquid.hpp"
+#include "systems/grid/liquid_cells.hpp"
 
 #include <algorithm>
 
@@ -14,13 +14,12 @@ double ramp(double from, double to, double x) { return std::clamp((x - from) / (
 
 }  // namespace
 
-double liquid_share(double fill_fraction) { return ramp(spray, liquid_from, fill_fraction); }
+double liquid_indicator(double fill_fraction) { return ramp(spray, liquid_from, fill_fraction); }
 
 template <int Dim>
-void FindLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                                 Read<node::Mass> m_i, Read<node::Capacity> capacity, Write<LiquidShare> liquid) const {
-  liquid->of_cell.resize(cells->cells.size());
-  liquid->interior.resize(cells->cells.size());
+void FindLiquidCells<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
+                                      Read<node::Mass> m_i, Read<node::Capacity> capacity,
+                                      Write<cell::LiquidIndicator> w_c, Write<cell::BulkIndicator> b_c) const {
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const Support<Dim> support(*grid, cell);
     double mass = 0;
@@ -30,12 +29,12 @@ void FindLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> 
       volume += capacity[i];
     }
     const double fill_fraction = mass / (fluid->density * volume);
-    liquid->of_cell[c] = liquid_share(fill_fraction);
-    liquid->interior[c] = ramp(liquid_from, bulk_from, fill_fraction);
+    w_c[c] = liquid_indicator(fill_fraction);
+    b_c[c] = ramp(liquid_from, bulk_from, fill_fraction);
   });
 }
 
-template struct FindLiquid<2>;
-template struct FindLiquid<3>;
+template struct FindLiquidCells<2>;
+template struct FindLiquidCells<3>;
 
 }  // namespace minamo

@@ -1,4 +1,4 @@
-#include "systems/grid/full_nodes.hpp"
+#include "systems/grid/filled_nodes.hpp"
 
 #include "systems/grid/support.hpp"
 
@@ -14,9 +14,9 @@ constexpr double all_from = 0.97;
 }  // namespace
 
 template <int Dim>
-void FindFullNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
-                                    Read<node::Mass> m_i, Read<node::Capacity> capacity, Write<node::Filling> phi_i,
-                                    Write<node::Fullness> theta_i) const {
+void FindFilledNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
+                                      Read<node::Mass> m_i, Read<node::Capacity> capacity,
+                                      Write<node::FillFraction> phi_i, Write<node::FilledIndicator> theta_i) const {
   for_each_row(theta_i.size(), [&](std::size_t i) { phi_i[i] = theta_i[i] = 0; });
   for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
     const std::size_t i = Support<Dim>(*grid, cell).own();
@@ -30,7 +30,7 @@ void FindFullNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim
   });
 }
 
-template struct FindFullNodes<2>;
-template struct FindFullNodes<3>;
+template struct FindFilledNodes<2>;
+template struct FindFilledNodes<3>;
 
 }  // namespace minamo
