@@ -267,7 +267,8 @@ void SolveBlock<Dim>::operator()(
                   divergence.span(), stabilization.span(), viscosity.span()},
                  *grid, *fallback);
   pack<Dim>(f.span(), g.span(), fallback->packed.b);
-  *report = fallback->factors.solve(fallback->packed.b, fallback->packed.x);
+  fallback->factors.solve(fallback->packed.b, fallback->packed.x);
+  *report = fallback->factors.report(fallback->packed.b, fallback->packed.x);
   report->iterations = done.iterations;
   unpack<Dim>(fallback->packed.x, u.span(), p.span());
 }

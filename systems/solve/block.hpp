@@ -1,8 +1,8 @@
 #pragma once
 /// \file
 /// Block elimination: the displacement is eliminated by the velocity block, and GMRES solves for the pressure, with a
-/// factorization of a compact pressure matrix as preconditioner. Equal to UMFPACK to the tolerance; a step in which
-/// GMRES does not converge, with an incomplete factorization and then with a complete one, is given to UMFPACK.
+/// factorization of a matrix near its operator as preconditioner. Equal to UMFPACK to the tolerance. The method as a
+/// whole: README.md.
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"

@@ -31,23 +31,17 @@ double envelope_cost(std::span<const std::uint32_t> first) {
 }
 
 template <class Scalar>
-void EnvelopeLu<Scalar>::start(std::span<const std::uint32_t> first, std::size_t kept) {
+void EnvelopeLu<Scalar>::start(std::span<const std::uint32_t> first) {
   rows_ = first.size();
-  eliminated_ = rows_ - kept;
-  eliminated_tiles_ = (eliminated_ + width - 1) / width;
-  padding_ = width * eliminated_tiles_ - eliminated_;
-  const std::size_t tiles = eliminated_tiles_ + (kept + width - 1) / width;
+  const std::size_t tiles = (rows_ + width - 1) / width;
   first_.resize(tiles);
   start_.resize(tiles);
   place_tiles(first);
-  inverse_lower_.resize(eliminated_tiles_);
-  inverse_upper_.resize(eliminated_tiles_);
-  least_pivot_.assign(eliminated_tiles_, Lanes::Zero());
+  inverse_lower_.resize(tiles);
+  inverse_upper_.resize(tiles);
+  least_pivot_.assign(tiles, Lanes::Zero());
   x_.assign(tiles, Lanes::Zero());
-  for (std::size_t i = eliminated_; i < width * eliminated_tiles_; ++i) {
-    const auto k = static_cast<Eigen::Index>(i % width);
-    upper_[start_[i / width] + i / width - first_[i / width]](k, k) = 1;
-  }
+  for (std::size_t i = rows_; i < width * tiles; ++i) at(i, i) = 1;  // fills up the last tile
 }
 
 template <class Scalar>
@@ -139,7 +133,7 @@ bool EnvelopeLu<Scalar>::invert_diagonal(std::size_t j) {
 
 template <class Scalar>
 void EnvelopeLu<Scalar>::expect_pivots(double least) {
-  for (std::size_t j = 0; j < eliminated_tiles_; ++j) {
+  for (std::size_t j = 0; j < first_.size(); ++j) {
     least_pivot_[j] = static_cast<Scalar>(least) * upper_[start_[j] + j - first_[j]].diagonal().array().abs();
   }
 }
@@ -151,7 +145,7 @@ void EnvelopeLu<Scalar>::eliminate_from(std::size_t j) {
   Tile* column_j = upper_.data() + start_[j];
   for (std::size_t i = first_[j]; i <= j; ++i) {
     const std::size_t common = std::max(first_[i], first_[j]);
-    const std::size_t count = std::max(common, std::min(i, eliminated_tiles_)) - common;
+    const std::size_t count = i - common;
     const Tile* row_i = lower_.data() + start_[i] + (common - first_[i]);
     const Tile* column_i = upper_.data() + start_[i] + (common - first_[i]);
     const std::size_t from = common - first_[j];
@@ -159,39 +153,49 @@ void EnvelopeLu<Scalar>::eliminate_from(std::size_t j) {
     subtract_products(row_i, column_j + from, count, column_j[at]);
     if (i == j) return;
     subtract_products(row_j + from, column_i, count, row_j[at]);
-    if (i >= eliminated_tiles_) continue;
     column_j[at] = product(inverse_lower_[i], column_j[at]);
     row_j[at] = product(row_j[at], inverse_upper_[i]);
   }
 }
 
 template <class Scalar>
-bool EnvelopeLu<Scalar>::factorize() {
+bool EnvelopeLu<Scalar>::factorize(double least) {
+  expect_pivots(least);
   for (std::size_t j = 0; j < first_.size(); ++j) {
     eliminate_from(j);
-    if (j < eliminated_tiles_ && !invert_diagonal(j)) return false;
+    if (!invert_diagonal(j)) return false;
   }
   return true;
 }
 
+/// L^-1 x
 template <class Scalar>
 void EnvelopeLu<Scalar>::eliminate() {
   for (std::size_t j = 0; j < first_.size(); ++j) {
     const Tile* row = lower_.data() + start_[j];
     Lanes sum = x_[j];
-    for (std::size_t i = first_[j]; i < std::min(j, eliminated_tiles_); ++i) sum -= product(row[i - first_[j]], x_[i]);
-    x_[j] = j < eliminated_tiles_ ? product(inverse_lower_[j], sum) : sum;
+    for (std::size_t i = first_[j]; i < j; ++i) sum -= product(row[i - first_[j]], x_[i]);
+    x_[j] = product(inverse_lower_[j], sum);
   }
 }
 
+/// U^-1 x
 template <class Scalar>
 void EnvelopeLu<Scalar>::substitute() {
   for (std::size_t j = first_.size(); j-- > 0;) {
     const Tile* column = upper_.data() + start_[j];
-    if (j < eliminated_tiles_) x_[j] = product(inverse_upper_[j], x_[j]);
+    x_[j] = product(inverse_upper_[j], x_[j]);
     const Lanes x = x_[j];
-    for (std::size_t i = std::min(j, eliminated_tiles_); i-- > first_[j];) x_[i] -= product(column[i - first_[j]], x);
+    for (std::size_t i = j; i-- > first_[j];) x_[i] -= product(column[i - first_[j]], x);
   }
+}
+
+template <class Scalar>
+void EnvelopeLu<Scalar>::solve(Values& b) {
+  for (std::size_t i = 0; i < rows_; ++i) x_[i / width][place(i).within] = static_cast<Scalar>(b[i]);
+  eliminate();
+  substitute();
+  for (std::size_t i = 0; i < rows_; ++i) b[i] = x_[i / width][place(i).within];
 }
 
 template class EnvelopeLu<float>;

@@ -5,8 +5,6 @@
 /// streams through memory, so that it beats sparse factorizations as long as the envelope is narrow; in single
 /// precision in half the time. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems,
 /// Prentice-Hall 1981, ch. 4.
-///
-/// The last rows can be kept: what the elimination of the others makes of them is then for others to solve.
 
 #include "systems/solve/gmres.hpp"
 
@@ -20,28 +18,20 @@ namespace minamo {
 template <class Scalar>
 class EnvelopeLu {
  public:
-  /// \param first  column of the first entry of every row, at most the row itself; of kept ones at most the first kept
-  /// \param kept   rows at the end that are not eliminated
-  void start(std::span<const std::uint32_t> first, std::size_t kept = 0);
+  /// \param first  column of the first entry of every row, at most the row itself
+  void start(std::span<const std::uint32_t> first);
   std::size_t rows() const { return rows_; }
-  /// Entry of the lower or upper part; \pre within the envelope. What is left of kept rows after factorize().
+  /// Entry of the lower or upper part; \pre within the envelope.
   Scalar& at(std::size_t row, std::size_t column) {
     const auto [j, of_row] = place(row);
     const auto [i, of_column] = place(column);
     Tile& tile = i < j ? lower_[start_[j] + i - first_[j]] : upper_[start_[i] + j - first_[i]];
     return tile(of_row, of_column);
   }
-  /// The pivots that factorize() is to find: more than `least` times what the diagonal is now.
-  void expect_pivots(double least);
-  /// False if a pivot is not finite, or not as large as expected.
-  bool factorize();
-  /// Right-hand side, what is left of it, or solution of a row.
-  Scalar& x(std::size_t row) {
-    const auto [j, of_row] = place(row);
-    return x_[j][of_row];
-  }
-  void eliminate();   ///< L^-1 x; subtracts from kept rows what falls on them
-  void substitute();  ///< U^-1 x from the x of kept rows
+  /// False if a pivot is not finite, or not larger than `least` times what the diagonal was.
+  bool factorize(double least);
+  /// Overwrites b with the solution.
+  void solve(Values& b);
 
  private:
   static constexpr std::size_t width = 32 / sizeof(Scalar);
@@ -52,23 +42,20 @@ class EnvelopeLu {
     std::size_t tile;
     Eigen::Index within;
   };
-  Place place(std::size_t row) const {
-    const std::size_t padded = row < eliminated_ ? row : row + padding_;
-    return {padded / width, static_cast<Eigen::Index>(padded % width)};
-  }
+  static Place place(std::size_t row) { return {row / width, static_cast<Eigen::Index>(row % width)}; }
   void place_tiles(std::span<const std::uint32_t> first);
   static Lanes column_of(const Tile& tile, std::size_t j);
   static void add_product(const Tile& a, const Tile& b, Columns& c);
   static Tile product(const Tile& a, const Tile& b);
   static Lanes product(const Tile& a, const Lanes& x);
   static void subtract_products(const Tile* lower, const Tile* upper, std::size_t count, Tile& from);
+  void expect_pivots(double least);
   void eliminate_from(std::size_t j);
+  void eliminate();
+  void substitute();
   bool invert_diagonal(std::size_t j);
 
   std::size_t rows_ = 0;
-  std::size_t eliminated_ = 0;        ///< rows
-  std::size_t padding_ = 0;           ///< rows between those and the kept ones, which begin with a tile of their own
-  std::size_t eliminated_tiles_ = 0;  ///< along the diagonal
   std::vector<std::uint32_t> first_;  ///< tile of every row of tiles
   std::vector<std::size_t> start_;    ///< of row j of the lower and column j of the upper part
   std::vector<Tile> lower_;           ///< row by row, up to and with an unused diagonal

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace minamo {
@@ -57,94 +56,47 @@ double viscous_part(const Coefficients& c, const Grid<Dim>& grid, const Fluid& f
   return fluid.density * std::max(0.0, inverse - of_compact);
 }
 
-/// Sorts the order by the coordinate of an axis, which is in a range; rows with the same one stay as they are.
-template <int Dim>
-void PressureFactors<Dim>::sort_along(std::size_t axis, const std::array<int, 2>& range) {
-  const auto coordinate = [&](std::uint32_t row) { return static_cast<std::size_t>(site_[row][axis] - range[0]); };
-  if (std::is_sorted(order_.begin(), order_.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return coordinate(a) < coordinate(b); })) {
-    return;
-  }
-  count_.assign(static_cast<std::size_t>(range[1] - range[0]) + 2, 0);
-  for (const std::uint32_t row : order_) ++count_[coordinate(row) + 1];
-  std::partial_sum(count_.begin(), count_.end(), count_.begin());
-  place_.resize(order_.size());
-  for (const std::uint32_t row : order_) place_[count_[coordinate(row)]++] = row;
-  order_.swap(place_);
-}
-
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
 void PressureFactors<Dim>::find_order(const Operators<Dim>& t) {
-  std::array<std::array<int, 2>, Dim> range;
-  range.fill({std::numeric_limits<int>::max(), -1});
-  site_.resize(t.node.size());
-  for (std::size_t r = 0; r < t.node.size(); ++r) {
-    site_[r] = t.site[t.node[r]];
-    for (std::size_t d = 0; d < Dim; ++d) {
-      range[d] = {std::min(range[d][0], site_[r][d]), std::max(range[d][1], site_[r][d])};
-    }
-  }
-  std::array<std::size_t, Dim> axes;
-  std::iota(axes.begin(), axes.end(), std::size_t{0});
-  const auto extent = [&](std::size_t axis) { return range[axis][1] - range[axis][0]; };
-  std::sort(axes.begin(), axes.end(),
-            [&](std::size_t a, std::size_t b) { return std::pair(extent(b), a) < std::pair(extent(a), b); });
   order_.resize(t.node.size());
-  std::iota(order_.begin(), order_.end(), 0U);
-  for (std::size_t k = axes.size(); k-- > 0;) sort_along(axes[k], range[axes[k]]);
-  place_.resize(order_.size());
-  for (std::uint32_t i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
-}
-
-/// The first and the last of the neighbours of every row.
-template <int Dim>
-void PressureFactors<Dim>::find_neighbours(const StencilTiles<Dim>& tiles) {
-  constexpr std::size_t width = StencilTiles<Dim>::width;
-  first_in_lane_.resize(tiles.lanes());
-  last_in_lane_.resize(tiles.lanes());
-  for (std::size_t lane = 0; lane < tiles.lanes(); ++lane) {
-    const std::int32_t row = tiles.row(lane);
-    first_in_lane_[lane] = row < 0 ? std::numeric_limits<std::uint32_t>::max() : place_[static_cast<std::size_t>(row)];
-    last_in_lane_[lane] = row < 0 ? 0 : place_[static_cast<std::size_t>(row)];
+  place_.resize(t.node.size());
+  std::array<std::pair<int, std::size_t>, Dim> axes;
+  for (std::size_t d = 0; d < axes.size(); ++d) {
+    int low = std::numeric_limits<int>::max();
+    int high = 0;
+    for (const std::uint32_t node : t.node) {
+      low = std::min(low, t.site[node][d]);
+      high = std::max(high, t.site[node][d]);
+    }
+    axes[d] = {low - high, d};
   }
-  const auto find = [&](const typename StencilTiles<Dim>::Tile& tile) {
-    std::array<std::uint32_t, width> first, last;
-    first.fill(std::numeric_limits<std::uint32_t>::max());
-    last.fill(0);
-    for (std::size_t line = 0; line < StencilTiles<Dim>::lines; ++line) {
-      if (StencilTiles<Dim>::is_outside(tile.beside[line])) continue;
-      const std::uint32_t* first_of_line = first_in_lane_.data() + tile.line(line);
-      const std::uint32_t* last_of_line = last_in_lane_.data() + tile.line(line);
-      for (std::size_t x = 0; x < 5; ++x) {
-        for (std::size_t i = 0; i < width; ++i) {
-          first[i] = std::min(first[i], first_of_line[x + i]);
-          last[i] = std::max(last[i], last_of_line[x + i]);
-        }
-      }
-    }
-    for (std::size_t i = 0; i < width; ++i) {
-      if (tile.row[i] < 0) continue;
-      const std::uint32_t place = place_[static_cast<std::size_t>(tile.row[i])];
-      envelope_.first[place] = first[i];
-      envelope_.last[place] = last[i];
-    }
-  };
-  for_each_row(
-      tiles.tiles().size(), [&](std::size_t b) { find(tiles.tiles()[b]); }, rows_per_task);
+  std::sort(axes.begin(), axes.end());
+  keys_.resize(order_.size());
+  for_each_row(order_.size(), [&](std::size_t r) {
+    auto& [key, row] = keys_[r];
+    row = static_cast<std::uint32_t>(r);
+    for (std::size_t d = 0; d < axes.size(); ++d) key[d] = t.site[t.node[r]][axes[d].second];
+  });
+  if (!std::is_sorted(keys_.begin(), keys_.end())) std::sort(keys_.begin(), keys_.end());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) {
+    order_[i] = keys_[i].second;
+    place_[order_[i]] = i;
+  }
 }
 
 template <int Dim>
 void PressureFactors<Dim>::find_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles) {
-  auto& [first, last] = envelope_;
-  first.resize(order_.size());
-  last.resize(order_.size());
-  find_neighbours(tiles);
-  // Entries beyond the stencil may have none across from them.
-  const auto include = [&](std::uint32_t row, std::uint32_t column) {
-    first[row] = std::min(first[row], column);
-    last[row] = std::max(last[row], column);
-  };
+  first_.resize(order_.size());
+  for_each_row(
+      order_.size(),
+      [&](std::size_t r) {
+        std::uint32_t& first = first_[place_[r]] = place_[r];
+        tiles.for_each_neighbour(r, [&](std::size_t, std::size_t r_j) { first = std::min(first, place_[r_j]); });
+      },
+      rows_per_task);
+  // Far entries may have none across from them.
+  const auto include = [&](std::uint32_t row, std::uint32_t column) { first_[row] = std::min(first_[row], column); };
   for (std::size_t r = 0; r < order_.size(); ++r) {
     for (const auto& entry : compact.far_entries(r)) {
       include(place_[r], place_[entry.row]);
@@ -156,8 +108,8 @@ void PressureFactors<Dim>::find_envelope(const SchurApproximation<Dim>& compact,
 template <int Dim>
 template <class Scalar>
 bool PressureFactors<Dim>::factorize_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles,
-                                              double least, TwoEndedLu<Scalar>& factors) {
-  factors.start(envelope_);
+                                              double least, EnvelopeLu<Scalar>& factors) {
+  factors.start(first_);
   for_each_row(
       order_.size(),
       [&](std::size_t r) {
@@ -174,7 +126,7 @@ bool PressureFactors<Dim>::factorize_envelope(const SchurApproximation<Dim>& com
 template <int Dim>
 bool PressureFactors<Dim>::factorize_narrow(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles,
                                             WholeFactors& whole) {
-  const double cost = envelope_cost(envelope_.first);
+  const double cost = envelope_cost(first_);
   if (whole.steps == 0 && cost > narrowest_single && cost < widest_single) {
     kind_ = Kind::single_envelope;
     if (factorize_envelope(compact, tiles, least_pivot, single_)) return true;

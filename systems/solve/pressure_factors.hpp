@@ -8,8 +8,8 @@
 #include "components/solver.hpp"
 #include "components/step.hpp"
 #include "systems/solve/cholesky.hpp"
+#include "systems/solve/envelope_lu.hpp"
 #include "systems/solve/schur_approximation.hpp"
-#include "systems/solve/two_ended_lu.hpp"
 
 namespace minamo {
 
@@ -40,30 +40,26 @@ class PressureFactors {
 
  private:
   void find_order(const Operators<Dim>& terms);
-  void sort_along(std::size_t axis, const std::array<int, 2>& range);
-  void find_neighbours(const StencilTiles<Dim>& tiles);
   void find_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles);
   template <class Scalar>
   bool factorize_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles, double least_pivot,
-                          TwoEndedLu<Scalar>& factors);
+                          EnvelopeLu<Scalar>& factors);
   bool factorize_narrow(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles, WholeFactors& whole);
-  void find_one_sided(const SchurApproximation<Dim>& compact);
   void factorize_sparse(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur);
+  void find_one_sided(const SchurApproximation<Dim>& compact);
   bool factorize_symmetric(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles);
   bool factorize_pressure(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur);
 
-  std::vector<Index<Dim>> site_;      ///< of the rows
-  std::vector<std::uint32_t> order_;  ///< the rows, as the envelope has them
-  std::vector<std::uint32_t> place_;  ///< where the envelope has a row
-  Envelope envelope_;
-  // Work space.
-  std::vector<std::uint32_t> count_, first_in_lane_, last_in_lane_;
+  std::vector<std::uint32_t> order_;                        ///< the rows, as the envelope has them
+  std::vector<std::uint32_t> place_;                        ///< where the envelope has a row
+  std::vector<std::uint32_t> first_;                        ///< place of the first entry of a place
+  std::vector<std::pair<Index<Dim>, std::uint32_t>> keys_;  ///< work space: coordinates, slowest first, and row
   Values ordered_;
   Values of_mass_;  ///< b/V_I; empty if not viscous
   enum class Kind { single_envelope, double_envelope, complete, incomplete };
   Kind kind_ = Kind::complete;
-  TwoEndedLu<float> single_;
-  TwoEndedLu<double> double_;
+  EnvelopeLu<float> single_;
+  EnvelopeLu<double> double_;
   SparseCholesky sparse_;
   struct OneSided {
     std::size_t row, column;

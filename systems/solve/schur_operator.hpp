@@ -36,7 +36,7 @@ class SchurOperator {
   /// B_IJ at [(Dim + 1) k + d], T_IJ + e at [(Dim + 1) k + Dim].
   const TileEntries<Dim>& divergence_entries() const { return divergence_; }
 
-  /// Blocks whose rows are read once for all.
+  /// Tiles whose rows are read once for all.
   std::size_t inner_tiles() const;
 
   /// Room for products: zeros, which stay where there is no row.
@@ -45,7 +45,7 @@ class SchurOperator {
   void apply_gradient(const Values& p, TileVectors& work, Values& out) const;
   /// out = B w + (T + e) p, w at [Dim r + d].
   void apply_divergence(const Values& w, const Values& p, TileVectors& work, Values& out) const;
-  /// out = S p with the inverse_diagonal for A^-1.
+  /// out = S p with the inverse diagonal for A^-1.
   void apply_with_diagonal(const Values& p, TileVectors& work, Values& out) const;
 
  private:

@@ -63,13 +63,19 @@ void UmfpackFactors::factorize(const matrix::Monolithic& matrix) {
   if (backend.info() != Eigen::Success) reject("UMFPACK finds the matrix singular", view.rows());
 }
 
-SolveReport UmfpackFactors::solve(const std::vector<double>& b, std::vector<double>& x) const {
+void UmfpackFactors::solve(const std::vector<double>& b, std::vector<double>& x) const {
   const auto matrix = impl_->view();
   const Eigen::Map<const Eigen::VectorXd> right_hand_side(b.data(), matrix.rows());
   x.resize(b.size());
   Eigen::Map<Eigen::VectorXd> solution(x.data(), matrix.rows());
   solution = impl_->backend.solve(right_hand_side);
   if (!solution.allFinite()) reject("the solution is not finite", matrix.rows());
+}
+
+SolveReport UmfpackFactors::report(const std::vector<double>& b, const std::vector<double>& x) const {
+  const auto matrix = impl_->view();
+  const Eigen::Map<const Eigen::VectorXd> right_hand_side(b.data(), matrix.rows());
+  const Eigen::Map<const Eigen::VectorXd> solution(x.data(), matrix.rows());
   const double norm = right_hand_side.norm();
   return {.unknowns = matrix.rows(),
           .iterations = 0,
@@ -105,7 +111,8 @@ void SolveUmfpack<Dim>::operator()(Read<UmfpackFactors> factors, Read<matrix::Mo
                                    Update<PackedVectors> packed, Write<matrix::Displacement<Dim>> u,
                                    Write<matrix::Pressure> p, Write<SolveReport> report) const {
   pack<Dim>(f.span(), g.span(), packed->b);
-  *report = factors->solve(packed->b, packed->x);
+  factors->solve(packed->b, packed->x);
+  *report = factors->report(packed->b, packed->x);
   unpack<Dim>(packed->x, u.span(), p.span());
 }
 

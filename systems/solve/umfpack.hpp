@@ -24,7 +24,9 @@ class UmfpackFactors {
   /// Takes a copy of the matrix, which refines solutions. \throws StepRejected if it is singular, with the size.
   void factorize(const matrix::Monolithic& matrix);
   /// Sets x to the solution for the right-hand side b. \throws StepRejected if it is not finite, with the size.
-  SolveReport solve(const std::vector<double>& b, std::vector<double>& x) const;
+  void solve(const std::vector<double>& b, std::vector<double>& x) const;
+  /// What a solution x leaves of b.
+  SolveReport report(const std::vector<double>& b, const std::vector<double>& x) const;
 
  private:
   struct Impl;
