@@ -12,7 +12,8 @@ Contribution read_fluid(Input& input, Scene& scene) {
   Fluid fluid;
   input.object("fluid", "the liquid", Input::Presence::required, [&](Input& in) {
     fluid.density = in.number("density", {.unit = "kg/m^3", .doc = "density", .above = 0});
-    fluid.viscosity = in.number("viscosity", {.unit = "Pa s", .doc = "dynamic viscosity; 0 is inviscid", .at_least = 0});
+    fluid.viscosity =
+        in.number("viscosity", {.unit = "Pa s", .doc = "dynamic viscosity; 0 is inviscid", .at_least = 0});
   });
   scene.facts.set(fluid);
   return [fluid](const Scene&, Recipe& recipe) {

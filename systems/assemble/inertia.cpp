@@ -65,7 +65,8 @@ void AddInertiaCorrection<Dim>::operator()(Read<Clock> clock, Read<ForceStep> st
   const double threshold = mass_threshold(m_i.span());
   const Constraints<Dim> constraints{constraint.span(), frame.span()};
   for_each_row(c_i.size(), [&](std::size_t i) {
-    // What the liquid does to a node below the threshold next to a wall is not to come back to it as inertia of its own.
+    // What the liquid does to a node below the threshold next to a wall is not to come back to it as inertia of its
+    // own.
     if (row[i] < 0 || m_i[i] <= threshold) {
       c_i[i].setZero();
     } else {

@@ -1,8 +1,8 @@
+#include "systems/assemble/moments.hpp"
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/lattice.hpp"
 #include "systems/setup/schemes.hpp"
-#include "systems/assemble/moments.hpp"
 
 namespace minamo {
 

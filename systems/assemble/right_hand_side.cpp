@@ -57,15 +57,13 @@ void fill(const RightHandSideTerms<Dim>& terms, std::span<Vec<Dim>> f, std::span
 }  // namespace
 
 template <int Dim>
-void FillRightHandSide<Dim>::operator()(Read<Rates> rates, Read<node::Constraint> constraint,
-                                        Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
-                                        Read<node::BodyForce<Dim>> b_i, Read<node::PredictedVelocity<Dim>> v_predicted,
-                                        Read<node::PredictedAcceleration<Dim>> a_predicted, Read<node::Displacement<Dim>> u_i,
-                                        Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
-                                        Read<matrix::Divergence<Dim>> divergence,
-                                        Read<matrix::StabilizationSource> source,
-                                        Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                                        Write<matrix::Momentum<Dim>> f, Write<matrix::Mass> g) const {
+void FillRightHandSide<Dim>::operator()(
+    Read<Rates> rates, Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
+    Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<node::PredictedVelocity<Dim>> v_predicted,
+    Read<node::PredictedAcceleration<Dim>> a_predicted, Read<node::Displacement<Dim>> u_i, Read<matrix::Node> node,
+    Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
+    Read<matrix::StabilizationSource> source, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+    Write<matrix::Momentum<Dim>> f, Write<matrix::Mass> g) const {
   fill<Dim>({rates->velocity,
              {constraint.span(), frame.span()},
              m_i.span(),

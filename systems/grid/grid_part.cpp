@@ -1,4 +1,5 @@
 #include "components/grid.hpp"
+#include "systems/assemble/neighbours.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
 #include "systems/grid/capacity.hpp"
@@ -6,7 +7,6 @@
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/scene_checks.hpp"
-#include "systems/assemble/neighbours.hpp"
 
 namespace minamo {
 

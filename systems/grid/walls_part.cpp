@@ -127,11 +127,10 @@ Contribution read_walls(Input& input, Scene& scene) {
 
 void add_walls(SystemRegistry& registry) {
   registry.add<ApplyWallCondition>("apply_wall_condition");
-  registry.add(WallCondition{
-      "slip", "no flow through the wall", [](int, int axis) { return static_cast<std::uint8_t>(1U << axis); }});
-  registry.add(WallCondition{"no_slip", "no flow at the wall", [](int dimension, int) {
-                               return static_cast<std::uint8_t>((1U << dimension) - 1);
-                             }});
+  registry.add(WallCondition{"slip", "no flow through the wall",
+                             [](int, int axis) { return static_cast<std::uint8_t>(1U << axis); }});
+  registry.add(WallCondition{"no_slip", "no flow at the wall",
+                             [](int dimension, int) { return static_cast<std::uint8_t>((1U << dimension) - 1); }});
   const auto schemes = [](const SystemRegistry& all) { return schemes_of<WallCondition>(all); };
   registry.add(Part{"walls", "conditions at the sides of the box", read_walls, schemes});
 }

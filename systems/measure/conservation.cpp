@@ -98,8 +98,8 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
 }
 
 template <int Dim>
-void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p,
-                                      Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                                      Read<particle::Velocity<Dim>> v_p,
                                       Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                       Write<measure::Momentum<Dim>> momentum) const {
   const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span());

@@ -10,10 +10,11 @@ void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureMaxSpeed>("measure_max_speed");
   registry.add<MeasureDivergence>("measure_divergence");
   registry.add<MeasureOverlap>("measure_overlap");
-  registry.add(Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
-                      return adds("measure", {"measure_energy", "measure_momentum", "measure_max_speed",
-                                              "measure_divergence", "gather_node_volume", "find_advected_capacity", "measure_overlap"});
-                    }});
+  registry.add(
+      Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
+             return adds("measure", {"measure_energy", "measure_momentum", "measure_max_speed", "measure_divergence",
+                                     "gather_node_volume", "find_advected_capacity", "measure_overlap"});
+           }});
 }
 
 }  // namespace minamo

@@ -67,9 +67,9 @@ void require_finite(double sum_of_squares, const char* name, const Instant& inst
 
 template <int Dim>
 void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clock> clock,
-                                           Optional<Read<ode::Values>> ode, Read<particle::Volume> V_p, Read<particle::Position<Dim>> x_p,
-                                                   Read<particle::Velocity<Dim>> v_p,
-                                                   Update<measure::Columns> columns) const {
+                                           Optional<Read<ode::Values>> ode, Read<particle::Volume> V_p,
+                                           Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                                           Update<measure::Columns> columns) const {
   const Instant now = instant_of(ode, clock);
   if (now.time > exact->until) return columns->set("error_velocity", not_known);
   const Arguments start(now);
@@ -84,9 +84,9 @@ void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clo
 
 template <int Dim>
 void MeasureErrorPressure<Dim>::operator()(Read<exact::Pressure> exact, Read<Rates> rates,
-                                           Optional<Read<ode::AtBalances>> ode, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
-                                                   Read<particle::Pressure> p_p,
-                                                   Update<measure::Columns> columns) const {
+                                           Optional<Read<ode::AtBalances>> ode, Read<particle::Volume> V_p,
+                                           Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Pressure> p_p,
+                                           Update<measure::Columns> columns) const {
   const Instant now = instant_of(ode, rates);
   if (now.time > exact->until) return columns->set("error_pressure", not_known);
   const Arguments start(now);
@@ -100,7 +100,6 @@ void MeasureErrorPressure<Dim>::operator()(Read<exact::Pressure> exact, Read<Rat
   require_finite(sum.exact.squares(), "pressure", now);
   columns->set("error_pressure", relative(squares(sum.difference), squares(sum.exact), sum.exact.weight));
 }
-
 
 template struct MeasureErrorVelocity<2>;
 template struct MeasureErrorVelocity<3>;

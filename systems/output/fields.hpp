@@ -21,8 +21,8 @@ struct SamplePressure {
                   Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const;
 };
 
-/// Adds a frame to fields.h5; a velocity gradient in rows of d x d numbers, row by row. The frame is finished by write_xdmf; until then take_back_frame() undoes it.
-/// \throws std::runtime_error if the file cannot be written.
+/// Adds a frame to fields.h5; a velocity gradient in rows of d x d numbers, row by row. The frame is finished by
+/// write_xdmf; until then take_back_frame() undoes it. \throws std::runtime_error if the file cannot be written.
 template <int Dim>
 struct WriteFrame {
   static constexpr std::string_view doc = "a frame of fields.h5";

@@ -33,8 +33,7 @@ std::variant<Box, Ball, Where> read_shape(Input& shape, const Scene& scene) {
                    });
                  }},
                 {"where", [&](Input& in) {
-                   read = Where{in.expression("where", scene.scope,
-                                              {.doc = "particles wherever this is true"})};
+                   read = Where{in.expression("where", scene.scope, {.doc = "particles wherever this is true"})};
                    check_coordinates(in, "where", std::get<Where>(read).inside, scene.dimension);
                  }}});
   return read;
@@ -98,7 +97,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& prob
     const std::string pointer = fmt::format("/particles/{}", r);
     if (positions.empty()) {
       problems.note(pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
-                          fmt::format("none at {} per cell and direction", region.per_cell));
+                    fmt::format("none at {} per cell and direction", region.per_cell));
     }
     const double share = std::pow(region.per_cell, -Dim);
     const Vec<Dim>* overlap = nullptr;
@@ -111,7 +110,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& prob
     }
     if (overlap) {
       problems.note(pointer + "/shape", "overlaps an earlier one", "no cell more than full",
-                          "more than a full cell at " + place_text<Dim>(*overlap));
+                    "more than a full cell at " + place_text<Dim>(*overlap));
     }
   }
   return seeds;
@@ -145,8 +144,8 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     if (finite || reported[r]) continue;
     reported[r] = true;
     problems.note(fmt::format("/particles/{}/velocity", r), "not finite", "a finite velocity [m/s]",
-                        fmt::format("{} at {}", v_p[p].allFinite() ? "no finite gradient" : vector_text<Dim>(v_p[p]),
-                                    place_text<Dim>(x_p[p])));
+                  fmt::format("{} at {}", v_p[p].allFinite() ? "no finite gradient" : vector_text<Dim>(v_p[p]),
+                              place_text<Dim>(x_p[p])));
   }
 }
 
@@ -158,7 +157,7 @@ void check_mass(const Scene& scene, const Grid<Dim>& grid, SeedProblems& problem
     const double mass = density * std::pow(grid.spacing / region.per_cell, Dim);
     if (std::isnormal(mass)) continue;
     problems.note("/fluid/density", "particles without a mass", "a density with which they have one",
-                        fmt::format("{} kg/m^3, particles of {} kg", density, mass));
+                  fmt::format("{} kg/m^3, particles of {} kg", density, mass));
     return;
   }
 }

@@ -76,7 +76,7 @@ struct Scene {
   std::vector<ParticleScene> particles;
   TimeScene time;
   OutputScene output;
-  Facts facts;  ///< what parts tell each other
+  Facts facts;                                 ///< what parts tell each other
   std::map<std::string, std::string> schemes;  ///< the chosen ones, by the part's name
   std::vector<ExtraSystem> systems;
   Recipe recipe;  ///< what the parts have added

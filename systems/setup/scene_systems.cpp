@@ -13,9 +13,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-Lines complaints(const Scene& scene) {
-  return unwritten_reads(make_pipeline(scene).step);
-}
+Lines complaints(const Scene& scene) { return unwritten_reads(make_pipeline(scene).step); }
 
 /// What the step lacks with the extra system and does not lack without it.
 Lines due_to(const Lines& with, const Lines& without) {
@@ -27,8 +25,7 @@ Lines due_to(const Lines& with, const Lines& without) {
 }
 
 /// The problem of extra system `i`.
-Problem problem(const Scene& scene, std::size_t i, const Lines& due,
-                const Lines& without) {
+Problem problem(const Scene& scene, std::size_t i, const Lines& due, const Lines& without) {
   std::vector<std::string> fitting;
   Scene moved = scene;
   for (const Slot& slot : slots()) {

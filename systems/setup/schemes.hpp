@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The choices of a scene beside the transfer scheme. Every type is registered by name, `registry.add(Stabilization{{...}})`,
-/// by the built-in parts and by programs that link minamo alike.
+/// The choices of a scene beside the transfer scheme. Every type is registered by name,
+/// `registry.add(Stabilization{{...}})`, by the built-in parts and by programs that link minamo alike.
 
 #include "systems/setup/part.hpp"
 
@@ -30,8 +30,8 @@ struct WallCondition {
 struct LinearSolver {
   std::string name;
   std::string doc;
-  std::vector<std::string> prepare;  ///< what they write, solve and solve_volume read
-  std::vector<std::string> solve;    ///< matrix.displacement, matrix.pressure from matrix.momentum, matrix.mass
+  std::vector<std::string> prepare;       ///< what they write, solve and solve_volume read
+  std::vector<std::string> solve;         ///< matrix.displacement, matrix.pressure from matrix.momentum, matrix.mass
   std::vector<std::string> solve_volume;  ///< matrix.shift from matrix.volume_source
   std::function<Contribution(Input&, Scene&)> read = {};  ///< its options; may be empty
   /// Largest memory that matrices and factors take per node with a row. [byte]

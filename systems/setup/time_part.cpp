@@ -35,8 +35,6 @@ Contribution read_time_part(Input& input, Scene& scene) {
 
 }  // namespace
 
-void add_time(SystemRegistry& registry) {
-  registry.add(Part{"time", "how far and how fast", read_time_part});
-}
+void add_time(SystemRegistry& registry) { registry.add(Part{"time", "how far and how fast", read_time_part}); }
 
 }  // namespace minamo

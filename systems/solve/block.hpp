@@ -49,8 +49,8 @@ template <int Dim>
 struct AssembleSchur {
   static constexpr std::string_view doc = "(E55) operator of the pressure";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
-                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
+                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                   Write<SchurOperator<Dim>> schur) const;
 };
@@ -89,28 +89,29 @@ struct SolveBlock {
   static constexpr std::string_view doc = "(E55) block elimination and GMRES";
   /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size, or if iterations for the
   ///   velocities of a stiff liquid do not converge, which shorter steps help.
-  void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
-                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                  Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
-                  Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
-                  Update<PressureFactors<Dim>> pressure_factors, Update<WholeFactors> whole,
-                  Update<BlockWork<Dim>> work, Write<Fallback> fallback, Write<matrix::Displacement<Dim>> u,
-                  Write<matrix::Pressure> p, Write<SolveReport> report) const;
+  void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row,
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<node::Pressure> p_i,
+                  Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
+                  Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
+                  Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g, Update<PressureFactors<Dim>> pressure_factors,
+                  Update<WholeFactors> whole, Update<BlockWork<Dim>> work, Write<Fallback> fallback,
+                  Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p, Write<SolveReport> report) const;
 };
 
 template <int Dim>
 struct SolveVolumeBlock {
   static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
   /// \throws StepRejected as SolveBlock.
-  void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
-                  Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
-                  Read<matrix::VolumeSource> g, Update<PressureFactors<Dim>> pressure_factors,
-                  Update<BlockWork<Dim>> work, Update<Fallback> fallback, Write<matrix::Shift<Dim>> d) const;
+  void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row,
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
+                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                  Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
+                  Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::VolumeSource> g,
+                  Update<PressureFactors<Dim>> pressure_factors, Update<BlockWork<Dim>> work, Update<Fallback> fallback,
+                  Write<matrix::Shift<Dim>> d) const;
 };
 
 }  // namespace minamo

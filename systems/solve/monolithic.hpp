@@ -33,8 +33,8 @@ template <int Dim>
 struct AssembleMonolithic {
   static constexpr std::string_view doc = "(E25) (E26) (E27) as one matrix";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
-                  Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
+                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                   Write<matrix::Monolithic> matrix) const;
 };

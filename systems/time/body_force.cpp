@@ -52,11 +52,12 @@ void P2GBodyForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>
 
 template <int Dim>
 void MoveBallisticNodes<Dim>::operator()(Read<node::Row> row, Read<node::Constraint> constraint,
-                                 Optional<Read<node::ConstraintFrame<Dim>>> frame,
-                                 Optional<Read<node::ConstraintVelocity<Dim>>> w_i, Read<node::Mass> m_i,
-                                 Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
-                                 Read<node::PredictedVelocity<Dim>> v_predicted, Read<node::PredictedAcceleration<Dim>> a_predicted,
-                                 Write<node::Displacement<Dim>> u_i) const {
+                                         Optional<Read<node::ConstraintFrame<Dim>>> frame,
+                                         Optional<Read<node::ConstraintVelocity<Dim>>> w_i, Read<node::Mass> m_i,
+                                         Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,
+                                         Read<node::PredictedVelocity<Dim>> v_predicted,
+                                         Read<node::PredictedAcceleration<Dim>> a_predicted,
+                                         Write<node::Displacement<Dim>> u_i) const {
   const Constraints<Dim> constraints{constraint.span(), frame.span(), w_i.span()};
   for_each_row(u_i.size(), [&](std::size_t i) {
     u_i[i].setZero();

@@ -1,7 +1,7 @@
-#include "systems/time/body_force.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/seed_text.hpp"
+#include "systems/time/body_force.hpp"
 
 namespace minamo {
 

@@ -1,11 +1,11 @@
 #include "systems/grid/walls.hpp"
-#include "systems/time/quadrature_position.hpp"
-#include "systems/time/damp_divergence.hpp"
-#include "systems/time/midpoint.hpp"
-#include "systems/time/newmark.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/schemes.hpp"
+#include "systems/time/damp_divergence.hpp"
+#include "systems/time/midpoint.hpp"
+#include "systems/time/newmark.hpp"
+#include "systems/time/quadrature_position.hpp"
 #include "systems/transfer/scheme.hpp"
 
 namespace minamo {

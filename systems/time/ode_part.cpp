@@ -1,8 +1,8 @@
 #include "components/instant.hpp"
-#include "systems/time/ode.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/scene_checks.hpp"
+#include "systems/time/ode.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

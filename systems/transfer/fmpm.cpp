@@ -8,8 +8,7 @@ namespace minamo {
 template <int Dim>
 void FilterVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                                          Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                                         Read<node::Mass> m_i,
-                                         Read<node::Constraint> constraint,
+                                         Read<node::Mass> m_i, Read<node::Constraint> constraint,
                                          Optional<Read<node::ConstraintFrame<Dim>>> frame,
                                          Read<node::NewVelocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
                                          Write<node::Smoothed<Dim>> smoothed,

@@ -25,10 +25,10 @@ struct FilterVelocityFmpm {
   explicit FilterVelocityFmpm(int order_of_filter) : order(order_of_filter) {}
   explicit FilterVelocityFmpm(Input& input) : order(filter_order(input)) {}
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<node::Mass> m_i,
-                  Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
-                  Read<node::NewVelocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
-                  Write<node::Smoothed<Dim>> smoothed, Write<node::FilteredVelocity<Dim>> v_filtered) const;
+                  Read<particle::Mass> m_p, Read<node::Mass> m_i, Read<node::Constraint> constraint,
+                  Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::NewVelocity<Dim>> v_i,
+                  Write<node::Residue<Dim>> residue, Write<node::Smoothed<Dim>> smoothed,
+                  Write<node::FilteredVelocity<Dim>> v_filtered) const;
 };
 
 /// (E66)  v_p = sum_I S_Ip v*_I.

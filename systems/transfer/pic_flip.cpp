@@ -35,8 +35,8 @@ G2PVelocityFlip<Dim>::G2PVelocityFlip(Input& input)
 
 template <int Dim>
 void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
-                                      Update<particle::Velocity<Dim>> v_p) const {
+                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<node::Velocity<Dim>> v_old,
+                                      Read<node::NewVelocity<Dim>> v_new, Update<particle::Velocity<Dim>> v_p) const {
   const double alpha = blend;
   // alpha (v_p + S (v_new - v_old)) + (1 - alpha) S v_new = alpha v_p + S (v_new - alpha v_old).
   const auto increment = [&](std::size_t i) -> Vec<Dim> { return v_new[i] - alpha * v_old[i]; };
@@ -46,7 +46,8 @@ void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
 
 template <int Dim>
 void G2PAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                         Read<particle::QuadraturePosition<Dim>> y_p, Read<node::NewAcceleration<Dim>> a_i,
+                                         Read<particle::QuadraturePosition<Dim>> y_p,
+                                         Read<node::NewAcceleration<Dim>> a_i,
                                          Write<particle::Acceleration<Dim>> a_p) const {
   gather<Dim>(*grid, *cells, y_p.span(), a_i.span(), [&](std::size_t p, const Vec<Dim>& a) { a_p[p] = a; });
 }

@@ -49,7 +49,8 @@ struct G2PVelocityFlip {
   explicit G2PVelocityFlip(double blend_of_flip) : blend(blend_of_flip) {}
   explicit G2PVelocityFlip(Input& input);
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new, Update<particle::Velocity<Dim>> v_p) const;
+                  Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
+                  Update<particle::Velocity<Dim>> v_p) const;
 };
 
 /// (E17) for the acceleration.

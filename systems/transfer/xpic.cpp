@@ -6,11 +6,13 @@
 namespace minamo {
 
 template <int Dim>
-void FilterVelocityXpic<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-    Read<particle::Mass> m_p, Read<node::Mass> m_i, Read<node::Constraint> constraint,
-    Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Velocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
-    Write<node::Smoothed<Dim>> smoothed, Write<node::FilteredVelocity<Dim>> v_filtered) const {
+void FilterVelocityXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
+                                         Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+                                         Read<node::Mass> m_i, Read<node::Constraint> constraint,
+                                         Optional<Read<node::ConstraintFrame<Dim>>> frame,
+                                         Read<node::Velocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
+                                         Write<node::Smoothed<Dim>> smoothed,
+                                         Write<node::FilteredVelocity<Dim>> v_filtered) const {
   filter_series<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, {constraint.span(), frame.span()}, order,
                      v_i.span(), residue.span(), smoothed.span(), v_filtered.span());
 }

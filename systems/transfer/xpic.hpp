@@ -25,9 +25,9 @@ struct FilterVelocityXpic {
   explicit FilterVelocityXpic(int order_of_filter) : order(order_of_filter) {}
   explicit FilterVelocityXpic(Input& input) : order(filter_order(input)) {}
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<node::Mass> m_i,
-                  Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
-                  Read<node::Velocity<Dim>> v_i, Write<node::Residue<Dim>> residue, Write<node::Smoothed<Dim>> smoothed,
+                  Read<particle::Mass> m_p, Read<node::Mass> m_i, Read<node::Constraint> constraint,
+                  Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Velocity<Dim>> v_i,
+                  Write<node::Residue<Dim>> residue, Write<node::Smoothed<Dim>> smoothed,
                   Write<node::FilteredVelocity<Dim>> v_filtered) const;
 };
 

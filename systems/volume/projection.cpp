@@ -10,16 +10,17 @@ namespace minamo {
 
 template <int Dim>
 void GatherNodeVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p,
-                                       Read<particle::Volume> V_p, Resize<AdvectedNodes> nodes, Write<AdvectedNodeIndex<Dim>> rows,
-                                       Write<advected_node::Site<Dim>> sites, Write<advected_node::Volume> v_i) const {
+                                       Read<particle::Volume> V_p, Resize<AdvectedNodes> nodes,
+                                       Write<AdvectedNodeIndex<Dim>> rows, Write<advected_node::Site<Dim>> sites,
+                                       Write<advected_node::Volume> v_i) const {
   number_advected_nodes<Dim>(*grid, x_p.span(), nodes, *rows, sites);
   gather_node_volume<Dim>(*grid, *rows, x_p.span(), V_p.span(), v_i.span());
 }
 
 template <int Dim>
-void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<AdvectedNodeIndex<Dim>> rows, Read<advected_node::Site<Dim>> sites,
-                                       Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
-                                       Write<advected_node::VolumeExcess> e_i) const {
+void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<AdvectedNodeIndex<Dim>> rows,
+                                       Read<advected_node::Site<Dim>> sites, Read<advected_node::Capacity> capacity,
+                                       Read<advected_node::Volume> v_i, Write<advected_node::VolumeExcess> e_i) const {
   // Deep inside: all nodes within two rings are at least half full, so that the support holds no part of the surface.
   const Stencil<Dim> stencil(*grid, *rows, sites.span());
   const auto half_full = [&](std::size_t j) { return v_i[j] > 0.5 * capacity[j]; };
@@ -35,7 +36,8 @@ void FindVolumeExcess<Dim>::operator()(Read<Grid<Dim>> grid, Read<AdvectedNodeIn
 template <int Dim>
 void FillVolumeSource<Dim>::operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Site<Dim>> sites,
                                        Read<matrix::Node> node, Read<AdvectedNodeIndex<Dim>> end_rows,
-                                       Read<advected_node::VolumeExcess> e_i, Write<matrix::VolumeSource> source) const {
+                                       Read<advected_node::VolumeExcess> e_i,
+                                       Write<matrix::VolumeSource> source) const {
   const double scale = rates->velocity * rate->rate;
   for_each_row(source.size(), [&](std::size_t r) {
     const auto i = end_rows->find(sites[node[r]]);  // no particle may touch the node any more

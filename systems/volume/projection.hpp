@@ -23,8 +23,8 @@ template <int Dim>
 struct GatherNodeVolume {
   static constexpr std::string_view doc = "(E35) V~_I at the end of the step";
   void operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p, Read<particle::Volume> V_p,
-                  Resize<AdvectedNodes> nodes, Write<AdvectedNodeIndex<Dim>> rows, Write<advected_node::Site<Dim>> sites,
-                  Write<advected_node::Volume> v_i) const;
+                  Resize<AdvectedNodes> nodes, Write<AdvectedNodeIndex<Dim>> rows,
+                  Write<advected_node::Site<Dim>> sites, Write<advected_node::Volume> v_i) const;
 };
 
 /// (E36)  E_I = V~_I - V_I where positive, or where the node is deep inside the liquid.

@@ -54,8 +54,8 @@ void add_volume(SystemRegistry& registry) {
   registry.add<ShiftByDelta>("shift_by_delta");
   registry.add(VolumeCorrection{{"delta", "pushes particles apart where they overlap", read_delta}});
   registry.add(VolumeCorrection{{"none", "no correction", {}}});
-  registry.add(VolumeCorrection{{"projection", "closes gaps and pushes apart, with the operators of the step",
-                                 read_projection}});
+  registry.add(VolumeCorrection{
+      {"projection", "closes gaps and pushes apart, with the operators of the step", read_projection}});
   registry.add(choice<VolumeCorrection>("volume", "volume correction", "projection"));
 }
 

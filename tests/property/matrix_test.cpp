@@ -287,8 +287,7 @@ TEMPLATE_TEST_CASE_SIG("OSS has the D of PSPG, no G, and the projected pressure 
     full += is_filled;
   }
   CHECK(full > 0);
-  CHECK(source_difference<Dim>(world, plain_source<Dim>(world, at_particles<Dim, cell::Tau>(world), f_i)) <
-        4e-13);
+  CHECK(source_difference<Dim>(world, plain_source<Dim>(world, at_particles<Dim, cell::Tau>(world), f_i)) < 4e-13);
 }
 
 TEMPLATE_TEST_CASE_SIG("a uniform velocity has no divergence: rows of D sum to zero", "[property]", ((int Dim), Dim), 2,

@@ -18,14 +18,14 @@ using CommandLine = std::vector<std::string>;
 /// `minamo run` of the dam break on a coarse grid, with more arguments.
 CommandLine dam_break(const std::string& out, const CommandLine& more) {
   CommandLine arguments{"run",
-                      scene_path("paper/dam_break_tpic.json"),
-                      "--out",
-                      out,
-                      "--threads",
-                      "1",
-                      "--quiet",
-                      "--set",
-                      "/grid/cells=[20, 20]"};
+                        scene_path("paper/dam_break_tpic.json"),
+                        "--out",
+                        out,
+                        "--threads",
+                        "1",
+                        "--quiet",
+                        "--set",
+                        "/grid/cells=[20, 20]"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }

@@ -75,7 +75,7 @@ TEST_CASE("a run that is killed at any moment goes on to the bytes of one that w
   const int kills = wanted != nullptr ? std::atoi(wanted) : 8;
   const Folder folder;
   const CommandLine run = run_of("paper/dam_break_tpic.json", {"/grid/cells=[20, 20]", "/output/every=0.002",
-                                                             "/output/checkpoint=0.003", "/time/end=0.15"});
+                                                               "/output/checkpoint=0.003", "/time/end=0.15"});
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(run_program(with(run, {"--out", folder / "whole"})).code == 0);
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;

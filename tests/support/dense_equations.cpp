@@ -101,7 +101,8 @@ Sums<Dim> sum_over_points(scene_run::SceneRun& run, double time) {
     std::array<double, 4> xyzt{0, 0, 0, time};
     for (int d = 0; d < Dim; ++d) xyzt[static_cast<std::size_t>(d)] = y_p[p][d];
     Vec<Dim> b;
-    for (int d = 0; d < Dim; ++d) b[d] = run.scene().facts.get<BodyForce>().of_place_and_time[static_cast<std::size_t>(d)](xyzt);
+    for (int d = 0; d < Dim; ++d)
+      b[d] = run.scene().facts.get<BodyForce>().of_place_and_time[static_cast<std::size_t>(d)](xyzt);
     for (std::size_t i = 0; i < w.value.size(); ++i) {
       s.mass[static_cast<Eigen::Index>(i)] += m_p[p] * w.value[i];
       s.force[i] += m_p[p] * w.value[i] * b;
@@ -174,7 +175,8 @@ Equations assemble(scene_run::SceneRun& run) {
   const double dt = world.resource<Clock>().step;
   const double h = run.scene().grid.spacing;
   const double rho = run.scene().facts.get<Fluid>().density;
-  const double tau = 1 / std::sqrt(std::pow(2 * rho / dt, 2) + std::pow(4 * run.scene().facts.get<Fluid>().viscosity / (h * h), 2));
+  const double tau =
+      1 / std::sqrt(std::pow(2 * rho / dt, 2) + std::pow(4 * run.scene().facts.get<Fluid>().viscosity / (h * h), 2));
   const double e = 1e-6 * dt / (rho * rho * h * h);
   Eigen::VectorXd let_out = Eigen::VectorXd::Zero(s.mass.size());
   if (run.scene().schemes.at("integrator") == "midpoint") let_out = 0.1 * divergence_at_start<Dim>(run, s);

@@ -212,7 +212,7 @@ TEST_CASE("systems/README.md has the slots of a step in order", "[unit]") {
 
 TEST_CASE("the code in systems/README.md is that of the examples, which are built and run", "[unit]") {
   std::string examples;
-  for (const std::string folder : {"/tools/example_system/", "/tools/example_scheme/"}) {
+  for (const std::string folder : {"/tools/example_system/", "/tools/example_scheme/", "/tools/example_part/"}) {
     for (const std::string file : {"main.cpp", "scene.json", "CMakeLists.txt"}) {
       examples += text_of(source + folder + file);
     }

@@ -103,7 +103,6 @@ TEST_CASE("a probe in a hydrostatic column shows its pressure, the start include
 }
 
 TEST_CASE("a scene without probes has no system for them", "[unit]") {
-  const auto step =
-      make_pipeline(scene_run::read(scene_run::scene_of_file("dam_break.json"))).step;
+  const auto step = make_pipeline(scene_run::read(scene_run::scene_of_file("dam_break.json"))).step;
   CHECK(std::none_of(step.begin(), step.end(), [](const System& system) { return system.name == "measure_probes"; }));
 }
