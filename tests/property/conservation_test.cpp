@@ -69,7 +69,7 @@ TEST_CASE("a step in free space conserves linear momentum while no node is light
   CHECK((momentum<3>(run.world()) - before).norm() < 1e-11);  // as in the plane
 }
 
-TEST_CASE("light nodes take little linear momentum away", "[property]") {
+TEST_CASE("ballistic nodes take little linear momentum away", "[property]") {
   SceneRun run(any_method(flying_2d()));
   CAPTURE(run.scene().transfer, run.scene().integrator);
   run.start();
@@ -80,7 +80,7 @@ TEST_CASE("light nodes take little linear momentum away", "[property]") {
     light = light || has_light_nodes(run.world());
   }
   CHECK(light);
-  // A light node leaves out its share of the pressure gradient: at most 7e-6 over these 60 steps.
+  // A ballistic node leaves out its share of the pressure gradient: at most 7e-6 over these 60 steps.
   CHECK((momentum<2>(run.world()) - before).norm() < 2e-5 * before.norm());
 }
 
