@@ -139,6 +139,24 @@ std::vector<std::string> repeated_accesses(std::span<const System> systems) {
   return lines;
 }
 
+namespace {
+
+/// `system "predict" reads newmark, a constant that nothing sets`.
+std::vector<std::string> unset_constants(std::span<const System> systems, const World& world) {
+  std::vector<std::string> lines;
+  for (const System& system : systems) {
+    for (const Access& access : system.access) {
+      const bool is_constant = access.info && access.info->lifetime == Lifetime::constant && !access.optional;
+      if (!is_constant || world.components().contains(access.component)) continue;
+      lines.push_back("system \"" + system.name + "\" reads " + std::string(access.component) +
+                      ", a constant that nothing sets");
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
 struct Schedule::Impl {
   Impl(std::vector<System> list, World& world_of_run, Profiler* profiler_of_run, Execution execution);
 
@@ -180,7 +198,7 @@ struct Schedule::Impl {
 Schedule::Impl::Impl(std::vector<System> list, World& world_of_run, Profiler* profiler_of_run, Execution execution)
     : systems(without_absent(std::move(list))), world_(&world_of_run), profiler_(profiler_of_run) {
   std::string problems;
-  for (const auto& lines : {repeated_accesses(systems), unwritten_reads(systems)}) {
+  for (const auto& lines : {repeated_accesses(systems), unwritten_reads(systems), unset_constants(systems, *world_)}) {
     for (const std::string& line : lines) problems += (problems.empty() ? "" : "\n") + line;
   }
   if (!problems.empty()) throw ScheduleError(problems);

@@ -57,7 +57,8 @@ class Schedule {
  public:
   /// Creates all components that the systems name.
   /// \param profiler  gets one row per system; may be null; must outlive the schedule.
-  /// \throws ScheduleError with every line of repeated_accesses() and unwritten_reads().
+  /// \throws ScheduleError with every line of repeated_accesses() and unwritten_reads(), and one for every read of a
+  ///   constant that the world does not have: nothing has set it.
   Schedule(std::vector<System> systems, World& world, Profiler* profiler = nullptr,
            Execution execution = Execution::graph);
   ~Schedule();

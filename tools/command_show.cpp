@@ -6,6 +6,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <iostream>
+#include <set>
 
 namespace minamo {
 
@@ -27,11 +28,30 @@ int check_scenes(const std::vector<std::string>& scenes, const SystemRegistry& r
   return valid ? exit_done : exit_bad_input;
 }
 
+namespace {
+
+/// What the step of the scene does: state that may be there and that no system of the step writes is not.
+std::vector<System> shown_step(const Scene& scene) {
+  std::vector<System> step = without_absent(make_pipeline(scene).step);
+  std::set<std::string_view> written;
+  for (const System& system : step) {
+    for (const Access& access : system.access) {
+      if (access.mode == Mode::write || access.mode == Mode::update) written.insert(access.component);
+    }
+  }
+  for (System& system : step) {
+    std::erase_if(system.access,
+                  [&](const Access& access) { return access.optional && !written.contains(access.component); });
+  }
+  return step;
+}
+
+}  // namespace
+
 int show_graph(const std::string& scene, const std::string& format, const SystemRegistry& registry) {
   const SceneFile file = load_scene(scene, {}, registry);
-  const Pipeline pipeline = make_pipeline(file.scene);
   const std::string title = file.scene.title.empty() ? scene : file.scene.title;
-  const std::vector<System> step = without_absent(pipeline.step);
+  const std::vector<System> step = shown_step(file.scene);
   std::cout << (format == "dot" ? to_dot(step, title) : to_json(step, title)) << '\n';
   return exit_done;
 }
@@ -96,7 +116,7 @@ void list_schemes(const SystemRegistry& registry, std::string_view of_part) {
   for (const Part& part : registry.in_order<Part>()) {
     if (!part.schemes || (!of_part.empty() && part.name != of_part)) continue;
     for (const auto& [name, doc] : part.schemes(registry)) {
-      std::cout << fmt::format("{:14} {:10} {}\n", part.name, name, doc);
+      std::cout << fmt::format("{:10} {} ({})\n", name, doc, part.name);
     }
   }
 }

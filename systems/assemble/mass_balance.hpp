@@ -15,17 +15,17 @@
 namespace minamo {
 
 /// (E21)  D_IJ = sum_p V_p S_I grad S_J.
-/// (E24), (E50)  PSPG and VMS, sum_p tau V_p grad S_I . (rho (a_p - b_p) + grad p_p): G_IJ = sum_c tau_c rho_c D^c_JI,
-/// s_I = -sum_J G_IJ . (a_J - b_J) over active J, with what is known of a_J. T. E. Tezduyar et al., CMAME 95 (1992)
-/// 221, doi:10.1016/0045-7825(92)90141-6. T_IJ is zero yet.
+/// (E24), (E50)  PSPG and VMS, sum_p tau V_p grad S_I . (rho (a_p - b_p) + grad p_p): for active J
+/// G_IJ = sum_c tau_c rho_c D^c_JI, and s_I = -sum_J G_IJ . (a_J - b_J) with what is known of a_J. T. E. Tezduyar et
+/// al., CMAME 95 (1992) 221, doi:10.1016/0045-7825(92)90141-6. T_IJ is zero yet.
 template <int Dim>
 struct AssembleDivergence {
   static constexpr std::string_view doc = "(E21) (E24) (E50) D_IJ, G_IJ, s_I, PSPG and VMS";
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments,
                   Read<cell::Density> rho_c, Read<cell::Tau> tau_c, Read<node::Row> row, Read<node::BodyForce<Dim>> b_i,
                   Read<node::PredictedAcceleration<Dim>> a_predicted, Read<node::Displacement<Dim>> u_i,
-                  Write<matrix::Divergence<Dim>> divergence, Write<matrix::Stabilization<Dim>> stabilization,
-                  Write<matrix::StabilizationSource> source) const;
+                  Read<matrix::Neighbour<Dim>> neighbour, Write<matrix::Divergence<Dim>> divergence,
+                  Write<matrix::Stabilization<Dim>> stabilization, Write<matrix::StabilizationSource> source) const;
 };
 
 /// (E21)  D_IJ = sum_p V_p S_I grad S_J.

@@ -116,7 +116,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& prob
   return seeds;
 }
 
-/// (E6)  m_p = rho (h/n)^d for n per cell and direction, V_p = m_p/rho, v_p = v(x_p), grad v_p by central differences.
+/// (E6)  V_p = (h/n)^d for n per cell and direction, m_p = rho V_p, v_p = v(x_p), grad v_p by central differences.
 template <int Dim>
 void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& seeds, World& world,
                    SeedProblems& problems) {
@@ -136,8 +136,8 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     const ParticleScene& region = scene.particles[r];
     x_p[p] = seeds.position[p];
     id[p] = static_cast<std::int64_t>(p);
-    m_p[p] = density * std::pow(grid.spacing / region.per_cell, Dim);
-    V_p[p] = m_p[p] * (1 / density);
+    V_p[p] = std::pow(grid.spacing / region.per_cell, Dim);
+    m_p[p] = density * V_p[p];
     v_p[p] = value_at<Dim>(region.velocity, x_p[p], start);
     if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], start, grid.spacing);
     const bool finite = v_p[p].allFinite() && (!with_gradient || grad_v_p[p].allFinite());

@@ -54,6 +54,7 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
       for (const std::string& system : *systems) recipe.add("solve", system);
     }
     recipe.add("solve", "unpack_solution");
+    recipe.constant(SolverTolerance{});
     if (options) options(of, recipe);
   };
 }

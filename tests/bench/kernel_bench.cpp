@@ -9,6 +9,7 @@
 #include "support/scene_run.hpp"
 #include "systems/assemble/mass_balance.hpp"
 #include "systems/assemble/material.hpp"
+#include "systems/assemble/neighbours.hpp"
 #include "systems/assemble/viscosity.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/transfer/mass.hpp"
@@ -100,6 +101,7 @@ void measure_matrices() {
   measure<Dim>(world, "moments", world.rows<Particles>(), roofline::moments<Dim>(rows),
                {make_system("moments", GatherMoments<Dim>{})});
   world.resource<Clock>().step = 1e-3;
+  kernels::run<FindNeighbours<Dim>>(world);
   kernels::run<SetMaterial<Dim>>(world);
   kernels::run<FindTau<Dim>>(world);
   measure<Dim>(world, "divergence matrix", nodes, roofline::divergence_matrix<Dim>(rows),

@@ -66,7 +66,7 @@ TEST_CASE("a step that cannot be trusted is rejected with its place and value", 
   CHECK_THROWS_WITH(accept(world), Catch::Contains(message));
 }
 
-TEST_CASE("a light node may move as far as it likes, for it moves no particle", "[property]") {
+TEST_CASE("a ballistic node may move as far as it likes, for it moves no particle", "[property]") {
   SceneRun run(coarse_dam_break());
   run.step(3);
   run.world().column<node::Mass>()[7] = 1e-12;

@@ -71,7 +71,7 @@ TEST_CASE("a step in free space conserves linear momentum while no node is light
   CHECK((momentum<3>(run.world()) - before).norm() < 4e-12);  // as in the plane; 5e-13 measured
 }
 
-TEST_CASE("light nodes take little linear momentum away", "[property]") {
+TEST_CASE("ballistic nodes take little linear momentum away", "[property]") {
   SceneRun run(any_method(flying_2d()));
   CAPTURE(run.scene().schemes);
   run.start();
@@ -82,7 +82,7 @@ TEST_CASE("light nodes take little linear momentum away", "[property]") {
     light = light || has_light_nodes(run.world());
   }
   CHECK(light);
-  // A light node leaves out its share of the pressure gradient: at most 2.0e-6 over these 60 steps.
+  // A ballistic node leaves out its share of the pressure gradient: at most 2.0e-6 over these 60 steps.
   CHECK((momentum<2>(run.world()) - before).norm() < 4e-6 * before.norm());
 }
 

@@ -58,7 +58,7 @@ Json variant(const Json& scene) {
 }
 
 template <int Dim>
-std::size_t light_nodes(World& world) {
+std::size_t ballistic_nodes(World& world) {
   std::size_t count = 0;
   const auto m_i = world.column<node::Mass>();
   const auto row = world.column<node::Row>();
@@ -92,11 +92,11 @@ constexpr double rounding_of_assembly = 3e-15;
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the scattered scene has light nodes and active nodes at walls", "[property]", ((int Dim), Dim),
-                       2, 3) {
+TEMPLATE_TEST_CASE_SIG("the scattered scene has ballistic nodes and active nodes at walls", "[property]",
+                       ((int Dim), Dim), 2, 3) {
   SceneRun run(scattered<Dim>());
   run.step();
-  CHECK(light_nodes<Dim>(run.world()) > 0);
+  CHECK(ballistic_nodes<Dim>(run.world()) > 0);
   const auto fixed = run.world().template column<node::Constraint>();
   const auto row = run.world().template column<node::Row>();
   std::size_t held = 0;
@@ -176,8 +176,8 @@ TEMPLATE_TEST_CASE_SIG("the reported residual is |b - A x| / |b| and small", "[p
   CHECK(reported < 5e-15);
 }
 
-TEMPLATE_TEST_CASE_SIG("a light node falls freely, an active one takes the solution", "[property]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("a ballistic node flies freely, an active one takes the solution", "[property]",
+                       ((int Dim), Dim), 2, 3) {
   SceneRun run(with(scattered<Dim>(), {R"(/integrator={"scheme": "midpoint"})"}));
   run.step();
   World& world = run.world();

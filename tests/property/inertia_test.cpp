@@ -194,7 +194,7 @@ TEMPLATE_TEST_CASE_SIG("the force gradient is that of force over lumped mass", "
 }
 
 TEMPLATE_TEST_CASE_SIG("the inertia correction keeps momentum", "[property]", ((int Dim), Dim), 2, 3) {
-  // A lattice has no light nodes in the plane.
+  // A lattice has no ballistic nodes in the plane.
   Json scene = lump<Dim>(false);
   scene["particles"][0].erase("arrangement");
   scene["particles"][0].erase("seed");
@@ -212,7 +212,7 @@ TEMPLATE_TEST_CASE_SIG("the inertia correction keeps momentum", "[property]", ((
     size += m_i[i] * c_i[i].norm();
   }
   REQUIRE(size > 0);
-  // Light nodes, below 1e-4 of the mean mass, have no correction; their share of the sum is left.
+  // Ballistic nodes, below 1e-4 of the mean mass, have no correction; their share of the sum is left.
   CHECK(sum.norm() < (light ? 1e-4 : 1e-14) * size);
 }
 

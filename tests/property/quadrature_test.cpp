@@ -4,6 +4,7 @@
 #include "support/scenes.hpp"
 
 #include "systems/assemble/mass_balance.hpp"
+#include "systems/assemble/neighbours.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/filled_nodes.hpp"
 
@@ -143,6 +144,7 @@ TEMPLATE_TEST_CASE_SIG("inside the liquid matrices do not depend on where the pa
     fill_lattice<Dim>(world, 0.3, 7, seed);
     run<Activate<Dim>>(world);
     run<GatherMoments<Dim>>(world);
+    run<FindNeighbours<Dim>>(world);
     for (double& rho_c : world.column<cell::Density>()) rho_c = density;
     for (double& tau_c : world.column<cell::Tau>()) tau_c = 1e-6;
     run<AssembleDivergence<Dim>>(world);

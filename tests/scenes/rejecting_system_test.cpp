@@ -41,9 +41,9 @@ std::string history_with(const std::string& after, const std::string& threads, c
 
 TEST_CASE("a step that a system rejects after the history leaves no row", "[scene]") {
   const Folder folder;
-  const std::string expected = history_with("bin", "1", folder);
+  const std::string expected = history_with("sort", "1", folder);
   CHECK(std::count(expected.begin(), expected.end(), '\n') == 2 + 12);
-  CHECK(history_with("history", "1", folder) == expected);
+  CHECK(history_with("record", "1", folder) == expected);
   CHECK(history_with("measure", "2", folder) == expected);
   CHECK(history_with("g2p", "2", folder) == expected);
 }

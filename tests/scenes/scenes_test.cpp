@@ -44,11 +44,13 @@ std::vector<std::string> not_finite(World& world) {
   return names;
 }
 
-/// Names of the components that the step of a scene names.
+/// Names of the components that the step of a scene names; what systems read if it is there does not count.
 std::vector<std::string> named(const Json& scene) {
   std::vector<std::string> names;
   for (const System& system : make_pipeline(read(scene)).step) {
-    for (const Access& access : system.access) names.emplace_back(access.component);
+    for (const Access& access : system.access) {
+      if (!access.optional) names.emplace_back(access.component);
+    }
   }
   return names;
 }

@@ -202,7 +202,7 @@ Equations assemble(scene_run::SceneRun& run) {
       for (int d = 0; d < Dim; ++d) {
         const double D_ij = s.divergence(I, Dim * J + d);
         const double D_ji = s.divergence(J, Dim * I + d);
-        // Light nodes fall freely where no wall holds them; what they do is known.
+        // Ballistic nodes fly freely where no wall holds them; what they do is known.
         const double u_light = held(j, d) ? 0 : (b_j[d] - kin.a_predicted[j][d]) / kin.c_a;
         const double v_predicted = kin.v_predicted[j][d] + (row[j] < 0 ? kin.c_v * u_light : 0);
         for (int c = 0; c < Dim; ++c) {

@@ -39,7 +39,7 @@ TEST_CASE("a node with hardly any mass is active next to a node of a wall that h
   const auto row = rows_of(masses, world);
   CHECK(row[at(3, 1)] >= 0);   // beside the floor
   CHECK(row[at(1, 1)] >= 0);   // in a corner
-  CHECK(row[at(4, 3)] == -1);  // inside, where light nodes are at the edge of a support
+  CHECK(row[at(4, 3)] == -1);  // inside, where ballistic nodes are at the edge of a support
   CHECK(row[at(6, 3)] == -1);  // beside a wall that is dry
 }
 

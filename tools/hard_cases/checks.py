@@ -128,7 +128,7 @@ ALWAYS = [FINITE, PARTICLES, SPEED, PRESSURE]
 # Particles move with order 2 on weights of order 2: energy is kept to a per cent by waves of ten cells; a method that
 # is not stable passes any limit.
 ENERGY = Check("energy", "gained energy", worst(energy_gain), 0.01, "of the energy at the start", garbage=True)
-# Light nodes are in free flight, (E15), which loses 1e-5 of the momentum.
+# Nodes below the mass threshold are ballistic, (E15), which loses 1e-5 of the momentum.
 MOMENTUM = Check("momentum", "changed the momentum", worst(momentum_change), 1e-5, "of m U")
 # Rounding of 1e-16 of the box in some tens of steps.
 FLIGHT = Check("flight", "left the parabola", worst(flight_error), 1e-12, "of the box")
