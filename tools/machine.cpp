@@ -10,8 +10,8 @@
 
 // There in the program only if its BLAS is OpenBLAS.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
-                       const int*, const double*, const int*, const double*, double*, const int*);
+extern "C" void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*,
+                       const int*);
 
 namespace minamo {
 
@@ -23,8 +23,9 @@ bool prepare_blas() {
   munmap(probe, blas_work_space);
   const int one = 1;
   const double factor = 1;
-  double product = 0;
-  dgemm_("N", "N", &one, &one, &one, &factor, &factor, &one, &factor, &one, &factor, &product, &one);
+  double solution = 0;
+  // A product of small matrices takes no work space on some processors; a triangular solve does on all.
+  dtrsv_("L", "N", "N", &one, &factor, &one, &solution, &one);
   return true;
 }
 

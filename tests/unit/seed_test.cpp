@@ -44,7 +44,7 @@ TEST_CASE("the liquid weighs density times area", "[unit]") {
 }
 
 TEST_CASE("particles have the volume of their mass", "[unit]") {
-  SceneRun run(scene_of_file("dam_break.json"));
+  SceneRun run(scene_of_file("paper/dam_break_tpic.json"));
   const auto m_p = run.world().column<particle::Mass>();
   const auto V_p = run.world().column<particle::Volume>();
   const double h = run.world().resource<Grid<2>>().spacing;

@@ -45,6 +45,7 @@ struct Start {
 /// A run of nothing but its clock.
 struct Run {
   World world;
+  Faults& set_faults = world.resource<Faults>();  // constants are set before schedules are made
   Schedule start{{make_system<Start>("start")}, world};
   Schedule step{{make_system<Step>("step")}, world};
   Schedule frame{{make_system<Frame>("frame")}, world};
@@ -61,7 +62,7 @@ struct Run {
   }
   const Clock& clock() { return world.resource<Clock>(); }
   const StepControl& control() { return world.resource<StepControl>(); }
-  Faults& faults() { return world.resource<Faults>(); }
+  Faults& faults() { return set_faults; }
   Log& log() { return world.resource<Log>(); }
 };
 
