@@ -12,9 +12,6 @@ namespace minamo {
 
 namespace {
 
-constexpr std::size_t approximated_per_task = 32;
-constexpr std::size_t lane_count = StencilTiles<2>::width;
-
 /// A row is cut where at least so much of the volume around its node is filled. Fewer whole rows save less in the
 /// factorization than they cost in iterations.
 constexpr double full = 0.9;
@@ -125,7 +122,7 @@ auto SchurApproximation<Dim>::surface_weights(const From& from, const Tile& tile
   for (std::size_t x = 0; x < 5; ++x) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::size_t entry = Dim * (5 * line + x) + d;
-      weight[d][x] = (load(to_tile + entry * lane_count) + take(from_tile, entry)) *
+      weight[d][x] = (load(to_tile + entry * tile_width) + take(from_tile, entry)) *
                      load(per_mass + d * from.schur.tiles().lanes() + x);
     }
   }
@@ -148,7 +145,7 @@ void SchurApproximation<Dim>::add_surface(const From& from, const Tile& tile, La
       std::array<Lanes, 2 * Reach + 1> sum_of_line;
       sum_of_line.fill(Lanes::Zero());
       for (std::size_t d = 0; d < Dim; ++d) {
-        add_line<Reach>(weight[d], of_line + (5 * on * Dim + d) * lane_count, Dim * lane_count, gradient.to_next(),
+        add_line<Reach>(weight[d], of_line + (5 * on * Dim + d) * tile_width, Dim * tile_width, gradient.to_next(),
                         sum_of_line);
       }
       for (std::size_t x = 0; x < sum_of_line.size(); ++x) sum[*begin + x] += sum_of_line[x];
@@ -174,16 +171,16 @@ void SchurApproximation<Dim>::fill_tile(const From& from, const Tile& tile) {
     sum.fill(Lanes::Zero());
     add_surface<2>(from, tile, sum.data());
   }
-  const double* pressure = from.schur.divergence_entries().at(tile.lane) + Dim * lane_count;
+  const double* pressure = from.schur.divergence_entries().at(tile.lane) + Dim * tile_width;
   double* entry = entries_.at(tile.lane);
   for (std::size_t k = 0; k < sum.size(); ++k) {
-    store(sum[k] + from.of_laplacian * load(pressure + (Dim + 1) * k * lane_count), entry + k * lane_count);
+    store(sum[k] + from.of_laplacian * load(pressure + (Dim + 1) * k * tile_width), entry + k * tile_width);
   }
   for (std::size_t i = 0; i < StencilTiles<Dim>::width; ++i) {
     if (tile.row[i] < 0) continue;
     const std::size_t r = of_row(tile.row[i]);
-    entry[own * lane_count + i] += (1 - from.of_laplacian) * t.pressure_per_mass * t.m_i[t.node[r]];
-    scale_[r] = 1 / std::sqrt(std::max(entry[own * lane_count + i], pressure[(Dim + 1) * own * lane_count + i]));
+    entry[own * tile_width + i] += (1 - from.of_laplacian) * t.pressure_per_mass * t.m_i[t.node[r]];
+    scale_[r] = 1 / std::sqrt(std::max(entry[own * tile_width + i], pressure[(Dim + 1) * own * tile_width + i]));
   }
 }
 
@@ -260,7 +257,7 @@ void SchurApproximation<Dim>::assemble(const Operators<Dim>& t, const Grid<Dim>&
   fill_rows(from, fluid);
   const auto& tiles = schur.tiles().tiles();
   for_each_row(
-      tiles.size(), [&](std::size_t b) { fill_tile(from, tiles[b]); }, approximated_per_task);
+      tiles.size(), [&](std::size_t b) { fill_tile(from, tiles[b]); }, tiles_per_task);
 }
 
 template class SchurApproximation<2>;

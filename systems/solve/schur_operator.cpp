@@ -9,10 +9,6 @@ namespace minamo {
 
 namespace {
 
-constexpr std::size_t tiles_per_task = 32;
-
-constexpr std::size_t tile_width = StencilTiles<2>::width;
-
 /// Rows of liquid that fills its cells are sums of the same numbers, in orders of their own: what they may differ by,
 /// of the largest entry of their kind.
 constexpr double roundings = 1e-14;

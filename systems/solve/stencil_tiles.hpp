@@ -166,4 +166,9 @@ inline std::array<Lanes, 5> around(const double* entry, std::size_t to_next) {
           as_vector<Lanes>(__builtin_shufflevector(own, behind, 2, 3, 4, 5))};
 }
 
+/// Nodes of a tile, in the plane and in space.
+inline constexpr std::size_t tile_width = StencilTiles<2>::width;
+/// Tiles that a task of a parallel loop takes.
+inline constexpr std::size_t tiles_per_task = 32;
+
 }  // namespace minamo
