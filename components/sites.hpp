@@ -22,14 +22,20 @@ class SiteRows {
     Address operator+(const Address& other) const { return {page + other.page, within + other.within}; }
   };
 
-  /// No site has a row.
-  void start(const Grid<Dim>& grid) {
+  /// No site has a row. \param sites  how many there are along every axis
+  void start(const Index<Dim>& sites) {
     std::size_t count = 1;
-    for (int d = 0; d < Dim; ++d) {
-      pages_before_[static_cast<std::size_t>(d)] = count;
-      count *= static_cast<std::size_t>((grid.nodes(d) - 1) / width + 1);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      pages_before_[d] = count;
+      count *= static_cast<std::size_t>((sites[d] - 1) / width + 1);
     }
     numbers_.start(count);
+  }
+  /// The sites are the nodes of a grid.
+  void start(const Grid<Dim>& grid) {
+    Index<Dim> nodes;
+    for (int d = 0; d < Dim; ++d) nodes[static_cast<std::size_t>(d)] = grid.nodes(d);
+    start(nodes);
   }
   /// Gives a site a row, by the next number_rows().
   void add(const Index<Dim>& site) {

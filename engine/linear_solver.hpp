@@ -23,6 +23,7 @@ concept SparseBackend = requires(Backend backend, const Matrix& matrix, const Ei
 /// How the linear solve of the last step went.
 struct SolveReport {
   std::int64_t unknowns = 0;
+  std::int64_t active = 0;      ///< places with a pressure among them
   std::int64_t iterations = 0;  ///< 0 for a direct solver
   double residual = 0;          ///< |b - A x| / |b|, euclidean [1]
   static constexpr ComponentInfo info{"solve.report", "|r|/|b|", "1", Lifetime::state};

@@ -6,6 +6,7 @@
 
 namespace minamo {
 
+void add_discretization(SystemRegistry& registry);  // conforming/
 void add_ode(SystemRegistry& registry);            // time/
 void add_grid(SystemRegistry& registry);           // grid/
 void add_walls(SystemRegistry& registry);          // grid/

@@ -5,6 +5,7 @@
 namespace minamo {
 
 void register_parts(SystemRegistry& registry) {
+  add_discretization(registry);
   add_ode(registry);
   add_grid(registry);
   add_walls(registry);

@@ -2,7 +2,7 @@
 #include "systems/assemble/material.hpp"
 #include "systems/assemble/right_hand_side.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 
 namespace minamo {
 
@@ -16,9 +16,11 @@ Contribution read_fluid(Input& input, Scene& scene) {
         in.number("viscosity", {.unit = "Pa s", .doc = "dynamic viscosity; 0 is inviscid", .at_least = 0});
   });
   scene.facts.set(fluid);
-  return [fluid](const Scene&, Recipe& recipe) {
-    recipe.add("material", "set_material");
-    recipe.add("right_hand_side", "right_hand_side");
+  return [fluid](const Scene& of, Recipe& recipe) {
+    add_systems(of, recipe, "p2g", {{}, {"p2g_multipliers"}});
+    add_systems(of, recipe, "material", {{"set_material"}, {"find_fill"}});
+    add_systems(of, recipe, "assemble", {{}, {"assemble_multipliers"}});
+    add_systems(of, recipe, "right_hand_side", {{"right_hand_side"}, {"face_source"}});
     recipe.constant(fluid);
   };
 }

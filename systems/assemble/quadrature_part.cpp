@@ -1,6 +1,7 @@
 #include "systems/assemble/moments.hpp"
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/parts.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/lattice.hpp"
 #include "systems/setup/schemes.hpp"
 
@@ -9,13 +10,13 @@ namespace minamo {
 namespace {
 
 Contribution read_mixed(Input&, Scene& scene) {
-  scene.facts.set(LatticePlaces::nearer_to_walls);
-  return adds("assemble", {"find_filled_nodes", "moments"});
+  scene.facts.set(is_conforming(scene) ? LatticePlaces::middle_of_parts : LatticePlaces::nearer_to_walls);
+  return adds_systems("assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
 }
 
 Contribution read_particles(Input&, Scene& scene) {
   scene.facts.set(LatticePlaces::middle_of_parts);
-  return adds("assemble", {"moments"});
+  return adds_systems("assemble", {{"moments"}, {"find_mobility"}});
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "systems/assemble/viscosity.hpp"
 #include "systems/assemble/vms.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 
 namespace minamo {
@@ -61,6 +61,11 @@ Contribution read_oss(Input&, Scene&) {
   };
 }
 
+/// Only equal order needs one.
+Contribution read_stabilization(const Stabilization& stabilization, Input& input, Scene& scene) {
+  return is_conforming(scene) ? Contribution{} : stabilization.read(input, scene);
+}
+
 }  // namespace
 
 void add_stabilization(SystemRegistry& registry) {
@@ -75,7 +80,7 @@ void add_stabilization(SystemRegistry& registry) {
   registry.add(Stabilization{{"oss", "orthogonal subscales: what the projected pressure gradient leaves", read_oss}});
   registry.add(Stabilization{{"pspg", "residual of the momentum balance, one parameter tau", read_pspg}});
   registry.add(Stabilization{{"vms", "variational multiscale, parameters per cell, with a bulk viscosity", read_vms}});
-  registry.add(choice<Stabilization>("stabilization", "pressure stabilization", "pspg"));
+  registry.add(choice<Stabilization>("stabilization", "pressure stabilization", "pspg", read_stabilization));
 }
 
 }  // namespace minamo

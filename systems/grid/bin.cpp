@@ -1,6 +1,6 @@
 #include "systems/grid/bin.hpp"
 
-#include "systems/grid/support.hpp"
+#include "systems/conforming/support.hpp"
 
 #include <algorithm>
 
@@ -8,14 +8,15 @@ namespace minamo {
 
 namespace {
 
-/// The blocks of a grid, x fastest. The last block of an axis takes what is left, so that no block is narrow.
+/// The blocks of cells of a grid, x fastest. The last block of an axis takes what is left, so that no block is narrow.
 template <int Dim>
 class Blocks {
  public:
   static constexpr int width = OccupiedCells<Dim>::block_width;
 
-  explicit Blocks(const Grid<Dim>& grid) : grid_(grid) {
-    for (int d = 0; d < Dim; ++d) blocks_[static_cast<std::size_t>(d)] = std::max(1, grid.nodes(d) / width);
+  /// \param cells  along every axis
+  Blocks(const Grid<Dim>& grid, const Index<Dim>& cells) : grid_(grid), cells_(cells) {
+    for (std::size_t d = 0; d < Dim; ++d) blocks_[d] = std::max(1, cells[d] / width);
   }
 
   std::size_t count() const {
@@ -73,7 +74,7 @@ class Blocks {
   int along(std::size_t axis, const Index<Dim>& cell) const { return std::min(cell[axis] / width, blocks_[axis] - 1); }
   /// Cells of the blocks at place b of an axis.
   int extent(std::size_t axis, int b) const {
-    return b + 1 < blocks_[axis] ? width : grid_.nodes(static_cast<int>(axis)) - b * width;
+    return b + 1 < blocks_[axis] ? width : cells_[axis] - b * width;
   }
   Index<Dim> place(std::uint32_t block) const {
     Index<Dim> place;
@@ -85,17 +86,18 @@ class Blocks {
   }
 
   const Grid<Dim>& grid_;
+  Index<Dim> cells_;
   Index<Dim> blocks_;
 };
 
 /// Numbers the cells of the blocks with particles, block by block, and tells every particle that of its cell.
 /// \return how many cells these are
-template <int Dim>
-std::size_t number_cells(const Grid<Dim>& grid, const Blocks<Dim>& blocks, std::span<const Vec<Dim>> y_p,
+template <int Dim, class CellOf>
+std::size_t number_cells(const Blocks<Dim>& blocks, std::span<const Vec<Dim>> y_p, const CellOf& cell_of,
                          BinBuffer& buffer) {
   auto& number = buffer.number;
   number.resize(y_p.size());
-  for_each_row(y_p.size(), [&](std::size_t p) { number[p] = blocks.block_of(dual_cell<Dim>(grid, y_p[p])); });
+  for_each_row(y_p.size(), [&](std::size_t p) { number[p] = blocks.block_of(cell_of(y_p[p])); });
   buffer.blocks.start(blocks.count());
   for (const std::uint32_t block : number) buffer.blocks.number(block);
   buffer.blocks.sort();
@@ -106,7 +108,7 @@ std::size_t number_cells(const Grid<Dim>& grid, const Blocks<Dim>& blocks, std::
     cells += blocks.cells_in(block);
   }
   for_each_row(y_p.size(), [&](std::size_t p) {
-    number[p] = buffer.first_of_block[*buffer.blocks.find(number[p])] + blocks.within(dual_cell<Dim>(grid, y_p[p]));
+    number[p] = buffer.first_of_block[*buffer.blocks.find(number[p])] + blocks.within(cell_of(y_p[p]));
   });
   return cells;
 }
@@ -127,29 +129,50 @@ void list_occupied(const Blocks<Dim>& blocks, const BinBuffer& buffer, OccupiedC
   }
 }
 
-}  // namespace
-
-template <int Dim>
-void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::QuadraturePosition<Dim>> y_p,
-                          Resize<Particles> particles, Write<OccupiedCells<Dim>> cells, Resize<Cells> rows,
-                          Update<BinBuffer> buffer) const {
-  const Blocks<Dim> blocks(*grid);
-  const std::size_t cell_count = number_cells<Dim>(*grid, blocks, y_p.span(), *buffer);
-  auto& [used, first_of_block, number, first, place] = *buffer;
+/// Sorts particles by the cell of y_p, cell_of(y_p).
+template <int Dim, class CellOf>
+void sort_particles(const Grid<Dim>& grid, const Index<Dim>& cell_counts, const CellOf& cell_of,
+                    std::span<const Vec<Dim>> y_p, Resize<Particles> particles, OccupiedCells<Dim>& cells,
+                    Resize<Cells> rows, BinBuffer& buffer) {
+  const Blocks<Dim> blocks(grid, cell_counts);
+  const std::size_t cell_count = number_cells<Dim>(blocks, y_p, cell_of, buffer);
+  auto& [used, first_of_block, number, first, place] = buffer;
 
   // Counting sort: first[c] becomes the place of the first particle of cell c.
   first.assign(cell_count + 1, 0);
   for (const std::uint32_t c : number) ++first[c + 1];
   for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
-  list_occupied<Dim>(blocks, *buffer, *cells);
-  rows.resize(cells->cells.size());
+  list_occupied<Dim>(blocks, buffer, cells);
+  rows.resize(cells.cells.size());
   if (std::is_sorted(number.begin(), number.end())) return;
   place.resize(number.size());
   for (std::size_t p = 0; p < number.size(); ++p) place[first[number[p]]++] = static_cast<std::uint32_t>(p);
   particles.reorder(place);
 }
 
+}  // namespace
+
+template <int Dim>
+void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::QuadraturePosition<Dim>> y_p,
+                          Resize<Particles> particles, Write<OccupiedCells<Dim>> cells, Resize<Cells> rows,
+                          Update<BinBuffer> buffer) const {
+  Index<Dim> counts;
+  for (int d = 0; d < Dim; ++d) counts[static_cast<std::size_t>(d)] = grid->nodes(d);
+  const auto cell_of = [&](const Vec<Dim>& y) { return dual_cell<Dim>(*grid, y); };
+  sort_particles<Dim>(*grid, counts, cell_of, y_p.span(), particles, *cells, rows, *buffer);
+}
+
+template <int Dim>
+void BinByCell<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
+                                Write<OccupiedCells<Dim>> cells, Resize<Cells> rows, Update<BinBuffer> buffer) const {
+  const auto cell_of = [&](const Vec<Dim>& y) { return cell_around<Dim>(*grid, *splines, y); };
+  sort_particles<Dim>(*grid, grid->cells, cell_of, y_p.span(), particles, *cells, rows, *buffer);
+}
+
 template struct Bin<2>;
 template struct Bin<3>;
+template struct BinByCell<2>;
+template struct BinByCell<3>;
 
 }  // namespace minamo

@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// Sorts particles by dual cell.
+/// Sorts particles by the cell that they are in.
 
 #include "components/cells.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "engine/system.hpp"
+#include "systems/conforming/splines.hpp"
 
 namespace minamo {
 
@@ -15,6 +16,15 @@ struct Bin {
   static constexpr std::string_view doc = "sort particles by dual cell, colour the blocks of cells";
   void operator()(Read<Grid<Dim>> grid, Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
                   Write<OccupiedCells<Dim>> cells, Resize<Cells> rows, Update<BinBuffer> buffer) const;
+};
+
+/// The same by the cell of y_p, for the conforming discretization.
+template <int Dim>
+struct BinByCell {
+  static constexpr std::string_view doc = "sort particles by cell, colour the blocks of cells";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Resize<Particles> particles, Write<OccupiedCells<Dim>> cells, Resize<Cells> rows,
+                  Update<BinBuffer> buffer) const;
 };
 
 }  // namespace minamo

@@ -5,7 +5,7 @@
 #include "systems/grid/capacity.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/scene_checks.hpp"
 
 namespace minamo {
@@ -43,12 +43,13 @@ Contribution read_grid(Input& input, Scene& scene) {
   input.object("grid", "the box and its cells", Input::Presence::required,
                [&](Input& in) { read_box(in, dimension, scene.grid); });
   return [](const Scene& of, Recipe& recipe) {
-    recipe.add("sort", "bin");
-    recipe.add("sort", "number_nodes");
-    recipe.add("sort", "find_capacity");
-    recipe.add("boundaries", "activate");
-    recipe.add("boundaries", "find_neighbours");
-    with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_grid<dim()>(of.grid)); });
+    add_systems(of, recipe, "sort", {{"bin", "number_nodes", "find_capacity"}, {"bin_by_cell", "number_sites"}});
+    add_systems(of, recipe, "boundaries", {{"activate", "find_neighbours"}, {}});
+    with_dimension(of.dimension, [&](auto dim) {
+      const auto grid = make_grid<dim()>(of.grid);
+      recipe.constant(grid);
+      if (is_conforming(of)) recipe.constant(make_splines(grid, of.facts.get<Discretization>().degree));
+    });
   };
 }
 

@@ -15,6 +15,7 @@ double ramp(double from, double to, double x) { return std::clamp((x - from) / (
 }  // namespace
 
 double liquid_indicator(double fill_fraction) { return ramp(spray, liquid_from, fill_fraction); }
+double bulk_indicator(double fill_fraction) { return ramp(liquid_from, bulk_from, fill_fraction); }
 
 template <int Dim>
 void FindLiquidCells<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
@@ -30,7 +31,7 @@ void FindLiquidCells<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
     }
     const double fill_fraction = mass / (fluid->density * volume);
     w_c[c] = liquid_indicator(fill_fraction);
-    b_c[c] = ramp(liquid_from, bulk_from, fill_fraction);
+    b_c[c] = bulk_indicator(fill_fraction);
   });
 }
 

@@ -12,6 +12,8 @@ namespace minamo {
 
 /// w_c of (E61) from f_c.
 double liquid_indicator(double fill_fraction);
+/// b_c of (E61) from f_c.
+double bulk_indicator(double fill_fraction);
 
 /// (E61)  w_c = min(1, max(0, 5 f_c - 1.5)), f_c = sum_J m_J / (rho sum_J V_J) over the nodes of a dual cell, V_J
 /// (E39). A cell full of particles that is alone has f_c = 0.1 to 0.24, one at a corner of a body 0.44, one in a film

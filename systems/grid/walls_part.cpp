@@ -1,7 +1,7 @@
 #include "components/grid.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -118,7 +118,7 @@ Contribution read_walls(Input& input, Scene& scene) {
   const Sides sides = read_sides(input, scene.grid.cells, conditions(registry_of(scene)));
   for (std::size_t d = 0; d < sides.size(); ++d) scene.grid.periodic[d] = sides[d][0] == periodic;
   return [sides](const Scene& of, Recipe& recipe) {
-    recipe.add("boundaries", "apply_wall_condition");
+    add_systems(of, recipe, "boundaries", {{"apply_wall_condition"}, {"hold_faces"}});
     with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_walls<dim()>(sides, recipe.registry())); });
   };
 }

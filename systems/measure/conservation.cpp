@@ -1,6 +1,7 @@
 #include "systems/measure/conservation.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/conforming/support.hpp"
 
 #include <Eigen/Geometry>
 
@@ -43,6 +44,18 @@ Vec<Dim> support_spread(const Grid<Dim>& grid, const Vec<Dim>& x) {
     const double to_wall = std::max(0.0, std::min(x[d] - grid.low[d], grid.high[d] - x[d]));
     const bool at_wall = !grid.periodic[static_cast<std::size_t>(d)] && to_wall < 0.5 * grid.spacing;
     spread[d] = at_wall ? to_wall * (grid.spacing - to_wall) : 0.25 * grid.spacing * grid.spacing;
+  }
+  return spread;
+}
+
+/// The same of the faces of a direction, along the other axes. [m^2]
+template <int Dim>
+Vec<Dim> face_spread(const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) {
+  Vec<Dim> spread;
+  for (int d = 0; d < Dim; ++d) {
+    const SplineAxis& axis = splines.axis[static_cast<std::size_t>(d)];
+    const AxisPlace at = axis_place(axis, (x[d] - grid.low[d]) / grid.spacing);
+    spread[d] = grid.spacing * grid.spacing * spread_across(axis.of_cell(at.cell), splines.degree, at.xi);
   }
   return spread;
 }
@@ -98,17 +111,21 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
 }
 
 template <int Dim>
-void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Optional<Read<Splines<Dim>>> splines,
+                                      Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
                                       Read<particle::Velocity<Dim>> v_p,
                                       Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                       Write<measure::Momentum<Dim>> momentum) const {
   const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span());
   const auto gradient = grad_v_p.span();
+  const auto spread_at = [&](const Vec<Dim>& x) {
+    return splines ? face_spread<Dim>(*grid, *splines, x) : support_spread<Dim>(*grid, x);
+  };
   *momentum = reduce_rows(
       m_p.size(), measure::Momentum<Dim>{},
       [&](std::size_t p) {
         Rotation<Dim> spin = cross<Dim>(x_p[p] - centre, v_p[p]);
-        if (!gradient.empty()) spin += affine_spin<Dim>(support_spread<Dim>(*grid, x_p[p]), gradient[p]);
+        if (!gradient.empty()) spin += affine_spin<Dim>(spread_at(x_p[p]), gradient[p]);
         return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * spin};
       },
       add<Dim>);

@@ -7,6 +7,7 @@
 #include "components/measure.hpp"
 #include "components/particle.hpp"
 #include "engine/system.hpp"
+#include "systems/conforming/splines.hpp"
 
 #include <span>
 
@@ -30,8 +31,9 @@ struct MeasureEnergy {
 template <int Dim>
 struct MeasureMomentum {
   static constexpr std::string_view doc = "(E29) (E30) momentum and angular momentum";
-  void operator()(Read<Grid<Dim>> grid, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+  void operator()(Read<Grid<Dim>> grid, Optional<Read<Splines<Dim>>> splines, Read<particle::Mass> m_p,
+                  Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                   Write<measure::Momentum<Dim>> momentum) const;
 };
 

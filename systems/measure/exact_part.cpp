@@ -4,6 +4,7 @@
 #include "systems/measure/error.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/scene_checks.hpp"
 #include "systems/setup/seed_text.hpp"
 
@@ -69,10 +70,10 @@ Contribution read_exact(Input& input, Scene& scene) {
   input.object("exact", "the exact solution, to measure errors", Input::Presence::only_if_present,
                [&](Input& in) { exact = read_fields(in, scene); });
   scene.facts.set(exact);
-  return [exact](const Scene&, Recipe& recipe) {
+  return [exact](const Scene& here, Recipe& recipe) {
     if (!exact.velocity.empty()) recipe.add("measure", "measure_error_velocity");
     if (exact.pressure) {
-      recipe.add("measure", "sample_pressure");
+      add_systems(here, recipe, "measure", {{"sample_pressure"}, {"recover_pressure"}});
       recipe.add("measure", "measure_error_pressure");
     }
     recipe.seed([exact](const Scene& of, World& world, SeedProblems& problems) {

@@ -57,7 +57,7 @@ template <int Dim>
 void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> energy,
                                    Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
                                    Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap,
-                                   Read<matrix::Node> active, Read<SolveReport> solve, Read<measure::Columns> further,
+                                   Read<SolveReport> solve, Read<measure::Columns> further,
                                    Update<RunTotals> totals, Update<HistoryFile> history) const {
   // The row of the start has no step behind it.
   const bool is_start = totals->rows == 0;
@@ -68,7 +68,7 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   if (energy->potential) watch(is_start, *clock, energy->kinetic, *energy->potential, totals->energy);
   totals->overlap = overlap->value;
   totals->overlap_max = std::max(totals->overlap_max, overlap->value);
-  totals->active_nodes_max = std::max(totals->active_nodes_max, static_cast<std::int64_t>(active.size()));
+  totals->active_nodes_max = std::max(totals->active_nodes_max, solve->active);
   totals->unknowns_max = std::max(totals->unknowns_max, solve->unknowns);
   keep_measured(*further, "error_velocity", totals->error_velocity);
   keep_measured(*further, "error_pressure", totals->error_pressure);
@@ -83,7 +83,7 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   if (energy->potential) fmt::format_to(out, "{}", *energy->potential);
   for (int d = 0; d < Dim; ++d) fmt::format_to(out, ",{}", momentum->linear[d]);
   for (int d = 0; d < rotations<Dim>; ++d) fmt::format_to(out, ",{}", momentum->angular[d]);
-  fmt::format_to(out, ",{},{},{},{},{},{}", speed->value, divergence->value, overlap->value, active.size(),
+  fmt::format_to(out, ",{},{},{},{},{},{}", speed->value, divergence->value, overlap->value, solve->active,
                  solve->iterations, solve->residual);
   for (const auto& column : further->columns) {
     if (std::isnan(column.value)) {

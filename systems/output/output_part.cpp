@@ -2,7 +2,7 @@
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 
 namespace minamo {
 
@@ -26,10 +26,11 @@ OutputScene read_times(Input& input, double end) {
 Contribution read_output(Input& input, Scene& scene) {
   input.object("output", "what is written when", Input::Presence::optional,
                [&](Input& in) { scene.output = read_times(in, scene.time.end); });
-  return [](const Scene&, Recipe& recipe) {
-    recipe.add("record", "accept_step", When::step);
+  return [](const Scene& of, Recipe& recipe) {
+    add_systems(of, recipe, "record", {{"accept_step"}, {}}, When::step);
     recipe.add("record", "write_history");
-    for (const char* system : {"sample_pressure", "write_frame", "write_xdmf"}) recipe.add_output(system);
+    recipe.add_output(is_conforming(of) ? "recover_pressure" : "sample_pressure");
+    for (const char* system : {"write_frame", "write_xdmf"}) recipe.add_output(system);
   };
 }
 

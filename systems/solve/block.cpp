@@ -258,6 +258,7 @@ void SolveBlock<Dim>::operator()(
     take_displacement<Dim>(work->displacement, u.span());
     std::copy(work->pressure.begin(), work->pressure.end(), p.begin());
     *report = {.unknowns = static_cast<std::int64_t>((Dim + 1) * g.size()),
+               .active = static_cast<std::int64_t>(g.size()),
                .iterations = done.iterations,
                .residual = done.residual};
     return;
@@ -269,6 +270,7 @@ void SolveBlock<Dim>::operator()(
   pack<Dim>(f.span(), g.span(), fallback->packed.b);
   fallback->factors.solve(fallback->packed.b, fallback->packed.x);
   *report = fallback->factors.report(fallback->packed.b, fallback->packed.x);
+  report->active = static_cast<std::int64_t>(g.size());
   report->iterations = done.iterations;
   unpack<Dim>(fallback->packed.x, u.span(), p.span());
 }

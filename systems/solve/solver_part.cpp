@@ -1,7 +1,7 @@
 #include "components/step.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/memory.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/setup/time_plan.hpp"
 #include "systems/solve/block.hpp"
@@ -50,10 +50,15 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
   scene.facts.set(solver);
   const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
   return [solver, options](const Scene& of, Recipe& recipe) {
-    for (const auto* systems : {&solver.prepare, &solver.solve}) {
-      for (const std::string& system : *systems) recipe.add("solve", system);
+    if (is_conforming(of)) {
+      recipe.add("solve", "solve_multipliers");
+      recipe.add("solve", "project_faces");
+    } else {
+      for (const auto* systems : {&solver.prepare, &solver.solve}) {
+        for (const std::string& system : *systems) recipe.add("solve", system);
+      }
+      recipe.add("solve", "unpack_solution");
     }
-    recipe.add("solve", "unpack_solution");
     recipe.constant(SolverTolerance{});
     if (options) options(of, recipe);
   };

@@ -113,6 +113,7 @@ void SolveUmfpack<Dim>::operator()(Read<UmfpackFactors> factors, Read<matrix::Mo
   pack<Dim>(f.span(), g.span(), packed->b);
   factors->solve(packed->b, packed->x);
   *report = factors->report(packed->b, packed->x);
+  report->active = static_cast<std::int64_t>(g.size());
   unpack<Dim>(packed->x, u.span(), p.span());
 }
 

@@ -1,5 +1,5 @@
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/seed_text.hpp"
 #include "systems/time/body_force.hpp"
 
@@ -24,14 +24,13 @@ Contribution read_body_force(Input& input, Scene& scene) {
   const BodyForce force{
       read_vector(input, "body_force", scene, {.unit = "m/s^2", .doc = "force per unit mass", .fallback = 0})};
   scene.facts.set(force);
-  return [force](const Scene&, Recipe& recipe) {
+  return [force](const Scene& here, Recipe& recipe) {
     if (force.is_uniform()) {
-      recipe.add("forces", "uniform_body_force");
+      add_systems(here, recipe, "forces", {{"uniform_body_force"}, {"uniform_face_force"}});
     } else {
-      recipe.add("forces", "sample_body_force");
-      recipe.add("forces", "p2g_body_force");
+      add_systems(here, recipe, "forces", {{"sample_body_force", "p2g_body_force"}, {"sample_body_force", "p2g_face_force"}});
     }
-    recipe.add("ballistic", "move_ballistic_nodes");
+    add_systems(here, recipe, "ballistic", {{"move_ballistic_nodes"}, {}});
     recipe.constant(force);
     recipe.seed([force](const Scene& of, World& world, SeedProblems& problems) {
       with_dimension(of.dimension, [&](auto dim) { check<dim()>(force, of, world, problems); });

@@ -1,6 +1,6 @@
 #include "systems/grid/walls.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/time/damp_divergence.hpp"
 #include "systems/time/midpoint.hpp"
@@ -12,14 +12,16 @@ namespace minamo {
 
 namespace {
 
+const SystemsOf standing_prediction{{"predict_backward_euler"}, {"predict_faces_backward_euler"}};
+
 Contribution read_midpoint(Input&, Scene& scene) {
   scene.facts.set(IntegratorNeeds{.configure_beside = "place_quadrature_step_ahead", .gradients_move = true});
-  return [](const Scene&, Recipe& recipe) {
+  return [](const Scene& of, Recipe& recipe) {
     recipe.add("configure", "place_quadrature_at_middle", When::step);
-    recipe.add("predict", "predict_midpoint", When::step);
-    recipe.add("predict", "predict_backward_euler", When::standing);
-    recipe.add("right_hand_side", "damp_divergence", When::step);
-    recipe.add("correct", "correct_midpoint", When::step);
+    add_systems(of, recipe, "predict", {{"predict_midpoint"}, {"predict_faces_midpoint"}}, When::step);
+    add_systems(of, recipe, "predict", standing_prediction, When::standing);
+    add_systems(of, recipe, "right_hand_side", {{"damp_divergence"}, {"damp_face_divergence"}}, When::step);
+    add_systems(of, recipe, "correct", {{"correct_midpoint"}, {"correct_faces_midpoint"}}, When::step);
   };
 }
 
@@ -34,12 +36,14 @@ Contribution read_newmark(Input& input, Scene& scene) {
     const auto& acceleration = of.facts.get<AccelerationTransfer>();
     recipe.add("configure", "place_quadrature_at_start", When::step);
     for (const System& system : acceleration.p2g) recipe.add("p2g", system, When::step);
-    recipe.add("boundaries", "apply_wall_condition_acceleration", When::step);
-    recipe.add("predict", "predict_newmark", When::step);
-    recipe.add("predict", "predict_backward_euler", When::standing);
-    recipe.add("correct", "correct_newmark", When::step);
+    add_systems(of, recipe, "boundaries", {{"apply_wall_condition_acceleration"}, {"hold_face_accelerations"}},
+                When::step);
+    add_systems(of, recipe, "predict", {{"predict_newmark"}, {"predict_faces_newmark"}}, When::step);
+    add_systems(of, recipe, "predict", standing_prediction, When::standing);
+    add_systems(of, recipe, "correct", {{"correct_newmark"}, {"correct_faces_newmark"}}, When::step);
     for (const System& system : acceleration.g2p) recipe.add("g2p", system, When::step);
-    std::vector<System> after{recipe.make("correct_backward_euler")};
+    std::vector<System> after{
+        recipe.make(is_conforming(of) ? "correct_faces_backward_euler" : "correct_backward_euler")};
     after.insert(after.end(), acceleration.g2p.begin(), acceleration.g2p.end());
     recipe.add_standing_step("place_quadrature_step_before", after);
     recipe.constant(parameters);

@@ -18,6 +18,11 @@ struct TransferScheme {
   std::vector<std::string> p2g_acceleration = {"p2g_acceleration_pic"};
   std::vector<std::string> g2p_velocity = {};
   std::vector<std::string> g2p_acceleration = {"g2p_acceleration_pic"};
+  /// The same for the conforming discretization: mass and velocity of faces, and back. Empty: not with that one.
+  std::vector<std::string> p2g_faces = {};
+  std::vector<std::string> g2p_faces = {};
+  std::vector<std::string> p2g_face_acceleration = {"p2g_face_acceleration_pic"};
+  std::vector<std::string> g2p_face_acceleration = {"g2p_face_acceleration_pic"};
   bool carries_gradient =
       false;  ///< in particle.velocity_gradient, and with p2g_acceleration_tpic that of acceleration
   bool reads_liquid_indicator = false;  ///< liquid or spray, (E61)

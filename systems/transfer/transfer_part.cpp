@@ -1,7 +1,7 @@
 #include "systems/assemble/inertia.hpp"
 #include "systems/grid/liquid_cells.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/transfer/advect.hpp"
 #include "systems/transfer/apic.hpp"
@@ -27,15 +27,29 @@ void correct_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
                            {recipe.make("correct_backward_euler_velocity"), recipe.make("g2p_force_gradient")});
 }
 
+/// The same on faces.
+void correct_face_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
+  recipe.add("material", "find_liquid_cells_by_multipliers");
+  recipe.add("assemble", "add_face_inertia");
+  recipe.add("advect", "g2p_face_force_gradient", When::step);
+  recipe.add_standing_step(integrator.configure_beside,
+                           {recipe.make("correct_faces_backward_euler"), recipe.make("g2p_face_force_gradient")});
+}
+
 Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scene) {
   const auto make = [&](const std::vector<std::string>& names) {
     std::vector<System> systems;
     for (const std::string& name : names) systems.push_back(registry_of(scene).make(name, scene.dimension, &input));
     return systems;
   };
-  const auto p2g = make(scheme.p2g_velocity);
-  const auto g2p = make(scheme.g2p_velocity);
-  scene.facts.set(AccelerationTransfer{make(scheme.p2g_acceleration), make(scheme.g2p_acceleration)});
+  const bool conforming = is_conforming(scene);
+  if (conforming && scheme.p2g_faces.empty()) {
+    input.problem("scheme", "not with the conforming discretization", "a scheme with systems for faces", shown(Json(scheme.name)));
+  }
+  const auto p2g = make(conforming ? scheme.p2g_faces : scheme.p2g_velocity);
+  const auto g2p = make(conforming ? scheme.g2p_faces : scheme.g2p_velocity);
+  scene.facts.set(AccelerationTransfer{make(conforming ? scheme.p2g_face_acceleration : scheme.p2g_acceleration),
+                                       make(conforming ? scheme.g2p_face_acceleration : scheme.g2p_acceleration)});
   scene.facts.set(scheme);
   const bool corrected =
       scheme.carries_gradient &&
@@ -43,13 +57,15 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
                    "lumped mass, with or without what it leaves out: (E53), (E62)", "corrected") == "corrected";
   return [scheme, p2g, g2p, corrected](const Scene& of, Recipe& recipe) {
     const auto& integrator = of.facts.get<IntegratorNeeds>();
-    recipe.add("p2g", "p2g_mass");
-    if (corrected || scheme.reads_liquid_indicator) recipe.add("p2g", "find_liquid_cells");
-    if (corrected && integrator.gradients_move) recipe.add("p2g", "carry_gradient_to_middle", When::step);
+    if (!is_conforming(of)) {
+      recipe.add("p2g", "p2g_mass");
+      if (corrected || scheme.reads_liquid_indicator) recipe.add("p2g", "find_liquid_cells");
+      if (corrected && integrator.gradients_move) recipe.add("p2g", "carry_gradient_to_middle", When::step);
+    }
     for (const System& system : p2g) recipe.add("p2g", system);
     for (const System& system : g2p) recipe.add("g2p", system, When::step);
-    if (corrected) correct_inertia(integrator, recipe);
-    recipe.add("advect", "advect", When::step);
+    if (corrected) is_conforming(of) ? correct_face_inertia(integrator, recipe) : correct_inertia(integrator, recipe);
+    add_systems(of, recipe, "advect", {{"advect"}, {"advect_by_faces"}}, When::step);
   };
 }
 

@@ -1,7 +1,8 @@
 #include "components/fluid.hpp"
 #include "components/step.hpp"
+#include "systems/conforming/volume.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/volume/delta.hpp"
 #include "systems/volume/limit_shift.hpp"
@@ -11,12 +12,32 @@ namespace minamo {
 
 namespace {
 
+/// The least number of particles per cell and direction of a scene's regions.
+int fewest_parts(const Scene& scene) {
+  int parts = scene.particles.front().per_cell;
+  for (const ParticleScene& region : scene.particles) parts = std::min(parts, region.per_cell);
+  return parts;
+}
+
+void project_faces(const Scene& scene, Recipe& recipe) {
+  recipe.add("configure", "store_kinetic_energy", When::step);
+  recipe.add("right_hand_side", "face_volume_source", When::step);
+  for (const char* system : {"fill_parts", "stir_particles", "gather_face_shift"}) {
+    recipe.add("volume", system, When::step);
+  }
+  if (!scene.facts.get<BodyForce>().is_zero()) recipe.add("volume", "limit_particle_shift", When::step);
+  recipe.add("volume", "apply_particle_shift", When::step);
+  recipe.constant(StirGrid{fewest_parts(scene)});
+}
+
 Contribution read_projection(Input& input, Scene&) {
   const VolumeRate rate{input.number("rate", {.doc = "share of the excess that is corrected in a step",
                                               .fallback = VolumeRate{}.rate,
                                               .at_most = 1,
                                               .above = 0})};
   return [rate](const Scene& scene, Recipe& recipe) {
+    recipe.constant(rate);
+    if (is_conforming(scene)) return project_faces(scene, recipe);
     // Without a body force nothing is lifted.
     const bool limited = !scene.facts.get<BodyForce>().is_zero();
     if (limited) recipe.add("configure", "store_kinetic_energy", When::step);
@@ -29,11 +50,13 @@ Contribution read_projection(Input& input, Scene&) {
     recipe.add("volume", "unpack_shift", When::step);
     if (limited) recipe.add("volume", "limit_shift", When::step);
     recipe.add("volume", "shift_particles", When::step);
-    recipe.constant(rate);
   };
 }
 
-Contribution read_delta(Input&, Scene&) {
+Contribution read_delta(Input& input, Scene& scene) {
+  if (is_conforming(scene)) {
+    input.problem("scheme", "not with the conforming discretization", R"(one of ["none", "projection"])", R"("delta")");
+  }
   return [](const Scene&, Recipe& recipe) {
     recipe.add("volume", "gather_node_volume", When::step);
     recipe.add("volume", "find_advected_capacity", When::step);

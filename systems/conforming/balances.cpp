@@ -1,0 +1,325 @@
+#include "systems/conforming/balances.hpp"
+
+#include "engine/step_control.hpp"
+#include "systems/conforming/gather.hpp"
+#include "systems/conforming/incidence.hpp"
+#include "systems/conforming/scatter.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace minamo {
+
+namespace {
+
+/// kappa of (E63).
+constexpr double damped_share = 0.5;
+
+/// Sets to zero what walls hold.
+template <int Dim>
+void hold(std::uint8_t held, Vec<Dim>& q) {
+  for (int d = 0; d < Dim; ++d) {
+    if ((held & (1U << static_cast<unsigned>(d))) != 0) q[d] = 0;
+  }
+}
+
+template <int Dim>
+void predict_from_velocity(std::span<const Vec<Dim>> v_f, std::span<Vec<Dim>> predictor) {
+  for_each_row(v_f.size(), [&](std::size_t i) { predictor[i] = v_f[i]; });
+}
+
+}  // namespace
+
+template <int Dim>
+void HoldFaces<Dim>::operator()(Read<face::Held> held, Update<face::Velocity<Dim>> v_f) const {
+  for_each_row(v_f.size(), [&](std::size_t i) { hold<Dim>(held[i], v_f[i]); });
+}
+
+template <int Dim>
+void HoldFaceAccelerations<Dim>::operator()(Read<face::Held> held, Update<face::Acceleration<Dim>> a_f) const {
+  for_each_row(a_f.size(), [&](std::size_t i) { hold<Dim>(held[i], a_f[i]); });
+}
+
+template <int Dim>
+void PredictFacesMidpoint<Dim>::operator()(Read<Clock> clock, Read<face::Velocity<Dim>> v_f, Write<Rates> rates,
+                                           Write<face::Predictor<Dim>> predictor) const {
+  const double dt = clock->step;
+  *rates = {.velocity = 1 / dt, .acceleration = 2 / (dt * dt), .time = clock->time + dt / 2};
+  predict_from_velocity<Dim>(v_f.span(), predictor.span());
+}
+
+template <int Dim>
+void PredictFacesBackwardEuler<Dim>::operator()(Read<Clock> clock, Read<face::Velocity<Dim>> v_f, Write<Rates> rates,
+                                                Write<face::Predictor<Dim>> predictor) const {
+  const double dt = clock->step;
+  *rates = {.velocity = 1 / dt, .acceleration = 1 / (dt * dt), .time = clock->time};
+  predict_from_velocity<Dim>(v_f.span(), predictor.span());
+}
+
+template <int Dim>
+void PredictFacesNewmark<Dim>::operator()(Read<Clock> clock, Read<NewmarkParameters> newmark,
+                                          Read<face::Velocity<Dim>> v_f, Read<face::Acceleration<Dim>> a_f,
+                                          Write<Rates> rates, Write<face::Predictor<Dim>> predictor) const {
+  const double dt = clock->step;
+  *rates = {.velocity = newmark->gamma / (newmark->beta * dt),
+            .acceleration = 1 / (newmark->beta * dt * dt),
+            .time = clock->time + dt};
+  const double ahead = (1 - newmark->gamma) * dt;
+  for_each_row(v_f.size(), [&](std::size_t i) { predictor[i] = v_f[i] + ahead * a_f[i]; });
+}
+
+template <int Dim>
+void UniformFaceForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+                                       Read<face::Held> held, Write<face::BodyForce<Dim>> b_f) const {
+  const Instant now = instant_of(ode, rates);
+  Arguments arguments(now);
+  const Vec<Dim> everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
+  if (!everywhere.allFinite()) throw StepRejected(fmt::format("body_force: not finite at t = {:.6g} s", now.time));
+  for_each_row(b_f.size(), [&](std::size_t i) {
+    b_f[i] = everywhere;
+    hold<Dim>(held[i], b_f[i]);
+  });
+}
+
+template <int Dim>
+void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                   Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p,
+                                   Read<face::Mass<Dim>> m_f, Read<face::Held> held,
+                                   Write<face::BodyForce<Dim>> b_f) const {
+  with_degree(splines->degree, [&](auto degree) {
+    scatter_mean_of<Dim, degree()>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), b_f.span(),
+                                   [&](std::size_t p, const auto&, const auto&, const auto&) {
+                                     return ConstantAround<Dim>{b_p[p]};
+                                   });
+  });
+  for_each_row(b_f.size(), [&](std::size_t i) { hold<Dim>(held[i], b_f[i]); });
+}
+
+template <int Dim>
+void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Read<Rates> rates, Read<Grid<Dim>> grid,
+                                     Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                     Read<cell::LiquidIndicator> w_c, Read<particle::QuadraturePosition<Dim>> y_p,
+                                     Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p,
+                                     Read<face::Mass<Dim>> m_f, Read<face::Held> held,
+                                     Write<face::InertiaCorrection<Dim>> c_f,
+                                     Update<face::Predictor<Dim>> predictor) const {
+  for_each_row(c_f.size(), [&](std::size_t i) { c_f[i].setZero(); });
+  const double share = std::min(1.0, step->seconds / clock->step);
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+      const double liquid = share * w_c[c];
+      if (liquid == 0) return;
+      const CellFrame<Dim> frame(*grid, *splines, cell.node);
+      FaceSums<Dim, K> sums{};
+      for (std::size_t p = cell.begin; p < cell.end; ++p) {
+        const Vec<Dim> xi = frame.local(y_p[p]);
+        const SplineWeights<Dim, K> weights(frame, xi);
+        const TaylorAround<Dim, K> force(frame, xi, Vec<Dim>::Zero(), grad_f_p[p]);
+        const double m = liquid * m_p[p];
+        for_each_direction<Dim>([&](auto d) {
+          constexpr int D = d();
+          for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
+            sums[D][k] += m * weights.template face<D>(offset) * force.template at<D>(offset);
+          });
+        });
+      }
+      const std::uint32_t* rows = sites->of(c);
+      for (std::size_t k = 0; k < cell_sites<Dim, K>; ++k) {
+        for (std::size_t d = 0; d < Dim; ++d) c_f[rows[k]][static_cast<Eigen::Index>(d)] += sums[d][k];
+      }
+    });
+  });
+  divide_by_mass<Dim>(m_f.span(), c_f.span());
+  const double tau = rates->velocity / rates->acceleration;
+  for_each_row(c_f.size(), [&](std::size_t i) {
+    hold<Dim>(held[i], c_f[i]);
+    predictor[i] += tau * c_f[i];
+  });
+}
+
+template <int Dim>
+void FillFaceSource<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                     Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
+                                     Read<unknown::Staggered> of_unknown, Update<face::Predictor<Dim>> predictor,
+                                     Write<unknown::Source> source) const {
+  const double tau = rates->velocity / rates->acceleration;
+  for_each_row(predictor.size(), [&](std::size_t i) {
+    predictor[i] += tau * b_f[i];
+    hold<Dim>(held[i], predictor[i]);
+  });
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  for_each_row(source.size(), [&](std::size_t l) {
+    source[l] = {};
+    source[l][unknown::balance] = incidence.divergence(of_unknown[l], predictor.span());
+  });
+}
+
+template <int Dim>
+void DampFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                         Read<face::Velocity<Dim>> v_f, Read<multiplier::Volume> v_l,
+                                         Read<multiplier::Curvature> curvature, Read<unknown::Staggered> of_unknown,
+                                         Update<unknown::Source> source) const {
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  for_each_row(source.size(), [&](std::size_t l) {
+    const std::size_t i = of_unknown[l];
+    const double excess = damped_share * (incidence.divergence(i, v_f.span()) + curvature[i] / v_l[i]);
+    source[l][unknown::damping] = excess;
+    source[l][unknown::balance] -= excess;
+  });
+}
+
+template <int Dim>
+void FillFaceVolumeSource<Dim>::operator()(Read<VolumeRate> rate, Read<Splines<Dim>> splines,
+                                           Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                           Read<multiplier::FillFraction> phi, Read<unknown::Staggered> of_unknown,
+                                           Update<unknown::Source> source) const {
+  const auto half_full = [&](std::size_t i) { return phi[i] > 0.5 || !splines->has_multiplier(site[i]); };
+  // Deep inside: all within two neighbours are at least half full.
+  const auto all_around = [&](std::size_t i, const auto& holds) {
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      const SplineAxis& axis = splines->axis[side / 2];
+      const bool at_wall = !axis.periodic() && site[i][side / 2] == (side % 2 == 0 ? 0 : axis.multipliers() - 1);
+      if (at_wall) continue;
+      const std::int32_t j = neighbour[i][side];
+      if (j == staggered::none || !holds(static_cast<std::size_t>(j))) return false;
+    }
+    return true;
+  };
+  const auto is_deep = [&](std::size_t i) {
+    return half_full(i) &&
+           all_around(i, [&](std::size_t j) { return half_full(j) && all_around(j, half_full); });
+  };
+  for_each_row(source.size(), [&](std::size_t l) {
+    const std::size_t i = of_unknown[l];
+    const double excess = phi[i] - 1;
+    source[l][unknown::volume] = excess >= 0 || is_deep(i) ? -rate->rate * excess : 0;
+  });
+}
+
+template <int Dim>
+void ProjectFaces<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                   Read<face::Mobility<Dim>> mobility, Read<face::Predictor<Dim>> predictor,
+                                   Read<multiplier::Row> row, Read<unknown::Solution> solution,
+                                   Write<face::BalanceVelocity<Dim>> v_f, Write<face::Damping<Dim>> damping,
+                                   Write<face::Shift<Dim>> shift, Write<multiplier::Force> lambda) const {
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const double per_tau = rates->acceleration / rates->velocity;
+  const auto of = [&](std::size_t which) {
+    return [&, which](std::size_t i) {
+      return row[i] == staggered::none ? 0.0 : solution[static_cast<std::size_t>(row[i])][which];
+    };
+  };
+  for_each_row(v_f.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const double m = mobility[i][axis];
+      const auto change = [&](std::size_t which) { return m == 0 ? 0 : -m * incidence.gradient(i, d, of(which)); };
+      damping[i][axis] = change(unknown::damping);
+      v_f[i][axis] = predictor[i][axis] + damping[i][axis] + change(unknown::balance);
+      shift[i][axis] = change(unknown::volume);
+    }
+    lambda[i] = -per_tau * of(unknown::balance)(i);
+  });
+}
+
+template <int Dim>
+void CorrectFacesMidpoint<Dim>::operator()(Read<Clock> clock, Read<face::Velocity<Dim>> v_old,
+                                           Read<face::BalanceVelocity<Dim>> v_f, Read<face::Damping<Dim>> damping,
+                                           Write<face::NewVelocity<Dim>> v_new,
+                                           Write<face::Displacement<Dim>> u_f) const {
+  for_each_row(v_f.size(), [&](std::size_t i) {
+    v_new[i] = 2 * v_f[i] - v_old[i] - damping[i];
+    u_f[i] = clock->step * v_f[i];
+  });
+}
+
+template <int Dim>
+void CorrectFacesNewmark<Dim>::operator()(Read<Clock> clock, Read<NewmarkParameters> newmark,
+                                          Read<face::Velocity<Dim>> v_old, Read<face::Acceleration<Dim>> a_old,
+                                          Read<face::BalanceVelocity<Dim>> v_f, Write<face::NewVelocity<Dim>> v_new,
+                                          Write<face::NewAcceleration<Dim>> a_new,
+                                          Write<face::Displacement<Dim>> u_f) const {
+  const double dt = clock->step;
+  const double beta = newmark->beta;
+  const double gamma = newmark->gamma;
+  for_each_row(v_f.size(), [&](std::size_t i) {
+    v_new[i] = v_f[i];
+    a_new[i] = (v_f[i] - v_old[i]) / (gamma * dt) - (1 / gamma - 1) * a_old[i];
+    u_f[i] = dt * v_old[i] + dt * dt * ((0.5 - beta) * a_old[i] + beta * a_new[i]);
+  });
+}
+
+template <int Dim>
+void CorrectFacesBackwardEuler<Dim>::operator()(Read<Clock> clock, Read<face::Velocity<Dim>> v_old,
+                                                Read<face::BalanceVelocity<Dim>> v_f,
+                                                Write<face::NewVelocity<Dim>> v_new,
+                                                Write<face::NewAcceleration<Dim>> a_new) const {
+  const double per_step = 1 / clock->step;
+  for_each_row(v_f.size(), [&](std::size_t i) {
+    v_new[i] = v_f[i];
+    a_new[i] = per_step * (v_f[i] - v_old[i]);
+  });
+}
+
+template <int Dim>
+void G2PFaceForceGradient<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                           Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                           Read<particle::QuadraturePosition<Dim>> y_p,
+                                           Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
+                                           Read<face::InertiaCorrection<Dim>> c_f,
+                                           Write<particle::ForceGradient<Dim>> grad_f_p, Write<ForceStep> step) const {
+  step->seconds = clock->step;
+  const double per_step = 1 / clock->step;
+  const auto force = [&](std::size_t i) -> Vec<Dim> { return per_step * (v_new[i] - v_old[i]) - c_f[i]; };
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+      const CellFrame<Dim> frame(*grid, *splines, cell.node);
+      const auto q = coefficients<Dim, K>(sites->of(c), force);
+      Vec<Dim> centre = Vec<Dim>::Zero();
+      for (std::size_t p = cell.begin; p < cell.end; ++p) centre += frame.local(y_p[p]);
+      centre /= static_cast<double>(cell.end - cell.begin);
+      const auto jet = jet_at<Dim, K>(q, SplineWeights<Dim, K>(frame, centre), SplineSlopes<Dim, K>(frame, centre));
+      for (std::size_t p = cell.begin; p < cell.end; ++p) grad_f_p[p] = jet.gradient;
+    });
+  });
+}
+
+template struct HoldFaces<2>;
+template struct HoldFaces<3>;
+template struct HoldFaceAccelerations<2>;
+template struct HoldFaceAccelerations<3>;
+template struct PredictFacesMidpoint<2>;
+template struct PredictFacesMidpoint<3>;
+template struct PredictFacesBackwardEuler<2>;
+template struct PredictFacesBackwardEuler<3>;
+template struct PredictFacesNewmark<2>;
+template struct PredictFacesNewmark<3>;
+template struct UniformFaceForce<2>;
+template struct UniformFaceForce<3>;
+template struct P2GFaceForce<2>;
+template struct P2GFaceForce<3>;
+template struct AddFaceInertia<2>;
+template struct AddFaceInertia<3>;
+template struct FillFaceSource<2>;
+template struct FillFaceSource<3>;
+template struct DampFaceDivergence<2>;
+template struct DampFaceDivergence<3>;
+template struct FillFaceVolumeSource<2>;
+template struct FillFaceVolumeSource<3>;
+template struct ProjectFaces<2>;
+template struct ProjectFaces<3>;
+template struct CorrectFacesMidpoint<2>;
+template struct CorrectFacesMidpoint<3>;
+template struct CorrectFacesNewmark<2>;
+template struct CorrectFacesNewmark<3>;
+template struct CorrectFacesBackwardEuler<2>;
+template struct CorrectFacesBackwardEuler<3>;
+template struct G2PFaceForceGradient<2>;
+template struct G2PFaceForceGradient<3>;
+
+}  // namespace minamo

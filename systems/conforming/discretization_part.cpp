@@ -1,0 +1,90 @@
+#include "systems/conforming/balances.hpp"
+#include "systems/conforming/fill.hpp"
+#include "systems/conforming/measures.hpp"
+#include "systems/conforming/number_sites.hpp"
+#include "systems/conforming/pressure.hpp"
+#include "systems/conforming/solve.hpp"
+#include "systems/conforming/transfer.hpp"
+#include "systems/conforming/volume.hpp"
+#include "systems/grid/bin.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/discretization.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// A discretization that scenes choose by name.
+struct DiscretizationScheme : Scheme {};
+
+Contribution read_equal_order(Input&, Scene& scene) {
+  scene.facts.set(Discretization{.name = "equal_order"});
+  return {};
+}
+
+Contribution read_conforming(Input& input, Scene& scene) {
+  Discretization discretization{.name = "conforming", .is_conforming = true};
+  discretization.degree = static_cast<int>(
+      input.integer("degree", {.doc = "of the velocity along itself; across itself it has one less",
+                               .fallback = discretization.degree,
+                               .at_least = least_degree,
+                               .at_most = largest_degree}));
+  scene.facts.set(discretization);
+  return {};
+}
+
+}  // namespace
+
+void add_discretization(SystemRegistry& registry) {
+  registry.add<BinByCell>("bin_by_cell");
+  registry.add<NumberSites>("number_sites");
+  registry.add<P2GFacesPic>("p2g_faces_pic");
+  registry.add<P2GFacesTpic>("p2g_faces_tpic");
+  registry.add<G2PFacesPic>("g2p_faces_pic");
+  registry.add<G2PFacesFlip>("g2p_faces_flip");
+  registry.add<G2PFacesTpic>("g2p_faces_tpic");
+  registry.add<G2PFacesApic>("g2p_faces_apic");
+  registry.add<P2GFaceAccelerationPic>("p2g_face_acceleration_pic");
+  registry.add<P2GFaceAccelerationTpic>("p2g_face_acceleration_tpic");
+  registry.add<G2PFaceAccelerationPic>("g2p_face_acceleration_pic");
+  registry.add<G2PFaceAccelerationTpic>("g2p_face_acceleration_tpic");
+  registry.add<G2PFaceAccelerationApic>("g2p_face_acceleration_apic");
+  registry.add<AdvectByFaces>("advect_by_faces");
+  registry.add<P2GMultipliers>("p2g_multipliers");
+  registry.add<FindFill>("find_fill");
+  registry.add<FindLiquidCellsByMultipliers>("find_liquid_cells_by_multipliers");
+  registry.add<FindMobility>("find_mobility");
+  registry.add<FindMobilityMixed>("find_mobility_mixed");
+  registry.add<AssembleMultipliers>("assemble_multipliers");
+  registry.add<HoldFaces>("hold_faces");
+  registry.add<HoldFaceAccelerations>("hold_face_accelerations");
+  registry.add<PredictFacesMidpoint>("predict_faces_midpoint");
+  registry.add<PredictFacesBackwardEuler>("predict_faces_backward_euler");
+  registry.add<PredictFacesNewmark>("predict_faces_newmark");
+  registry.add<UniformFaceForce>("uniform_face_force");
+  registry.add<P2GFaceForce>("p2g_face_force");
+  registry.add<AddFaceInertia>("add_face_inertia");
+  registry.add<FillFaceSource>("face_source");
+  registry.add<DampFaceDivergence>("damp_face_divergence");
+  registry.add<FillFaceVolumeSource>("face_volume_source");
+  registry.add<SolveMultipliers>("solve_multipliers");
+  registry.add<ProjectFaces>("project_faces");
+  registry.add<CorrectFacesMidpoint>("correct_faces_midpoint");
+  registry.add<CorrectFacesNewmark>("correct_faces_newmark");
+  registry.add<CorrectFacesBackwardEuler>("correct_faces_backward_euler");
+  registry.add<G2PFaceForceGradient>("g2p_face_force_gradient");
+  registry.add<FillParts>("fill_parts");
+  registry.add<StirParticles>("stir_particles");
+  registry.add<GatherFaceShift>("gather_face_shift");
+  registry.add<LimitParticleShift>("limit_particle_shift");
+  registry.add<ApplyParticleShift>("apply_particle_shift");
+  registry.add<MeasureFaceDivergence>("measure_face_divergence");
+  registry.add<MeasureMultiplierOverlap>("measure_multiplier_overlap");
+  registry.add<RecoverPressure>("recover_pressure");
+  registry.add(DiscretizationScheme{
+      {"conforming", "splines free of divergence at every point, velocities on faces", read_conforming}});
+  registry.add(DiscretizationScheme{{"equal_order", "velocity and pressure on nodes, stabilized", read_equal_order}});
+  registry.add(choice<DiscretizationScheme>("discretization", "where velocity and pressure live", "equal_order"));
+}
+
+}  // namespace minamo

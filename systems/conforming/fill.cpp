@@ -1,0 +1,213 @@
+#include "systems/conforming/fill.hpp"
+
+#include "systems/conforming/incidence.hpp"
+#include "systems/conforming/support.hpp"
+#include "systems/grid/liquid_cells.hpp"
+#include "systems/transfer/carry_gradient.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Fill fraction from which on a multiplier is an unknown. In space more: foam at the surface would never settle.
+template <int Dim>
+constexpr double active_from = Dim == 2 ? 1e-3 : 0.1;
+/// Least mass of a face, as a share of that of a full grid.
+constexpr double least_mass = 1e-8;
+/// theta of (E67): fill fractions from which a face counts as full, and as full all the way.
+constexpr double filled_from = 0.9;
+constexpr double filled_to = 0.97;
+
+double clamped_ramp(double from, double to, double x) { return std::clamp((x - from) / (to - from), 0.0, 1.0); }
+
+/// dt/2 w f tr(grad v grad v), the divergence that a velocity without divergence now has half a step on, (E63).
+template <int Dim>
+double divergence_ahead(double half_step, double liquid, const Mat<Dim>& gradient) {
+  const double resolved = resolved_share(half_step * gradient.norm());
+  return resolved == 0 ? 0 : liquid * resolved * half_step * (gradient * gradient).trace();
+}
+
+template <int Dim>
+double cell_volume(const Grid<Dim>& grid) {
+  return Dim == 2 ? grid.spacing * grid.spacing : grid.spacing * grid.spacing * grid.spacing;
+}
+
+/// 1/mass, zero where a wall holds the face.
+template <int Dim, class MassOf>
+void invert_masses(double full_cell, const Splines<Dim>& splines, std::span<const Index<Dim>> site,
+                   std::span<const std::uint8_t> held, std::span<Vec<Dim>> mobility, const MassOf& mass_of) {
+  for_each_row(site.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double& of_face = mobility[i][static_cast<Eigen::Index>(d)];
+      of_face = 0;
+      if ((held[i] & (1U << d)) != 0) continue;
+      const double full = full_cell * splines.face_integral(site[i], d);
+      of_face = 1 / std::max(mass_of(i, d, full), least_mass * full);
+    }
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                     Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
+                                     Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                                     Write<multiplier::Volume> v_l, Write<multiplier::Curvature> curvature) const {
+  const auto gradient = grad_v_p.span();
+  const double half_step = 0.5 * clock->step;
+  const double full_cell = cell_volume<Dim>(*grid);
+  for_each_row(v_l.size(), [&](std::size_t i) { v_l[i] = curvature[i] = 0; });
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+      const CellFrame<Dim> frame(*grid, *splines, cell.node);
+      std::array<double, cell_sites<Dim, K>> volume{};
+      std::array<double, cell_sites<Dim, K>> ahead{};
+      double filled = 0;
+      for (std::size_t p = cell.begin; p < cell.end; ++p) filled += V_p[p];
+      const double liquid = gradient.empty() ? 0 : liquid_indicator(filled / full_cell);
+      for (std::size_t p = cell.begin; p < cell.end; ++p) {
+        const SplineWeights<Dim, K> weights(frame, frame.local(y_p[p]));
+        const double divergence = liquid == 0 ? 0 : divergence_ahead<Dim>(half_step, liquid, gradient[p]);
+        for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+          const double share = V_p[p] * weights.multiplier(offset);
+          volume[k] += share;
+          ahead[k] += share * divergence;
+        });
+      }
+      const std::uint32_t* rows = sites->of(c);
+      for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) {
+        v_l[rows[k]] += volume[k];
+        curvature[rows[k]] += ahead[k];
+      });
+    });
+  });
+}
+
+template <int Dim>
+void FindFill<Dim>::operator()(Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                               Write<multiplier::FillFraction> phi) const {
+  for_each_row(phi.size(), [&](std::size_t i) { phi[i] = capacity[i] > 0 ? v_l[i] / capacity[i] : 0; });
+}
+
+template <int Dim>
+void FindLiquidCellsByMultipliers<Dim>::operator()(Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                                   Read<CellSites> sites, Read<multiplier::FillFraction> phi,
+                                                   Write<cell::LiquidIndicator> w_c,
+                                                   Write<cell::BulkIndicator> b_c) const {
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell<Dim>(*cells, [&](std::size_t c, const auto&) {
+      const std::uint32_t* rows = sites->of(c);
+      double sum = 0;
+      for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) { sum += phi[rows[k]]; });
+      const double fill = sum / static_cast<double>(power(K, Dim));
+      w_c[c] = liquid_indicator(fill);
+      b_c[c] = bulk_indicator(fill);
+    });
+  });
+}
+
+template <int Dim>
+void FindMobility<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                   Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
+                                   Write<face::Mobility<Dim>> mobility) const {
+  invert_masses<Dim>(
+      fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
+      [&](std::size_t i, std::size_t d, double) { return m_f[i][static_cast<Eigen::Index>(d)]; });
+}
+
+template <int Dim>
+void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                        Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                        Read<face::Held> held, Read<face::Mass<Dim>> m_f,
+                                        Read<multiplier::FillFraction> phi,
+                                        Write<face::Mobility<Dim>> mobility) const {
+  // The least fill fraction of a multiplier and its neighbours; beyond walls there are none.
+  const auto least_around = [&](std::size_t i) {
+    double least = phi[i];
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      const std::int32_t j = neighbour[i][side];
+      const bool is_outside = j != staggered::none && !splines->has_multiplier(site[static_cast<std::size_t>(j)]);
+      const SplineAxis& axis = splines->axis[side / 2];
+      const bool at_wall = !axis.periodic() && site[i][side / 2] == (side % 2 == 0 ? 0 : axis.multipliers() - 1);
+      if (is_outside || at_wall) continue;
+      least = std::min(least, j == staggered::none ? 0 : phi[static_cast<std::size_t>(j)]);
+    }
+    return least;
+  };
+  const auto fill_of_face = [&](std::size_t i, std::size_t d) {
+    double fill = splines->has_multiplier(site[i]) ? least_around(i) : 1;
+    const std::int32_t below = neighbour[i][2 * d];
+    const bool at_low_wall = !splines->axis[d].periodic() && site[i][d] == 0;
+    if (!at_low_wall) fill = below == staggered::none ? 0 : std::min(fill, least_around(static_cast<std::size_t>(below)));
+    return fill;
+  };
+  invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
+                     [&](std::size_t i, std::size_t d, double full) {
+                       const double theta = clamped_ramp(filled_from, filled_to, fill_of_face(i, d));
+                       return (1 - theta) * m_f[i][static_cast<Eigen::Index>(d)] + theta * full;
+                     });
+}
+
+template <int Dim>
+void AssembleMultipliers<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
+    Resize<Unknowns> unknowns, Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
+    Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
+    Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
+    Write<unknown::NullVector> null_vector) const {
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const auto moves = [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      if (mobility[i][axis] > 0 || mobility[incidence.above(i, d)][axis] > 0) return true;
+    }
+    return false;
+  };
+  std::int32_t count = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    row[i] = phi[i] > active_from<Dim> && moves(i) ? count++ : staggered::none;
+  }
+  unknowns.resize(static_cast<std::size_t>(count));
+  for_each_row(row.size(), [&](std::size_t i) {
+    if (row[i] == staggered::none) return;
+    const auto l = static_cast<std::size_t>(row[i]);
+    of_unknown[l] = static_cast<std::uint32_t>(i);
+    unknown_site[l] = site[i];
+    diagonal[l] = 0;
+    null_vector[l] = splines->widths(site[i]);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const std::size_t up = incidence.above(i, d);
+      const double per_width = incidence.per_width(i, d);
+      diagonal[l] += per_width * per_width * (mobility[i][axis] + mobility[up][axis]);
+      const bool has_upper = splines->has_multiplier(site[up]) && row[up] != staggered::none;
+      const std::int32_t down = neighbour[i][2 * d];
+      const bool has_lower = down != staggered::none && row[static_cast<std::size_t>(down)] != staggered::none;
+      unknown_neighbour[l][2 * d] = has_lower ? row[static_cast<std::size_t>(down)] : staggered::none;
+      unknown_neighbour[l][2 * d + 1] = has_upper ? row[up] : staggered::none;
+      conductance[l][d] = has_upper ? per_width * incidence.per_width(up, d) * mobility[up][axis] : 0;
+    }
+  });
+}
+
+template struct P2GMultipliers<2>;
+template struct P2GMultipliers<3>;
+template struct FindFill<2>;
+template struct FindFill<3>;
+template struct FindLiquidCellsByMultipliers<2>;
+template struct FindLiquidCellsByMultipliers<3>;
+template struct FindMobility<2>;
+template struct FindMobility<3>;
+template struct FindMobilityMixed<2>;
+template struct FindMobilityMixed<3>;
+template struct AssembleMultipliers<2>;
+template struct AssembleMultipliers<3>;
+
+}  // namespace minamo

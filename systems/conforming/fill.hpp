@@ -1,0 +1,73 @@
+#pragma once
+/// \file
+/// How full of liquid the grid is, and what follows: which multipliers are unknowns, and with which mass faces resist.
+
+#include "components/cells.hpp"
+#include "components/fluid.hpp"
+#include "components/particle.hpp"
+#include "components/staggered.hpp"
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+#include "systems/conforming/splines.hpp"
+
+namespace minamo {
+
+/// (E35) at y_p: V~_l = sum_p N_l V_p, and what the second term of (E63) brings.
+template <int Dim>
+struct P2GMultipliers {
+  static constexpr std::string_view doc = "(E35) (E63) volume and divergence of the middle around multipliers";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Write<multiplier::Volume> v_l,
+                  Write<multiplier::Curvature> curvature) const;
+};
+
+/// phi_l = V~_l/V_l.
+template <int Dim>
+struct FindFill {
+  static constexpr std::string_view doc = "fill fraction of multipliers";
+  void operator()(Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                  Write<multiplier::FillFraction> phi) const;
+};
+
+/// (E61) of a cell, from its multipliers.
+template <int Dim>
+struct FindLiquidCellsByMultipliers {
+  static constexpr std::string_view doc = "(E61) w_c, b_c: liquid, spray or bulk";
+  void operator()(Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                  Read<multiplier::FillFraction> phi, Write<cell::LiquidIndicator> w_c,
+                  Write<cell::BulkIndicator> b_c) const;
+};
+
+/// 1/m_f, by particles.
+template <int Dim>
+struct FindMobility {
+  static constexpr std::string_view doc = "1/m_f, by particles";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                  Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
+                  Write<face::Mobility<Dim>> mobility) const;
+};
+
+/// (E68)  1/m_f with the mass of a full grid where the liquid fills it.
+template <int Dim>
+struct FindMobilityMixed {
+  static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+                  Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
+                  Write<face::Mobility<Dim>> mobility) const;
+};
+
+/// The active multipliers and the matrix S = B m^-1 B^T between them.
+template <int Dim>
+struct AssembleMultipliers {
+  static constexpr std::string_view doc = "active multipliers, S = B m^-1 B^T";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
+                  Read<multiplier::FillFraction> phi, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
+                  Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+                  Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
+                  Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const;
+};
+
+}  // namespace minamo

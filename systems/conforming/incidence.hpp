@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// Divergence and gradient on the staggered grid: differences of the coefficients of neighbouring faces, whatever the
+/// quadrature. With u = sum_f u_f N_f the divergence is exactly sum_l (B u)_l N_l.
+
+#include "components/staggered.hpp"
+#include "systems/conforming/splines.hpp"
+
+#include <span>
+
+namespace minamo {
+
+template <int Dim>
+class Incidence {
+ public:
+  Incidence(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Index<Dim>> site,
+            std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour)
+      : per_spacing_(1 / grid.spacing), splines_(splines), site_(site), neighbour_(neighbour) {}
+
+  /// (B u)_l = sum_d (u_{l + e_d} - u_l)/w_d for the multiplier of a row. [1/m of u]
+  /// \pre particles touch the multiplier, so that its faces have rows
+  double divergence(std::size_t row, std::span<const Vec<Dim>> u) const {
+    double sum = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      sum += per_width(row, d) * (u[above(row, d)][axis] - u[row][axis]);
+    }
+    return sum;
+  }
+  /// (B^T q)_f for the face of direction d of a row; `at` is q by row of the multiplier, zero where there is none.
+  template <class AtMultiplier>
+  double gradient(std::size_t row, std::size_t d, const AtMultiplier& at) const {
+    double sum = splines_.has_multiplier(site_[row]) ? -per_width(row, d) * at(row) : 0;
+    const std::int32_t below = neighbour_[row][2 * d];
+    if (below != staggered::none) {
+      const auto low = static_cast<std::size_t>(below);
+      if (splines_.has_multiplier(site_[low])) sum += per_width(low, d) * at(low);
+    }
+    return sum;
+  }
+  /// 1/w_d of a multiplier. [1/m]
+  double per_width(std::size_t row, std::size_t d) const {
+    return per_spacing_ / splines_.axis[d].width(site_[row][d]);
+  }
+  /// Row of the face above a multiplier along an axis, which is that of the multiplier above.
+  std::size_t above(std::size_t row, std::size_t d) const {
+    return static_cast<std::size_t>(neighbour_[row][2 * d + 1]);
+  }
+
+ private:
+  double per_spacing_;
+  const Splines<Dim>& splines_;
+  std::span<const Index<Dim>> site_;
+  std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour_;
+};
+
+}  // namespace minamo

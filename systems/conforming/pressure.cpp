@@ -1,0 +1,229 @@
+#include "systems/conforming/pressure.hpp"
+
+#include "systems/conforming/support.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Fill fractions of the multipliers of a cell from which integrals are exact, and all the way.
+constexpr double exact_from = 0.9;
+constexpr double exact_to = 0.97;
+
+/// M of (E75) on the multipliers that carry a force.
+template <int Dim, int K>
+class PressureMass {
+ public:
+  static constexpr std::size_t local = power(K, Dim);
+  using Local = std::array<double, local>;
+
+  PressureMass(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
+               std::span<const Index<Dim>> site, std::span<const Vec<Dim>> y_p, std::span<const double> V_p,
+               std::span<const double> lambda)
+      : V_p_(V_p) {
+    list_runs(grid, splines, rows, y_p);
+    find_weights(grid, splines, y_p);
+    find_exact_shares(grid, splines, site);
+    is_free_.resize(lambda.size());
+    for (std::size_t i = 0; i < lambda.size(); ++i) is_free_[i] = lambda[i] != 0;
+  }
+
+  std::vector<double> diagonal() const {
+    std::vector<double> sum(is_free_.size(), 0);
+    for (const Run& run : runs_) {
+      for (std::size_t k = 0; k < local; ++k) {
+        double of_run = run.exact * exact_entry(run, k, k);
+        for (std::size_t p = run.begin; p < run.end; ++p) of_run += (1 - run.exact) * V_p_[p] * weights_[p][k] * weights_[p][k];
+        sum[run.rows[k]] += of_run;
+      }
+    }
+    return sum;
+  }
+  /// out = M x, zero where no force is carried.
+  void times(const std::vector<double>& x, std::vector<double>& out) const {
+    std::fill(out.begin(), out.end(), 0);
+    for (const Run& run : runs_) {
+      Local of_run{};
+      Local x_of_run;
+      for (std::size_t k = 0; k < local; ++k) x_of_run[k] = x[run.rows[k]];
+      if (run.exact < 1) {
+        for (std::size_t p = run.begin; p < run.end; ++p) {
+          double value = 0;
+          for (std::size_t k = 0; k < local; ++k) value += weights_[p][k] * x_of_run[k];
+          value *= (1 - run.exact) * V_p_[p];
+          for (std::size_t k = 0; k < local; ++k) of_run[k] += weights_[p][k] * value;
+        }
+      }
+      if (run.exact > 0) {
+        for (std::size_t k = 0; k < local; ++k) {
+          for (std::size_t j = 0; j < local; ++j) of_run[k] += run.exact * exact_entry(run, k, j) * x_of_run[j];
+        }
+      }
+      for (std::size_t k = 0; k < local; ++k) out[run.rows[k]] += of_run[k];
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (!is_free_[i]) out[i] = 0;
+    }
+  }
+  /// use(p, sum_l N_l x_l) for every particle.
+  template <class Use>
+  void for_each_value(const std::vector<double>& x, const Use& use) const {
+    for (const Run& run : runs_) {
+      for (std::size_t p = run.begin; p < run.end; ++p) {
+        double value = 0;
+        for (std::size_t k = 0; k < local; ++k) value += weights_[p][k] * x[run.rows[k]];
+        use(p, value);
+      }
+    }
+  }
+
+ private:
+  /// Particles one after the other in the same cell.
+  struct Run {
+    Index<Dim> cell;
+    std::size_t begin;
+    std::size_t end;
+    std::array<std::uint32_t, local> rows;
+    double exact = 0;  ///< share of the integral that is exact
+    double volume = 0;
+    std::array<std::array<std::array<double, K>, K>, static_cast<std::size_t>(Dim)> axis_mass{};
+  };
+
+  void list_runs(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
+                 std::span<const Vec<Dim>> y_p) {
+    for (std::size_t p = 0; p < y_p.size(); ++p) {
+      const Index<Dim> cell = cell_around<Dim>(grid, splines, y_p[p]);
+      if (!runs_.empty() && runs_.back().cell == cell) {
+        runs_.back().end = p + 1;
+        continue;
+      }
+      Run run{cell, p, p + 1, {}};
+      std::size_t m = 0;
+      for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
+        Index<Dim> at;
+        for (std::size_t d = 0; d < Dim; ++d) at[d] = splines.axis[d].wrapped(cell[d] + offset[d]);
+        run.rows[m++] = *rows.find(at);
+      });
+      for (std::size_t d = 0; d < Dim; ++d) run.axis_mass[d] = axis_mass(splines.axis[d].of_cell(cell[d]));
+      run.volume = std::pow(grid.spacing, Dim);
+      runs_.push_back(run);
+    }
+  }
+  void find_weights(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Vec<Dim>> y_p) {
+    weights_.resize(y_p.size());
+    for (const Run& run : runs_) {
+      const CellFrame<Dim> frame(grid, splines, run.cell);
+      for (std::size_t p = run.begin; p < run.end; ++p) {
+        const SplineWeights<Dim, K> weights(frame, frame.local(y_p[p]));
+        std::size_t m = 0;
+        for_each_multiplier<Dim, K>(
+            [&](std::size_t, const Index<Dim>& offset) { weights_[p][m++] = weights.multiplier(offset); });
+      }
+    }
+  }
+  void find_exact_shares(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Index<Dim>> site) {
+    std::vector<double> fill(site.size(), 0);
+    for (const Run& run : runs_) {
+      for (std::size_t p = run.begin; p < run.end; ++p) {
+        for (std::size_t k = 0; k < local; ++k) fill[run.rows[k]] += V_p_[p] * weights_[p][k];
+      }
+    }
+    for (std::size_t i = 0; i < site.size(); ++i) {
+      if (fill[i] > 0) fill[i] /= std::pow(grid.spacing, Dim) * splines.widths(site[i]);
+    }
+    for (Run& run : runs_) {
+      double least = 1;
+      for (const std::uint32_t row : run.rows) least = std::min(least, fill[row]);
+      run.exact = std::clamp((least - exact_from) / (exact_to - exact_from), 0.0, 1.0);
+    }
+    // A cell whose particles come in several runs is counted once, in parts.
+    std::vector<double> runs_at(site.size(), 0);
+    for (const Run& run : runs_) runs_at[run.rows[0]] += 1;
+    for (Run& run : runs_) run.volume /= runs_at[run.rows[0]];
+  }
+  /// Integrals over the cell of products of two splines of degree K - 1, in units of h.
+  static std::array<std::array<double, K>, K> axis_mass(const CellSplines& splines) {
+    std::array<std::array<double, K>, K> mass{};
+    for (std::size_t a = 0; a < K; ++a) {
+      for (std::size_t b = 0; b < K; ++b) {
+        for (std::size_t i = 0; i < K; ++i) {
+          for (std::size_t j = 0; j < K; ++j) {
+            mass[a][b] += splines.across[a][i] * splines.across[b][j] / static_cast<double>(i + j + 1);
+          }
+        }
+      }
+    }
+    return mass;
+  }
+  double exact_entry(const Run& run, std::size_t k, std::size_t j) const {
+    double product = run.volume;
+    for (std::size_t d = 0; d < Dim; ++d, k /= K, j /= K) product *= run.axis_mass[d][k % K][j % K];
+    return product;
+  }
+
+  std::span<const double> V_p_;
+  std::vector<Run> runs_;
+  std::vector<Local> weights_;  ///< of every particle
+  std::vector<bool> is_free_;
+};
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// M^-1 b.
+template <class Mass>
+std::vector<double> solve_mass(const Mass& mass, std::span<const double> b) {
+  constexpr int most_iterations = 500;
+  constexpr double tolerance = 1e-10;
+  const std::vector<double> diagonal = mass.diagonal();
+  const auto precondition = [&](const std::vector<double>& r) {
+    std::vector<double> z(r.size(), 0);
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      if (diagonal[i] > 0) z[i] = r[i] / diagonal[i];
+    }
+    return z;
+  };
+  std::vector<double> x(b.size(), 0);
+  std::vector<double> r(b.begin(), b.end());
+  std::vector<double> z = precondition(r);
+  std::vector<double> direction = z;
+  std::vector<double> image(b.size());
+  double square = dot(r, z);
+  const double enough = tolerance * tolerance * square;
+  for (int k = 0; k < most_iterations && square > enough; ++k) {
+    mass.times(direction, image);
+    const double step = square / dot(direction, image);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] += step * direction[i];
+      r[i] -= step * image[i];
+    }
+    z = precondition(r);
+    const double next = dot(r, z);
+    for (std::size_t i = 0; i < x.size(); ++i) direction[i] = z[i] + next / square * direction[i];
+    square = next;
+  }
+  return x;
+}
+
+}  // namespace
+
+template <int Dim>
+void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
+                                      Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
+                                      Read<particle::Volume> V_p, Read<multiplier::Force> lambda,
+                                      Write<particle::Pressure> p_p) const {
+  with_degree(splines->degree, [&](auto degree) {
+    const PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span());
+    mass.for_each_value(solve_mass(mass, lambda.span()), [&](std::size_t p, double value) { p_p[p] = value; });
+  });
+}
+
+template struct RecoverPressure<2>;
+template struct RecoverPressure<3>;
+
+}  // namespace minamo

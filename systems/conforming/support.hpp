@@ -1,0 +1,201 @@
+#pragma once
+/// \file
+/// The sites of a cell, the weights of a point on its faces and multipliers, and the loops that the kernels share. All
+/// is a template in the dimension and the degree K: a cell has (K + 1)^d sites, of them (K + 1) K^(d-1) faces of every
+/// direction and K^d multipliers.
+
+#include "components/cells.hpp"
+#include "components/staggered.hpp"
+#include "systems/conforming/splines.hpp"
+#include "systems/grid/support.hpp"
+
+#include <utility>
+
+namespace minamo {
+
+/// Sites of a cell.
+template <int Dim, int K>
+inline constexpr std::size_t cell_sites = power(K + 1, Dim);
+
+/// Calls f(std::integral_constant<int, d>) for every direction.
+template <int Dim, class F>
+[[gnu::always_inline]] inline void for_each_direction(const F& f) {
+  f(std::integral_constant<int, 0>());
+  f(std::integral_constant<int, 1>());
+  if constexpr (Dim == 3) f(std::integral_constant<int, 2>());
+}
+
+/// Calls body(k, offset) for the sites offset (0 ... n_d - 1 per direction) of a cell, k their place among all, x
+/// fastest.
+template <int Dim, int K, int Nx, int Ny, int Nz, class Body>
+[[gnu::always_inline]] inline void for_each_offset(const Body& body) {
+  constexpr int stride = K + 1;
+  if constexpr (Dim == 3) {
+    for (int c = 0; c < Nz; ++c) {
+      for (int b = 0; b < Ny; ++b) {
+        for (int a = 0; a < Nx; ++a) body(static_cast<std::size_t>(a + stride * (b + stride * c)), Index<3>{a, b, c});
+      }
+    }
+  } else {
+    for (int b = 0; b < Ny; ++b) {
+      for (int a = 0; a < Nx; ++a) body(static_cast<std::size_t>(a + stride * b), Index<2>{a, b});
+    }
+  }
+}
+
+/// The same for the faces of direction D of a cell.
+template <int Dim, int K, int D, class Body>
+[[gnu::always_inline]] inline void for_each_face(const Body& body) {
+  for_each_offset<Dim, K, D == 0 ? K + 1 : K, D == 1 ? K + 1 : K, D == 2 ? K + 1 : K>(body);
+}
+
+/// For its multipliers.
+template <int Dim, int K, class Body>
+[[gnu::always_inline]] inline void for_each_multiplier(const Body& body) {
+  for_each_offset<Dim, K, K, K, K>(body);
+}
+
+/// For all its sites.
+template <int Dim, int K, class Body>
+[[gnu::always_inline]] inline void for_each_site(const Body& body) {
+  for_each_offset<Dim, K, K + 1, K + 1, K + 1>(body);
+}
+
+/// The cell of a point, and where in it the point is, 0 ... 1. Points outside the box count to the nearest cell.
+struct AxisPlace {
+  int cell;
+  double xi;
+};
+inline AxisPlace axis_place(const SplineAxis& axis, double r) {
+  int cell = static_cast<int>(r);
+  if (r < cell) --cell;
+  if (axis.periodic()) {
+    const double xi = r - cell;
+    const int wrapped = cell % axis.cells();
+    return {wrapped < 0 ? wrapped + axis.cells() : wrapped, xi};
+  }
+  cell = std::clamp(cell, 0, axis.cells() - 1);
+  return {cell, std::clamp(r - cell, 0.0, 1.0)};
+}
+
+/// sum_a N_a (x_a - y)^2 over the splines across of a cell, in units of h^2.
+inline double spread_across(const CellSplines& of, int degree, double xi) {
+  double spread = 0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(degree); ++a) {
+    double weight = 0;
+    for (std::size_t k = static_cast<std::size_t>(degree); k-- > 0;) weight = weight * xi + of.across[a][k];
+    spread += weight * (of.across_place[a] - xi) * (of.across_place[a] - xi);
+  }
+  return spread;
+}
+
+template <int Dim>
+Index<Dim> cell_around(const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) {
+  Index<Dim> cell;
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    cell[axis] = axis_place(splines.axis[axis], (x[d] - grid.low[d]) / grid.spacing).cell;
+  }
+  return cell;
+}
+
+/// A cell: the splines in it, and where it is.
+template <int Dim>
+struct CellFrame {
+  std::array<const CellSplines*, static_cast<std::size_t>(Dim)> splines;
+  Vec<Dim> low;        ///< low corner [m]
+  double spacing;      ///< h [m]
+  double per_spacing;  ///< 1/h [1/m]
+  Vec<Dim> period;     ///< length of periodic axes, 0 along others, in units of h
+
+  CellFrame(const Grid<Dim>& grid, const Splines<Dim>& all, const Index<Dim>& cell)
+      : low(grid.position(cell)), spacing(grid.spacing), per_spacing(1 / grid.spacing) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      splines[d] = &all.axis[d].of_cell(cell[d]);
+      period[static_cast<Eigen::Index>(d)] = all.axis[d].periodic() ? all.axis[d].cells() : 0;
+    }
+  }
+  /// From the low corner in units of h, for a point that lies in the cell or, along a periodic axis, in its image.
+  Vec<Dim> local(const Vec<Dim>& y) const {
+    Vec<Dim> xi = (y - low) * per_spacing;
+    for (int d = 0; d < Dim; ++d) {
+      if (xi[d] < -0.5) xi[d] += period[d];
+      if (xi[d] > 1.5) xi[d] -= period[d];
+      xi[d] = std::clamp(xi[d], 0.0, 1.0);
+    }
+    return xi;
+  }
+  /// Greville point of a face of direction D, from the low corner of the cell in units of h.
+  template <int D>
+  double face_place(int axis, int a) const {
+    const CellSplines& of = *splines[static_cast<std::size_t>(axis)];
+    return axis == D ? of.along_place[static_cast<std::size_t>(a)] : of.across_place[static_cast<std::size_t>(a)];
+  }
+};
+
+/// Values of the splines of a cell at a point.
+template <int Dim, int K>
+struct SplineWeights {
+  std::array<std::array<double, K + 1>, static_cast<std::size_t>(Dim)> along;
+  std::array<std::array<double, K>, static_cast<std::size_t>(Dim)> across;
+
+  SplineWeights(const CellFrame<Dim>& frame, const Vec<Dim>& xi) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double x = xi[static_cast<Eigen::Index>(d)];
+      const CellSplines& of = *frame.splines[d];
+      for (std::size_t a = 0; a < K + 1; ++a) along[d][a] = horner<K>(of.along[a], x);
+      for (std::size_t a = 0; a < K; ++a) across[d][a] = horner<K - 1>(of.across[a], x);
+    }
+  }
+  /// N_f for a face of direction D.
+  template <int D>
+  [[gnu::always_inline]] double face(const Index<Dim>& offset) const {
+    double product = factor<D>(0, offset[0]) * factor<D>(1, offset[1]);
+    if constexpr (Dim == 3) product *= factor<D>(2, offset[2]);
+    return product;
+  }
+  [[gnu::always_inline]] double multiplier(const Index<Dim>& offset) const {
+    double product = 1;
+    for (std::size_t d = 0; d < Dim; ++d) product *= across[d][static_cast<std::size_t>(offset[d])];
+    return product;
+  }
+  template <int D>
+  [[gnu::always_inline]] double factor(int axis, int a) const {
+    const auto d = static_cast<std::size_t>(axis);
+    return axis == D ? along[d][static_cast<std::size_t>(a)] : across[d][static_cast<std::size_t>(a)];
+  }
+
+ private:
+  template <int Degree>
+  [[gnu::always_inline]] static double horner(const CellSplines::Polynomial& c, double x) {
+    double value = c[Degree];
+    for (int k = Degree - 1; k >= 0; --k) value = value * x + c[static_cast<std::size_t>(k)];
+    return value;
+  }
+};
+
+/// Derivatives of the splines of a cell at a point, per m.
+template <int Dim, int K>
+struct SplineSlopes {
+  std::array<std::array<double, K + 1>, static_cast<std::size_t>(Dim)> along;
+  std::array<std::array<double, K>, static_cast<std::size_t>(Dim)> across;
+
+  SplineSlopes(const CellFrame<Dim>& frame, const Vec<Dim>& xi) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double x = xi[static_cast<Eigen::Index>(d)];
+      const CellSplines& of = *frame.splines[d];
+      for (std::size_t a = 0; a < K + 1; ++a) along[d][a] = frame.per_spacing * slope<K>(of.along[a], x);
+      for (std::size_t a = 0; a < K; ++a) across[d][a] = frame.per_spacing * slope<K - 1>(of.across[a], x);
+    }
+  }
+
+ private:
+  template <int Degree>
+  [[gnu::always_inline]] static double slope(const CellSplines::Polynomial& c, double x) {
+    double value = Degree * c[Degree];
+    for (int k = Degree - 1; k >= 1; --k) value = value * x + k * c[static_cast<std::size_t>(k)];
+    return value;
+  }
+};
+
+}  // namespace minamo

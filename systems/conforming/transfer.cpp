@@ -1,0 +1,200 @@
+#include "systems/conforming/transfer.hpp"
+
+#include "systems/conforming/affine.hpp"
+#include "systems/conforming/gather.hpp"
+#include "systems/conforming/scatter.hpp"
+#include "systems/transfer/advect.hpp"
+
+#include <atomic>
+
+namespace minamo {
+
+namespace {
+
+/// A column as a function of the row.
+template <int Dim>
+auto of_faces(std::span<const Vec<Dim>> q_f) {
+  return [q_f](std::size_t i) -> const Vec<Dim>& { return q_f[i]; };
+}
+
+}  // namespace
+
+template <int Dim>
+void P2GFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                  Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                                  Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
+  with_degree(splines->degree, [&](auto degree) {
+    scatter_mean<Dim, degree()>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
+                                [&](std::size_t p, const auto&, const auto&, const auto&) {
+                                  return ConstantAround<Dim>{v_p[p]};
+                                });
+  });
+}
+
+template <int Dim>
+void P2GFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                                   Read<particle::VelocityGradient<Dim>> grad_v_p, Write<face::Mass<Dim>> m_f,
+                                   Write<face::Velocity<Dim>> v_f) const {
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    scatter_mean<Dim, K>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
+                         [&](std::size_t p, const CellFrame<Dim>& frame, const Vec<Dim>& xi, const auto&) {
+                           return TaylorAround<Dim, K>(frame, xi, v_p[p], grad_v_p[p]);
+                         });
+  });
+}
+
+template <int Dim>
+void G2PFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                  Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p) const {
+  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(v_f.span()),
+                    [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
+}
+
+template <int Dim>
+G2PFacesFlip<Dim>::G2PFacesFlip(Input& input)
+    : blend(input.number("blend",
+                         {.doc = "share of FLIP, the rest is PIC", .fallback = 0.99, .at_least = 0, .at_most = 1})) {}
+
+template <int Dim>
+void G2PFacesFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                   Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
+                                   Update<particle::Velocity<Dim>> v_p) const {
+  const double alpha = blend;
+  const auto increment = [&](std::size_t i) -> Vec<Dim> { return v_new[i] - alpha * v_old[i]; };
+  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, increment,
+                    [&](std::size_t p, const Vec<Dim>& dv) { v_p[p] = alpha * v_p[p] + dv; });
+}
+
+template <int Dim>
+G2PFacesTpic<Dim>::G2PFacesTpic(Input& in)
+    : conserves_spin(in.choice("spin", std::vector<std::string>{"conserved", "gradient"},
+                               "rotation that particles carry: that of APIC, which keeps angular momentum (E71), or of "
+                               "the gradient (E18)",
+                               "conserved") == "conserved") {}
+
+template <int Dim>
+void G2PFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                   Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
+                                   Write<particle::VelocityGradient<Dim>> grad_v_p) const {
+  const FaceTarget<Dim> target{*grid, *splines, *cells, *sites, y_p.span()};
+  // With hats across, the derivatives across are those of APIC already.
+  if (conserves_spin && splines->degree > 2) {
+    gather_faces_with_affine<Dim>(target, of_faces<Dim>(v_f.span()),
+                                  [&](std::size_t p, const FaceJet<Dim>& v, const Mat<Dim>& c) {
+                                    const Mat<Dim> beyond = c - v.gradient;
+                                    v_p[p] = v.value;
+                                    grad_v_p[p] = v.gradient + 0.5 * (beyond - beyond.transpose());
+                                  });
+  } else {
+    gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f.span()), [&](std::size_t p, const FaceJet<Dim>& v) {
+      v_p[p] = v.value;
+      grad_v_p[p] = v.gradient;
+    });
+  }
+}
+
+template <int Dim>
+void G2PFacesApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                   Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
+                                   Write<particle::VelocityGradient<Dim>> c_p) const {
+  gather_faces_with_affine<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(v_f.span()),
+                                [&](std::size_t p, const FaceJet<Dim>& v, const Mat<Dim>& c) {
+                                  v_p[p] = v.value;
+                                  c_p[p] = c;
+                                });
+}
+
+template <int Dim>
+void P2GFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f, Write<face::Acceleration<Dim>> a_f) const {
+  with_degree(splines->degree, [&](auto degree) {
+    scatter_mean_of<Dim, degree()>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
+                                   [&](std::size_t p, const auto&, const auto&, const auto&) {
+                                     return ConstantAround<Dim>{a_p[p]};
+                                   });
+  });
+}
+
+template <int Dim>
+void P2GFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p, Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<face::Mass<Dim>> m_f, Write<face::Acceleration<Dim>> a_f) const {
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    scatter_mean_of<Dim, K>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
+                            [&](std::size_t p, const CellFrame<Dim>& frame, const Vec<Dim>& xi, const auto&) {
+                              return TaylorAround<Dim, K>(frame, xi, a_p[p], grad_a_p[p]);
+                            });
+  });
+}
+
+template <int Dim>
+void G2PFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p) const {
+  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(a_f.span()),
+                    [&](std::size_t p, const Vec<Dim>& a) { a_p[p] = a; });
+}
+
+template <int Dim>
+void G2PFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> grad_a_p) const {
+  gather_faces_with_gradient<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(a_f.span()),
+                                  [&](std::size_t p, const FaceJet<Dim>& a) {
+                                    a_p[p] = a.value;
+                                    grad_a_p[p] = a.gradient;
+                                  });
+}
+
+template <int Dim>
+void G2PFaceAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> c_p) const {
+  gather_faces_with_affine<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(a_f.span()),
+                                [&](std::size_t p, const FaceJet<Dim>& a, const Mat<Dim>& c) {
+                                  a_p[p] = a.value;
+                                  c_p[p] = c;
+                                });
+}
+
+template <int Dim>
+void AdvectByFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                    Read<face::Displacement<Dim>> u_f, Update<particle::Position<Dim>> x_p,
+                                    Update<Clamped> clamped) const {
+  std::atomic<std::int64_t> count = 0;
+  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(u_f.span()),
+                    [&](std::size_t p, const Vec<Dim>& u) {
+                      const Placed<Dim> placed = inside_box<Dim>(*grid, x_p[p] + u);
+                      x_p[p] = placed.x;
+                      if (placed.clamped) ++count;
+                    });
+  clamped->count += count;
+}
+
+template struct P2GFacesPic<2>;
+template struct P2GFacesPic<3>;
+template struct P2GFacesTpic<2>;
+template struct P2GFacesTpic<3>;
+template struct G2PFacesPic<2>;
+template struct G2PFacesPic<3>;
+template struct G2PFacesFlip<2>;
+template struct G2PFacesFlip<3>;
+template struct G2PFacesTpic<2>;
+template struct G2PFacesTpic<3>;
+template struct G2PFacesApic<2>;
+template struct G2PFacesApic<3>;
+template struct P2GFaceAccelerationPic<2>;
+template struct P2GFaceAccelerationPic<3>;
+template struct P2GFaceAccelerationTpic<2>;
+template struct P2GFaceAccelerationTpic<3>;
+template struct G2PFaceAccelerationPic<2>;
+template struct G2PFaceAccelerationPic<3>;
+template struct G2PFaceAccelerationTpic<2>;
+template struct G2PFaceAccelerationTpic<3>;
+template struct G2PFaceAccelerationApic<2>;
+template struct G2PFaceAccelerationApic<3>;
+template struct AdvectByFaces<2>;
+template struct AdvectByFaces<3>;
+
+}  // namespace minamo

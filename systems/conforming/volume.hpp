@@ -1,0 +1,99 @@
+#pragma once
+/// \file
+/// What keeps particles apart on the staggered grid: the shift of the volume projection, (E36) to (E38), and stirring,
+/// both limited by (E69).
+
+#include "components/cells.hpp"
+#include "components/fluid.hpp"
+#include "components/instant.hpp"
+#include "components/particle.hpp"
+#include "components/staggered.hpp"
+#include "components/step.hpp"
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+#include "systems/conforming/splines.hpp"
+
+namespace minamo {
+
+namespace particle {
+
+/// Displacement that corrects the volume around a particle. [m]
+template <int Dim>
+struct Shift : Column<Particles, Vec<Dim>> {
+  static constexpr ComponentInfo info{"particle.shift", "d_p", "m", Lifetime::scratch};
+};
+
+/// Displacement that takes a particle from where they lie close to where they do not. [m]
+template <int Dim>
+struct Stir : Column<Particles, Vec<Dim>> {
+  static constexpr ComponentInfo info{"particle.stir", "s_p", "m", Lifetime::scratch};
+};
+
+}  // namespace particle
+
+/// The grid on which stirring counts particles: as many parts per cell and direction as there are particles.
+struct StirGrid {
+  int parts = 2;
+  static constexpr ComponentInfo info{"stir.grid", "h/d", "1", Lifetime::constant};
+};
+
+/// How full the parts of every occupied cell are, parts^d of them, x fastest. [1]
+struct PartFill {
+  std::vector<double> fill;
+  std::vector<std::int32_t> cell_of_site;  ///< by row of the lowest site of the cell; -1: none
+  static constexpr ComponentInfo info{"stir.fill", "C", "1", Lifetime::scratch};
+};
+
+/// (E74)  C = sum_p S V_p/d^Dim on the parts of cells, S quadratic B-splines of spacing d.
+template <int Dim>
+struct FillParts {
+  static constexpr std::string_view doc = "(E74) fill fraction of the parts of cells";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                  Read<CellSites> sites, Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
+                  Write<PartFill> parts) const;
+};
+
+/// (E74)  s_p = -5 dt |D| d^2 grad C, D the rate of strain in the middle of the cell; only where all multipliers of the
+/// cell are more than 60 % full. A velocity without divergence at every point never mixes what it stretches: columns of
+/// particles stay columns, with gaps between them wider than h. Nothing at rest, and Galilean invariant.
+template <int Dim>
+struct StirParticles {
+  static constexpr std::string_view doc = "(E74) s_p, away from where particles lie close";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                  Read<CellSites> sites, Read<StirGrid> stir, Read<PartFill> parts,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                  Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Write<particle::Stir<Dim>> s_p) const;
+};
+
+/// (E38)  d_p = sum_f N_f d_f.
+template <int Dim>
+struct GatherFaceShift {
+  static constexpr std::string_view doc = "(E38) d_p";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Shift<Dim>> d_f,
+                  Write<particle::Shift<Dim>> d_p) const;
+};
+
+/// (E69) over all that moves particles without a velocity.
+template <int Dim>
+struct LimitParticleShift {
+  static constexpr std::string_view doc = "(E69) shifts lift no more than the step has lost";
+  void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+                  Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before, Read<particle::Mass> m_p,
+                  Read<particle::Velocity<Dim>> v_p, Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f,
+                  Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
+                  Update<particle::Stir<Dim>> s_p) const;
+};
+
+/// x_p += d_p + s_p, at most 0.1 h; the velocity follows what stirring moves, v_p += grad v s_p.
+template <int Dim>
+struct ApplyParticleShift {
+  static constexpr std::string_view doc = "(E38) x_p, moved by d_p and s_p";
+  void operator()(Read<Grid<Dim>> grid, Read<particle::Shift<Dim>> d_p, Read<particle::Stir<Dim>> s_p,
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Update<particle::Position<Dim>> x_p,
+                  Update<particle::Velocity<Dim>> v_p) const;
+};
+
+}  // namespace minamo
