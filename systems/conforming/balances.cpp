@@ -87,10 +87,9 @@ void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
                                    Read<face::Mass<Dim>> m_f, Read<face::Held> held,
                                    Write<face::BodyForce<Dim>> b_f) const {
   with_degree(splines->degree, [&](auto degree) {
-    scatter_mean_of<Dim, degree()>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), b_f.span(),
-                                   [&](std::size_t p, const auto&, const auto&, const auto&) {
-                                     return ConstantAround<Dim>{b_p[p]};
-                                   });
+    scatter_mean_of<Dim, degree()>(
+        {*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), b_f.span(),
+        [&](std::size_t p, const auto&, const auto&, const auto&) { return ConstantAround<Dim>{b_p[p]}; });
   });
   for_each_row(b_f.size(), [&](std::size_t i) { hold<Dim>(held[i], b_f[i]); });
 }
@@ -189,8 +188,7 @@ void FillFaceVolumeSource<Dim>::operator()(Read<VolumeRate> rate, Read<Splines<D
     return true;
   };
   const auto is_deep = [&](std::size_t i) {
-    return half_full(i) &&
-           all_around(i, [&](std::size_t j) { return half_full(j) && all_around(j, half_full); });
+    return half_full(i) && all_around(i, [&](std::size_t j) { return half_full(j) && all_around(j, half_full); });
   };
   for_each_row(source.size(), [&](std::size_t l) {
     const std::size_t i = of_unknown[l];
@@ -268,9 +266,8 @@ void CorrectFacesBackwardEuler<Dim>::operator()(Read<Clock> clock, Read<face::Ve
 template <int Dim>
 void G2PFaceForceGradient<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                            Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
-                                           Read<particle::QuadraturePosition<Dim>> y_p,
-                                           Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
-                                           Read<face::InertiaCorrection<Dim>> c_f,
+                                           Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_old,
+                                           Read<face::NewVelocity<Dim>> v_new, Read<face::InertiaCorrection<Dim>> c_f,
                                            Write<particle::ForceGradient<Dim>> grad_f_p, Write<ForceStep> step) const {
   step->seconds = clock->step;
   const double per_step = 1 / clock->step;

@@ -58,8 +58,8 @@ struct PredictFacesNewmark {
 template <int Dim>
 struct UniformFaceForce {
   static constexpr std::string_view doc = "(E14) b_f, uniform";
-  void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
-                  Read<face::Held> held, Write<face::BodyForce<Dim>> b_f) const;
+  void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode, Read<face::Held> held,
+                  Write<face::BodyForce<Dim>> b_f) const;
 };
 
 /// (E14)  b_f = sum_p N_f m_p b_p / m_f.
@@ -88,10 +88,10 @@ struct AddFaceInertia {
 template <int Dim>
 struct FillFaceSource {
   static constexpr std::string_view doc = "B v*, source of the balances";
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-                  Read<face::BodyForce<Dim>> b_f, Read<unknown::Staggered> of_unknown,
-                  Update<face::Predictor<Dim>> predictor, Write<unknown::Source> source) const;
+  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
+                  Read<unknown::Staggered> of_unknown, Update<face::Predictor<Dim>> predictor,
+                  Write<unknown::Source> source) const;
 };
 
 /// (E63) on the staggered grid: a share kappa of the divergence of v^n beyond that of a velocity without divergence in
@@ -118,10 +118,9 @@ struct FillFaceVolumeSource {
 template <int Dim>
 struct ProjectFaces {
   static constexpr std::string_view doc = "v_f, w_f, d_f and lambda_l from the solutions";
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Mobility<Dim>> mobility, Read<face::Predictor<Dim>> predictor,
-                  Read<multiplier::Row> row, Read<unknown::Solution> solution,
+  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
+                  Read<face::Predictor<Dim>> predictor, Read<multiplier::Row> row, Read<unknown::Solution> solution,
                   Write<face::BalanceVelocity<Dim>> v_f, Write<face::Damping<Dim>> damping,
                   Write<face::Shift<Dim>> shift, Write<multiplier::Force> lambda) const;
 };
@@ -158,10 +157,9 @@ template <int Dim>
 struct G2PFaceForceGradient {
   static constexpr std::string_view doc = "(E54) grad f_p";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
-                  Read<face::InertiaCorrection<Dim>> c_f, Write<particle::ForceGradient<Dim>> grad_f_p,
-                  Write<ForceStep> step) const;
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_old,
+                  Read<face::NewVelocity<Dim>> v_new, Read<face::InertiaCorrection<Dim>> c_f,
+                  Write<particle::ForceGradient<Dim>> grad_f_p, Write<ForceStep> step) const;
 };
 
 }  // namespace minamo

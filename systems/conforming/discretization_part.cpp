@@ -24,11 +24,11 @@ Contribution read_equal_order(Input&, Scene& scene) {
 
 Contribution read_conforming(Input& input, Scene& scene) {
   Discretization discretization{.name = "conforming", .is_conforming = true};
-  discretization.degree = static_cast<int>(
-      input.integer("degree", {.doc = "of the velocity along itself; across itself it has one less",
-                               .fallback = discretization.degree,
-                               .at_least = least_degree,
-                               .at_most = largest_degree}));
+  discretization.degree =
+      static_cast<int>(input.integer("degree", {.doc = "of the velocity along itself; across itself it has one less",
+                                                .fallback = discretization.degree,
+                                                .at_least = least_degree,
+                                                .at_most = largest_degree}));
   scene.facts.set(discretization);
   return {};
 }

@@ -3,7 +3,6 @@
 #include "systems/conforming/incidence.hpp"
 #include "systems/conforming/support.hpp"
 #include "systems/grid/liquid_cells.hpp"
-#include "systems/transfer/carry_gradient.hpp"
 
 #include <cmath>
 
@@ -20,12 +19,16 @@ constexpr double least_mass = 1e-8;
 constexpr double filled_from = 0.9;
 constexpr double filled_to = 0.97;
 
+/// |dt/2 grad v| up to which the second term of (E63) counts in full, and from which on not at all.
+constexpr double resolved_to = 0.1;
+constexpr double unresolved_from = 0.2;
+
 double clamped_ramp(double from, double to, double x) { return std::clamp((x - from) / (to - from), 0.0, 1.0); }
 
 /// dt/2 w f tr(grad v grad v), the divergence that a velocity without divergence now has half a step on, (E63).
 template <int Dim>
 double divergence_ahead(double half_step, double liquid, const Mat<Dim>& gradient) {
-  const double resolved = resolved_share(half_step * gradient.norm());
+  const double resolved = 1 - clamped_ramp(resolved_to, unresolved_from, half_step * gradient.norm());
   return resolved == 0 ? 0 : liquid * resolved * half_step * (gradient * gradient).trace();
 }
 
@@ -116,17 +119,15 @@ template <int Dim>
 void FindMobility<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                    Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
                                    Write<face::Mobility<Dim>> mobility) const {
-  invert_masses<Dim>(
-      fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
-      [&](std::size_t i, std::size_t d, double) { return m_f[i][static_cast<Eigen::Index>(d)]; });
+  invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
+                     [&](std::size_t i, std::size_t d, double) { return m_f[i][static_cast<Eigen::Index>(d)]; });
 }
 
 template <int Dim>
 void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                         Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                                        Read<multiplier::FillFraction> phi,
-                                        Write<face::Mobility<Dim>> mobility) const {
+                                        Read<multiplier::FillFraction> phi, Write<face::Mobility<Dim>> mobility) const {
   // The least fill fraction of a multiplier and its neighbours; beyond walls there are none.
   const auto least_around = [&](std::size_t i) {
     double least = phi[i];
@@ -144,7 +145,8 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
     double fill = splines->has_multiplier(site[i]) ? least_around(i) : 1;
     const std::int32_t below = neighbour[i][2 * d];
     const bool at_low_wall = !splines->axis[d].periodic() && site[i][d] == 0;
-    if (!at_low_wall) fill = below == staggered::none ? 0 : std::min(fill, least_around(static_cast<std::size_t>(below)));
+    if (!at_low_wall)
+      fill = below == staggered::none ? 0 : std::min(fill, least_around(static_cast<std::size_t>(below)));
     return fill;
   };
   invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
@@ -155,13 +157,15 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
 }
 
 template <int Dim>
-void AssembleMultipliers<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
-    Resize<Unknowns> unknowns, Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
-    Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
-    Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
-    Write<unknown::NullVector> null_vector) const {
+void AssembleMultipliers<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                          Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                          Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
+                                          Resize<Unknowns> unknowns, Write<multiplier::Row> row,
+                                          Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+                                          Write<unknown::Neighbour<Dim>> unknown_neighbour,
+                                          Write<unknown::Conductance<Dim>> conductance,
+                                          Write<unknown::Diagonal> diagonal,
+                                          Write<unknown::NullVector> null_vector) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const auto moves = [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {

@@ -43,19 +43,17 @@ struct FindLiquidCellsByMultipliers {
 template <int Dim>
 struct FindMobility {
   static constexpr std::string_view doc = "1/m_f, by particles";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                  Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                  Write<face::Mobility<Dim>> mobility) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
+                  Read<face::Held> held, Read<face::Mass<Dim>> m_f, Write<face::Mobility<Dim>> mobility) const;
 };
 
 /// (E68)  1/m_f with the mass of a full grid where the liquid fills it.
 template <int Dim>
 struct FindMobilityMixed {
   static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-                  Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
-                  Write<face::Mobility<Dim>> mobility) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
+                  Read<multiplier::FillFraction> phi, Write<face::Mobility<Dim>> mobility) const;
 };
 
 /// The active multipliers and the matrix S = B m^-1 B^T between them.

@@ -32,9 +32,8 @@ template <int Dim, int K>
   for_each_direction<Dim>([&](auto d) {
     constexpr int D = d();
     double sum = 0;
-    for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
-      sum += weights.template face<D>(offset) * q[D][k];
-    });
+    for_each_face<Dim, K, D>(
+        [&](std::size_t k, const Index<Dim>& offset) { sum += weights.template face<D>(offset) * q[D][k]; });
     value[D] = sum;
   });
   return value;
@@ -98,9 +97,8 @@ struct FaceJet {
 };
 
 template <int Dim, int K>
-[[gnu::always_inline]] inline FaceJet<Dim> jet_at(const FaceCoefficients<Dim, K>& q,
-                                                  const SplineWeights<Dim, K>& weights,
-                                                  const SplineSlopes<Dim, K>& slopes) {
+[[gnu::always_inline]] inline FaceJet<Dim>
+jet_at(const FaceCoefficients<Dim, K>& q, const SplineWeights<Dim, K>& weights, const SplineSlopes<Dim, K>& slopes) {
   FaceJet<Dim> jet;
   for_each_direction<Dim>([&](auto d) {
     constexpr int D = d();

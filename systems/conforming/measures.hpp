@@ -10,8 +10,8 @@
 
 namespace minamo {
 
-/// (E31) on the staggered grid: max_l |(B v)_l|, v the velocity in the mass balance. The divergence of v at any point is
-/// a mean of the (B v)_l around it.
+/// (E31) on the staggered grid: max_l |(B v)_l|, v the velocity in the mass balance. The divergence of v at any point
+/// is a mean of the (B v)_l around it.
 template <int Dim>
 struct MeasureFaceDivergence {
   static constexpr std::string_view doc = "(E31) largest divergence";

@@ -35,7 +35,8 @@ class PressureMass {
     for (const Run& run : runs_) {
       for (std::size_t k = 0; k < local; ++k) {
         double of_run = run.exact * exact_entry(run, k, k);
-        for (std::size_t p = run.begin; p < run.end; ++p) of_run += (1 - run.exact) * V_p_[p] * weights_[p][k] * weights_[p][k];
+        for (std::size_t p = run.begin; p < run.end; ++p)
+          of_run += (1 - run.exact) * V_p_[p] * weights_[p][k] * weights_[p][k];
         sum[run.rows[k]] += of_run;
       }
     }

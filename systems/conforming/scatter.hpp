@@ -61,8 +61,7 @@ void divide_by_mass(std::span<const Vec<Dim>> m_f, std::span<Vec<Dim>> q_f) {
 /// m_f = sum_p N_f m_p and q_f = sum_p N_f m_p q_pf / m_f. value(p, frame, xi, weights) tells of a particle what it
 /// brings: an object whose at<D>(offset) is q_pf for a face of direction D.
 template <int Dim, int K, class Value>
-void scatter_mean(const FaceSource<Dim>& source, std::span<Vec<Dim>> m_f, std::span<Vec<Dim>> q_f,
-                  const Value& value) {
+void scatter_mean(const FaceSource<Dim>& source, std::span<Vec<Dim>> m_f, std::span<Vec<Dim>> q_f, const Value& value) {
   scatter_sums<Dim, K, 2>(source, {m_f, q_f},
                           [&](std::size_t p, const CellFrame<Dim>& frame, const Vec<Dim>& xi,
                               const SplineWeights<Dim, K>& weights, auto& sums) {

@@ -25,10 +25,9 @@ void P2GFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splin
                                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                                   Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
   with_degree(splines->degree, [&](auto degree) {
-    scatter_mean<Dim, degree()>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
-                                [&](std::size_t p, const auto&, const auto&, const auto&) {
-                                  return ConstantAround<Dim>{v_p[p]};
-                                });
+    scatter_mean<Dim, degree()>(
+        {*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
+        [&](std::size_t p, const auto&, const auto&, const auto&) { return ConstantAround<Dim>{v_p[p]}; });
   });
 }
 
@@ -113,17 +112,25 @@ void G2PFacesApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
 }
 
 template <int Dim>
-void P2GFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f, Write<face::Acceleration<Dim>> a_f) const {
+void P2GFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                             Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                             Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+                                             Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f,
+                                             Write<face::Acceleration<Dim>> a_f) const {
   with_degree(splines->degree, [&](auto degree) {
-    scatter_mean_of<Dim, degree()>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
-                                   [&](std::size_t p, const auto&, const auto&, const auto&) {
-                                     return ConstantAround<Dim>{a_p[p]};
-                                   });
+    scatter_mean_of<Dim, degree()>(
+        {*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
+        [&](std::size_t p, const auto&, const auto&, const auto&) { return ConstantAround<Dim>{a_p[p]}; });
   });
 }
 
 template <int Dim>
-void P2GFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p, Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<face::Mass<Dim>> m_f, Write<face::Acceleration<Dim>> a_f) const {
+void P2GFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                              Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                              Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+                                              Read<particle::Acceleration<Dim>> a_p,
+                                              Read<particle::AccelerationGradient<Dim>> grad_a_p,
+                                              Read<face::Mass<Dim>> m_f, Write<face::Acceleration<Dim>> a_f) const {
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     scatter_mean_of<Dim, K>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
@@ -134,13 +141,22 @@ void P2GFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
 }
 
 template <int Dim>
-void G2PFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p) const {
+void G2PFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                             Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                             Read<particle::QuadraturePosition<Dim>> y_p,
+                                             Read<face::NewAcceleration<Dim>> a_f,
+                                             Write<particle::Acceleration<Dim>> a_p) const {
   gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(a_f.span()),
                     [&](std::size_t p, const Vec<Dim>& a) { a_p[p] = a; });
 }
 
 template <int Dim>
-void G2PFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> grad_a_p) const {
+void G2PFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                              Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                              Read<particle::QuadraturePosition<Dim>> y_p,
+                                              Read<face::NewAcceleration<Dim>> a_f,
+                                              Write<particle::Acceleration<Dim>> a_p,
+                                              Write<particle::AccelerationGradient<Dim>> grad_a_p) const {
   gather_faces_with_gradient<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(a_f.span()),
                                   [&](std::size_t p, const FaceJet<Dim>& a) {
                                     a_p[p] = a.value;
@@ -149,7 +165,12 @@ void G2PFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
 }
 
 template <int Dim>
-void G2PFaceAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> c_p) const {
+void G2PFaceAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                              Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                              Read<particle::QuadraturePosition<Dim>> y_p,
+                                              Read<face::NewAcceleration<Dim>> a_f,
+                                              Write<particle::Acceleration<Dim>> a_p,
+                                              Write<particle::AccelerationGradient<Dim>> c_p) const {
   gather_faces_with_affine<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(a_f.span()),
                                 [&](std::size_t p, const FaceJet<Dim>& a, const Mat<Dim>& c) {
                                   a_p[p] = a.value;

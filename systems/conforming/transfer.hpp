@@ -19,8 +19,7 @@ struct P2GFacesPic {
   static constexpr std::string_view doc = "(E3) (E4) m_f and v_f^n, PIC";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Velocity<Dim>> v_p, Write<face::Mass<Dim>> m_f,
-                  Write<face::Velocity<Dim>> v_f) const;
+                  Read<particle::Velocity<Dim>> v_p, Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const;
 };
 
 /// (E3), (E5) on faces, with the gradient that particles carry.
@@ -38,8 +37,8 @@ template <int Dim>
 struct G2PFacesPic {
   static constexpr std::string_view doc = "(E17) v_p, PIC";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p) const;
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+                  Write<particle::Velocity<Dim>> v_p) const;
 };
 
 /// (E16) on faces.
@@ -64,9 +63,8 @@ struct G2PFacesTpic {
   G2PFacesTpic() = default;
   explicit G2PFacesTpic(Input& input);
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
-                  Write<particle::VelocityGradient<Dim>> grad_v_p) const;
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+                  Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 
 /// (E17), (E45) on faces.
@@ -74,9 +72,8 @@ template <int Dim>
 struct G2PFacesApic {
   static constexpr std::string_view doc = "(E17) (E45) v_p and C_p, APIC";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
-                  Write<particle::VelocityGradient<Dim>> c_p) const;
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+                  Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> c_p) const;
 };
 
 /// (E4) on faces for the acceleration.
@@ -133,9 +130,8 @@ template <int Dim>
 struct AdvectByFaces {
   static constexpr std::string_view doc = "(E11) x_p; clamped at walls, counted";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::Displacement<Dim>> u_f, Update<particle::Position<Dim>> x_p,
-                  Update<Clamped> clamped) const;
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Displacement<Dim>> u_f,
+                  Update<particle::Position<Dim>> x_p, Update<Clamped> clamped) const;
 };
 
 }  // namespace minamo

@@ -75,9 +75,8 @@ void for_each_part(const CellsAround<Dim>& around, int parts,
 }
 
 template <int Dim>
-std::array<PartWeights, static_cast<std::size_t>(Dim)> part_weights(const Splines<Dim>& splines,
-                                                                    const Index<Dim>& cell, const Vec<Dim>& xi,
-                                                                    int parts) {
+std::array<PartWeights, static_cast<std::size_t>(Dim)> part_weights(const Splines<Dim>& splines, const Index<Dim>& cell,
+                                                                    const Vec<Dim>& xi, int parts) {
   const auto along = [&](std::size_t d) {
     const SplineAxis& axis = splines.axis[d];
     const bool has_walls = !axis.periodic();
@@ -95,14 +94,14 @@ std::array<PartWeights, static_cast<std::size_t>(Dim)> part_weights(const Spline
 
 template <int Dim>
 void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                                Read<CellSites> sites, Read<StirGrid> stir,
-                                Read<staggered::Neighbour<Dim>> neighbour,
+                                Read<CellSites> sites, Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
                                 Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                                 Write<PartFill> parts) const {
   const auto per_cell = static_cast<std::size_t>(std::pow(stir->parts, Dim));
   parts->fill.assign(cells->cells.size() * per_cell, 0);
   parts->cell_of_site.assign(neighbour.size(), -1);
-  for (std::size_t c = 0; c < cells->cells.size(); ++c) parts->cell_of_site[sites->of(c)[0]] = static_cast<std::int32_t>(c);
+  for (std::size_t c = 0; c < cells->cells.size(); ++c)
+    parts->cell_of_site[sites->of(c)[0]] = static_cast<std::int32_t>(c);
   const double per_volume = std::pow(stir->parts / grid->spacing, Dim);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const CellFrame<Dim> frame(*grid, *splines, cell.node);
@@ -123,8 +122,7 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
                                     Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<StirGrid> stir,
                                     Read<PartFill> parts, Read<staggered::Neighbour<Dim>> neighbour,
                                     Read<multiplier::FillFraction> phi, Read<face::NewVelocity<Dim>> v_f,
-                                    Read<particle::QuadraturePosition<Dim>> y_p,
-                                    Write<particle::Stir<Dim>> s_p) const {
+                                    Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::Stir<Dim>> s_p) const {
   const double spacing = grid->spacing / stir->parts;
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
@@ -166,9 +164,9 @@ template <int Dim>
 void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
                                       Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<face::Shift<Dim>> d_f, Write<particle::Shift<Dim>> d_p) const {
-  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()},
-                    [&](std::size_t i) -> const Vec<Dim>& { return d_f[i]; },
-                    [&](std::size_t p, const Vec<Dim>& d) { d_p[p] = d; });
+  gather_faces<Dim>(
+      {*grid, *splines, *cells, *sites, y_p.span()}, [&](std::size_t i) -> const Vec<Dim>& { return d_f[i]; },
+      [&](std::size_t p, const Vec<Dim>& d) { d_p[p] = d; });
 }
 
 template <int Dim>
@@ -184,8 +182,8 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
     everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
   }
   const double lifted = -reduce_rows(
-      m_p.size(), 0.0,
-      [&](std::size_t p) { return m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); }, std::plus<>());
+      m_p.size(), 0.0, [&](std::size_t p) { return m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); },
+      std::plus<>());
   if (lifted <= 0) return;
   const double work = reduce_rows(
       u_f.size(), 0.0, [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); }, std::plus<>());
@@ -200,15 +198,8 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
 
 template <int Dim>
 void ApplyParticleShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Shift<Dim>> d_p,
-                                         Read<particle::Stir<Dim>> s_p,
-                                         Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                                         Update<particle::Position<Dim>> x_p,
-                                         Update<particle::Velocity<Dim>> v_p) const {
-  const auto gradient = grad_v_p.span();
-  for_each_row(x_p.size(), [&](std::size_t p) {
-    x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(d_p[p] + s_p[p]));
-    if (!gradient.empty()) v_p[p] += gradient[p] * s_p[p];
-  });
+                                         Read<particle::Stir<Dim>> s_p, Update<particle::Position<Dim>> x_p) const {
+  for_each_row(x_p.size(), [&](std::size_t p) { x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(d_p[p] + s_p[p])); });
 }
 
 template struct FillParts<2>;

@@ -50,8 +50,7 @@ struct FillParts {
   static constexpr std::string_view doc = "(E74) fill fraction of the parts of cells";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
                   Read<CellSites> sites, Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
-                  Write<PartFill> parts) const;
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p, Write<PartFill> parts) const;
 };
 
 /// (E74)  s_p = -5 dt |D| d^2 grad C, D the rate of strain in the middle of the cell; only where all multipliers of the
@@ -87,13 +86,12 @@ struct LimitParticleShift {
                   Update<particle::Stir<Dim>> s_p) const;
 };
 
-/// x_p += d_p + s_p, at most 0.1 h; the velocity follows what stirring moves, v_p += grad v s_p.
+/// x_p += d_p + s_p, at most 0.1 h. Velocities do not change: with grad v s_p the energy would rise.
 template <int Dim>
 struct ApplyParticleShift {
   static constexpr std::string_view doc = "(E38) x_p, moved by d_p and s_p";
   void operator()(Read<Grid<Dim>> grid, Read<particle::Shift<Dim>> d_p, Read<particle::Stir<Dim>> s_p,
-                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Update<particle::Position<Dim>> x_p,
-                  Update<particle::Velocity<Dim>> v_p) const;
+                  Update<particle::Position<Dim>> x_p) const;
 };
 
 }  // namespace minamo

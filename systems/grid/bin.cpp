@@ -73,9 +73,7 @@ class Blocks {
   /// Place along an axis of the block of a cell.
   int along(std::size_t axis, const Index<Dim>& cell) const { return std::min(cell[axis] / width, blocks_[axis] - 1); }
   /// Cells of the blocks at place b of an axis.
-  int extent(std::size_t axis, int b) const {
-    return b + 1 < blocks_[axis] ? width : cells_[axis] - b * width;
-  }
+  int extent(std::size_t axis, int b) const { return b + 1 < blocks_[axis] ? width : cells_[axis] - b * width; }
   Index<Dim> place(std::uint32_t block) const {
     Index<Dim> place;
     for (std::size_t d = 0; d < Dim; ++d) {

@@ -3,8 +3,8 @@
 #include "components/exact.hpp"
 #include "systems/measure/error.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
 #include "systems/setup/discretization.hpp"
+#include "systems/setup/scene.hpp"
 #include "systems/setup/scene_checks.hpp"
 #include "systems/setup/seed_text.hpp"
 

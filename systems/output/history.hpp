@@ -60,8 +60,8 @@ struct WriteHistory {
   static constexpr std::string_view doc = "a row of history.csv";
   void operator()(Read<Clock> clock, Read<measure::Energy> energy, Read<measure::Momentum<Dim>> momentum,
                   Read<measure::MaxSpeed> speed, Read<measure::MaxDivergence> divergence,
-                  Read<measure::Overlap> overlap, Read<SolveReport> solve,
-                  Read<measure::Columns> further, Update<RunTotals> totals, Update<HistoryFile> history) const;
+                  Read<measure::Overlap> overlap, Read<SolveReport> solve, Read<measure::Columns> further,
+                  Update<RunTotals> totals, Update<HistoryFile> history) const;
 };
 
 }  // namespace minamo

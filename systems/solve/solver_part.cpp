@@ -1,7 +1,7 @@
 #include "components/step.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/memory.hpp"
 #include "systems/setup/discretization.hpp"
+#include "systems/setup/memory.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/setup/time_plan.hpp"
 #include "systems/solve/block.hpp"

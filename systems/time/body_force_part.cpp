@@ -28,7 +28,8 @@ Contribution read_body_force(Input& input, Scene& scene) {
     if (force.is_uniform()) {
       add_systems(here, recipe, "forces", {{"uniform_body_force"}, {"uniform_face_force"}});
     } else {
-      add_systems(here, recipe, "forces", {{"sample_body_force", "p2g_body_force"}, {"sample_body_force", "p2g_face_force"}});
+      add_systems(here, recipe, "forces",
+                  {{"sample_body_force", "p2g_body_force"}, {"sample_body_force", "p2g_face_force"}});
     }
     add_systems(here, recipe, "ballistic", {{"move_ballistic_nodes"}, {}});
     recipe.constant(force);

@@ -44,7 +44,8 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
   };
   const bool conforming = is_conforming(scene);
   if (conforming && scheme.p2g_faces.empty()) {
-    input.problem("scheme", "not with the conforming discretization", "a scheme with systems for faces", shown(Json(scheme.name)));
+    input.problem("scheme", "not with the conforming discretization", "a scheme with systems for faces",
+                  shown(Json(scheme.name)));
   }
   const auto p2g = make(conforming ? scheme.p2g_faces : scheme.p2g_velocity);
   const auto g2p = make(conforming ? scheme.g2p_faces : scheme.g2p_velocity);
