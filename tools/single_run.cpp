@@ -126,9 +126,11 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
   World world;
   seed(scene, plan.scene, world);
   Pipeline pipeline = make_pipeline(scene);
-  Schedule start(std::move(pipeline.start), world);
-  Schedule step(std::move(pipeline.step), world, &profiler);
-  Schedule frame(std::move(pipeline.output), world, &profiler);
+  // One thread has nobody to share a graph with.
+  const Execution execution = plan.threads == 1 ? Execution::list : Execution::graph;
+  Schedule start(std::move(pipeline.start), world, nullptr, execution);
+  Schedule step(std::move(pipeline.step), world, &profiler, execution);
+  Schedule frame(std::move(pipeline.output), world, &profiler, execution);
   TimePlan times = make_time_plan(scene);
   times.max_steps = plan.steps;
   RunResult result;
