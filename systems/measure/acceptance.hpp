@@ -3,18 +3,27 @@
 /// Whether a step can be trusted. That the solve has converged is the solver's own business; here is what came of it.
 
 #include "components/grid.hpp"
+#include "components/matrix.hpp"
 #include "components/measure.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
-#include "systems/output/history.hpp"
 
 namespace minamo {
 
+/// Of all accepted steps.
+struct StepTotals {
+  double overlap = 0;  ///< after the last [1]
+  double overlap_max = 0;
+  std::int64_t active_nodes_max = 0;
+  std::int64_t unknowns_max = 0;
+  static constexpr ComponentInfo info{"step.totals", "", "", Lifetime::state};
+};
+
 /// (E58)  Accepts a step if |r| <= 1e-6 |b| (or the solver's tolerance, where that is more), all u_I are finite and
-/// those of nodes above the mass threshold (E7) at most LargestMove, energy and momenta are finite, and the overlap
+/// those of nodes above the mass threshold (E7) at most LargestMove, what particles carry is finite, and the overlap
 /// (E32) has not grown by more than a fifth of the liquid.
 template <int Dim>
 struct AcceptStep {
@@ -23,8 +32,16 @@ struct AcceptStep {
   void operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance,
                   Read<SolveReport> solve, Read<node::Site<Dim>> site, Read<node::Mass> m_i,
                   Read<node::Displacement<Dim>> u_i, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<measure::Energy> energy,
-                  Read<measure::Momentum<Dim>> momentum, Read<measure::Overlap> overlap, Read<RunTotals> so_far) const;
+                  Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                  Read<measure::Overlap> overlap, Read<StepTotals> so_far) const;
+};
+
+/// The start counts.
+template <int Dim>
+struct NoteStep {
+  static constexpr std::string_view doc = "what counts of every step, whether or not the history has a row of it";
+  void operator()(Read<measure::Overlap> overlap, Read<matrix::Node> active, Read<SolveReport> solve,
+                  Update<StepTotals> totals) const;
 };
 
 }  // namespace minamo

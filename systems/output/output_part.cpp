@@ -20,16 +20,22 @@ OutputScene read_times(Input& input, double end) {
   output.checkpoint = input.optional_number(
       "checkpoint",
       {.unit = "s", .doc = "simulated time between checkpoints; by default at start and end alone", .above = 0});
+  output.history = input.integer(
+      "history",
+      {.doc = "steps from one row of history.csv to the next; the last has one, too", .fallback = 1, .at_least = 1});
   return output;
 }
 
 Contribution read_output(Input& input, Scene& scene) {
   input.object("output", "what is written when", Input::Presence::optional,
                [&](Input& in) { scene.output = read_times(in, scene.time.end); });
-  return [](const Scene&, Recipe& recipe) {
-    recipe.add("record", "accept_step", When::step);
+  return [](const Scene& of, Recipe& recipe) {
+    recipe.add("accept", "accept_step", When::step);
+    recipe.add("accept", "note_step");
     recipe.add("record", "write_history");
-    for (const char* system : {"sample_pressure", "write_frame", "write_xdmf"}) recipe.add_output(system);
+    recipe.constant(HistoryInterval{of.output.history});
+    for (const char* system : {"flush_history", "sample_pressure", "write_frame", "write_xdmf"})
+      recipe.add_output(system);
   };
 }
 
@@ -37,7 +43,9 @@ Contribution read_output(Input& input, Scene& scene) {
 
 void add_output(SystemRegistry& registry) {
   registry.add<AcceptStep>("accept_step");
+  registry.add<NoteStep>("note_step");
   registry.add<WriteHistory>("write_history");
+  registry.add<FlushHistory>("flush_history");
   registry.add<SamplePressure>("sample_pressure");
   registry.add<WriteFrame>("write_frame");
   registry.add<WriteXdmf>("write_xdmf");
