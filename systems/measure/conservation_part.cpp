@@ -11,18 +11,18 @@ void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureMaxSpeed>("measure_max_speed");
   registry.add<MeasureDivergence>("measure_divergence");
   registry.add<MeasureOverlap>("measure_overlap");
-  registry.add(Part{"conservation", "energy, momentum, divergence and overlap in the history; no key",
-                    [](Input&, Scene&) {
-                      return [](const Scene& of, Recipe& recipe) {
-                        add_systems(of, recipe, "accept",
-                                    {{"gather_node_volume", "find_advected_capacity", "measure_overlap"},
-                                     {"measure_multiplier_overlap"}});
-                        for (const char* system : {"measure_energy", "measure_momentum", "measure_max_speed"}) {
-                          recipe.add("measure", system);
-                        }
-                        add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});
-                      };
-                    }});
+  registry.add(
+      Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
+             return [](const Scene& of, Recipe& recipe) {
+               add_systems(of, recipe, "accept",
+                           {{"gather_node_volume", "find_advected_capacity", "measure_overlap"},
+                            {"measure_multiplier_overlap"}});
+               for (const char* system : {"measure_energy", "measure_momentum", "measure_max_speed"}) {
+                 recipe.add("measure", system);
+               }
+               add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});
+             };
+           }});
 }
 
 }  // namespace minamo

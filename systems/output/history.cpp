@@ -91,9 +91,8 @@ template <int Dim>
 void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> energy,
                                    Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
                                    Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap,
-                                   Read<SolveReport> solve, Read<measure::Columns> further,
-                                   Read<HistoryInterval> every, Update<RunTotals> totals,
-                                   Update<HistoryFile> history) const {
+                                   Read<SolveReport> solve, Read<measure::Columns> further, Read<HistoryInterval> every,
+                                   Update<RunTotals> totals, Update<HistoryFile> history) const {
   // The row of the start has no step behind it.
   const bool is_start = totals->rows == 0;
   const std::int64_t step = is_start ? 0 : clock->index + 1;

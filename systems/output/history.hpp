@@ -72,9 +72,8 @@ struct WriteHistory {
   static constexpr std::string_view doc = "a row of history.csv";
   void operator()(Read<Clock> clock, Read<measure::Energy> energy, Read<measure::Momentum<Dim>> momentum,
                   Read<measure::MaxSpeed> speed, Read<measure::MaxDivergence> divergence,
-                  Read<measure::Overlap> overlap, Read<SolveReport> solve,
-                  Read<measure::Columns> further, Read<HistoryInterval> every, Update<RunTotals> totals,
-                  Update<HistoryFile> history) const;
+                  Read<measure::Overlap> overlap, Read<SolveReport> solve, Read<measure::Columns> further,
+                  Read<HistoryInterval> every, Update<RunTotals> totals, Update<HistoryFile> history) const;
 };
 
 /// So that the rows on the disk reach as far as the frames.
