@@ -160,6 +160,11 @@ struct Row : Column<Staggered, std::int32_t> {
   static constexpr ComponentInfo info{"multiplier.row", "", "1", Lifetime::scratch};
 };
 
+/// Pressure p_l, whose values are sum_l N_l p_l; recovered where something reads it. [Pa]
+struct Pressure : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.pressure", "p_l", "Pa", Lifetime::scratch};
+};
+
 /// The multiplier lambda_l = sum_k M_lk p_k of the momentum balance; zero where not active. [Pa m^3; Pa m^2 in 2-D]
 struct Force : Column<Staggered, double> {
   // State, because output recovers the pressure from it after the step.

@@ -66,6 +66,16 @@ Contribution read_stabilization(const Stabilization& stabilization, Input& input
   return is_conforming(scene) ? Contribution{} : stabilization.read(input, scene);
 }
 
+/// Whoever names one for a discretization without pressure modes to stabilize is told.
+Contribution read_key(const Part& part, Input& input, Scene& scene) {
+  if (is_conforming(scene) && !input.describing()) {
+    if (!input.has("stabilization")) return {};  // nor in the scene as run
+    input.problem("stabilization", "not with the conforming discretization, which is stable without one",
+                  R"(no key "stabilization", or "discretization": {"scheme": "equal_order"})");
+  }
+  return part.read(input, scene);
+}
+
 }  // namespace
 
 void add_stabilization(SystemRegistry& registry) {
@@ -80,7 +90,9 @@ void add_stabilization(SystemRegistry& registry) {
   registry.add(Stabilization{{"oss", "orthogonal subscales: what the projected pressure gradient leaves", read_oss}});
   registry.add(Stabilization{{"pspg", "residual of the momentum balance, one parameter tau", read_pspg}});
   registry.add(Stabilization{{"vms", "variational multiscale, parameters per cell, with a bulk viscosity", read_vms}});
-  registry.add(choice<Stabilization>("stabilization", "pressure stabilization", "pspg", read_stabilization));
+  Part part = choice<Stabilization>("stabilization", "pressure stabilization", "pspg", read_stabilization);
+  part.read = [inner = part](Input& input, Scene& scene) { return read_key(inner, input, scene); };
+  registry.add(part);
 }
 
 }  // namespace minamo

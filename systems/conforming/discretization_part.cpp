@@ -83,6 +83,8 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<ApplyParticleShift>("apply_particle_shift");
   registry.add<MeasureFaceDivergence>("measure_face_divergence");
   registry.add<MeasureMultiplierOverlap>("measure_multiplier_overlap");
+  registry.add<MeasureProbesOnFaces>("measure_probes_on_faces");
+  registry.add<MeasureProbesOnFacesAtStart>("measure_probes_on_faces_at_start");
   registry.add<RecoverPressure>("recover_pressure");
   registry.add(DiscretizationScheme{
       {"conforming", "splines free of divergence at every point, velocities on faces", read_conforming}});

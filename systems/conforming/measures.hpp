@@ -28,4 +28,19 @@ struct MeasureMultiplierOverlap {
                   Write<measure::Overlap> overlap) const;
 };
 
+/// (E43), (E44) on the staggered grid: p_s = sum_l N_l p_l, and of every component sum_f N_f v_f / sum_f N_f over the
+/// faces with mass. Zero where the probe is dry.
+template <int Dim, class Velocity>
+struct MeasureProbesOnFacesIn {
+  static constexpr std::string_view doc = "(E43), (E44) pressure and velocity at the probes";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
+                  Read<measure::Probes<Dim>> probes, Read<face::Mass<Dim>> m_f, Read<multiplier::Pressure> p_l,
+                  Read<Velocity> v_f, Update<measure::Columns> columns) const;
+};
+template <int Dim>
+using MeasureProbesOnFaces = MeasureProbesOnFacesIn<Dim, face::NewVelocity<Dim>>;
+/// Before the first step the velocity is the one that the particles start with.
+template <int Dim>
+using MeasureProbesOnFacesAtStart = MeasureProbesOnFacesIn<Dim, face::Velocity<Dim>>;
+
 }  // namespace minamo

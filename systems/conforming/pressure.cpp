@@ -217,10 +217,12 @@ template <int Dim>
 void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                                       Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Volume> V_p, Read<multiplier::Force> lambda,
-                                      Write<particle::Pressure> p_p) const {
+                                      Write<multiplier::Pressure> p_l, Write<particle::Pressure> p_p) const {
   with_degree(splines->degree, [&](auto degree) {
     const PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span());
-    mass.for_each_value(solve_mass(mass, lambda.span()), [&](std::size_t p, double value) { p_p[p] = value; });
+    const std::vector<double> p = solve_mass(mass, lambda.span());
+    std::copy(p.begin(), p.end(), p_l.begin());
+    mass.for_each_value(p, [&](std::size_t particle, double value) { p_p[particle] = value; });
   });
 }
 

@@ -73,7 +73,9 @@ Contribution read_exact(Input& input, Scene& scene) {
   return [exact](const Scene& here, Recipe& recipe) {
     if (!exact.velocity.empty()) recipe.add("measure", "measure_error_velocity");
     if (exact.pressure) {
-      add_systems(here, recipe, "measure", {{"sample_pressure"}, {"recover_pressure"}});
+      for (const When when : {When::step, When::standing}) {
+        add_systems(here, recipe, "measure", {{"sample_pressure"}, {"recover_pressure"}}, when);
+      }
       recipe.add("measure", "measure_error_pressure");
     }
     recipe.seed([exact](const Scene& of, World& world, SeedProblems& problems) {

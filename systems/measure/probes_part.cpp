@@ -3,7 +3,7 @@
 #include "components/measure.hpp"
 #include "systems/measure/probes.hpp"
 #include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/scene_checks.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -60,8 +60,10 @@ Contribution read_probes(Input& input, Scene& scene) {
   scene.facts.set(probes);
   if (probes.empty()) return {};
   return [probes](const Scene& of, Recipe& recipe) {
-    recipe.add("measure", "measure_probes", When::step);
-    recipe.add("measure", "measure_probes_at_start", When::standing);
+    add_systems(of, recipe, "measure", {{"measure_probes"}, {"recover_pressure", "measure_probes_on_faces"}}, When::step);
+    add_systems(of, recipe, "measure",
+                {{"measure_probes_at_start"}, {"recover_pressure", "measure_probes_on_faces_at_start"}},
+                When::standing);
     with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_probes<dim()>(probes)); });
   };
 }
