@@ -150,6 +150,11 @@ struct FillFraction : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.fill_fraction", "phi_l", "1", Lifetime::scratch};
 };
 
+/// The least fill fraction of a multiplier and its neighbours. [1]
+struct LeastFill : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.least_fill", "", "1", Lifetime::scratch};
+};
+
 /// The second term of (E63) around a multiplier, a rate of volume. [m^3/s; m^2/s in 2-D]
 struct Curvature : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.curvature", "", "m^d/s", Lifetime::scratch};

@@ -9,13 +9,18 @@ namespace minamo {
 
 namespace {
 
+/// Of faces and multipliers. Those of degree 1 have exact sums on any lattice.
+LatticePlaces places_of(const Discretization& conforming) {
+  return conforming.degree == 2 ? LatticePlaces::middle_of_parts : LatticePlaces::exact_for_splines;
+}
+
 Contribution read_mixed(Input&, Scene& scene) {
-  scene.facts.set(is_conforming(scene) ? LatticePlaces::middle_of_parts : LatticePlaces::nearer_to_walls);
+  scene.facts.set(is_conforming(scene) ? places_of(scene.facts.get<Discretization>()) : LatticePlaces::nearer_to_walls);
   return adds_systems("assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
 }
 
 Contribution read_particles(Input&, Scene& scene) {
-  scene.facts.set(LatticePlaces::middle_of_parts);
+  scene.facts.set(is_conforming(scene) ? places_of(scene.facts.get<Discretization>()) : LatticePlaces::middle_of_parts);
   return adds_systems("assemble", {{"moments"}, {"find_mobility"}});
 }
 

@@ -179,9 +179,7 @@ void FillFaceVolumeSource<Dim>::operator()(Read<VolumeRate> rate, Read<Splines<D
   // Deep inside: all within two neighbours are at least half full.
   const auto all_around = [&](std::size_t i, const auto& holds) {
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
-      const SplineAxis& axis = splines->axis[side / 2];
-      const bool at_wall = !axis.periodic() && site[i][side / 2] == (side % 2 == 0 ? 0 : axis.multipliers() - 1);
-      if (at_wall) continue;
+      if (splines->ends_at(site[i], side)) continue;
       const std::int32_t j = neighbour[i][side];
       if (j == staggered::none || !holds(static_cast<std::size_t>(j))) return false;
     }
@@ -206,21 +204,21 @@ void ProjectFaces<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read
                                    Write<face::Shift<Dim>> shift, Write<multiplier::Force> lambda) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const double per_tau = rates->acceleration / rates->velocity;
-  const auto of = [&](std::size_t which) {
-    return [&, which](std::size_t i) {
-      return row[i] == staggered::none ? 0.0 : solution[static_cast<std::size_t>(row[i])][which];
-    };
+  constexpr unknown::Sources nothing{};
+  const auto of = [&](std::size_t i) -> const unknown::Sources& {
+    return row[i] == staggered::none ? nothing : solution[static_cast<std::size_t>(row[i])];
   };
   for_each_row(v_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const double m = mobility[i][axis];
-      const auto change = [&](std::size_t which) { return m == 0 ? 0 : -m * incidence.gradient(i, d, of(which)); };
-      damping[i][axis] = change(unknown::damping);
-      v_f[i][axis] = predictor[i][axis] + damping[i][axis] + change(unknown::balance);
-      shift[i][axis] = change(unknown::volume);
+      unknown::Sources change{};
+      if (m > 0) change = incidence.gradient(i, d, -m, of);
+      damping[i][axis] = change[unknown::damping];
+      v_f[i][axis] = predictor[i][axis] + change[unknown::damping] + change[unknown::balance];
+      shift[i][axis] = change[unknown::volume];
     }
-    lambda[i] = -per_tau * of(unknown::balance)(i);
+    lambda[i] = -per_tau * of(i)[unknown::balance];
   });
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The balances of a step on the staggered grid. Momentum: m_f (v_f - v°_f)/tau = m_f (b_f + c_f) + (B^T lambda)_f;
-/// mass: B v = 0. The integrator chooses v° and tau = c_v/c_a. Without pressure the velocity would be the predictor v*;
-/// then v = v* - m^-1 B^T x with S x = B v*, S = B m^-1 B^T, and lambda = -x/tau.
+/// (E77) The balances of a step on the staggered grid. Momentum: m_f (v_f - v°_f)/tau = m_f (b_f + c_f) + (B^T
+/// lambda)_f; mass: B v = 0. The integrator chooses v° and tau = c_v/c_a. Without pressure the velocity would be the
+/// predictor v*; then v = v* - m^-1 B^T x with S x = B v*, S = B m^-1 B^T, and lambda = -x/tau.
 
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
@@ -87,7 +87,7 @@ struct AddFaceInertia {
 /// v*_f gets tau b_f; the source of the balances is B v*, the others are zero.
 template <int Dim>
 struct FillFaceSource {
-  static constexpr std::string_view doc = "B v*, source of the balances";
+  static constexpr std::string_view doc = "(E77) B v*, source of the balances";
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
                   Read<unknown::Staggered> of_unknown, Update<face::Predictor<Dim>> predictor,
@@ -117,7 +117,7 @@ struct FillFaceVolumeSource {
 /// Velocities and shift without divergence, or with the one that they are to have: q - m^-1 B^T x of the solutions x.
 template <int Dim>
 struct ProjectFaces {
-  static constexpr std::string_view doc = "v_f, w_f, d_f and lambda_l from the solutions";
+  static constexpr std::string_view doc = "(E77) v_f, w_f, d_f and lambda_l from the solutions";
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
                   Read<face::Predictor<Dim>> predictor, Read<multiplier::Row> row, Read<unknown::Solution> solution,

@@ -92,9 +92,19 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
 }
 
 template <int Dim>
-void FindFill<Dim>::operator()(Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                               Write<multiplier::FillFraction> phi) const {
+void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                               Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
+                               Read<multiplier::Capacity> capacity, Write<multiplier::FillFraction> phi,
+                               Write<multiplier::LeastFill> least) const {
   for_each_row(phi.size(), [&](std::size_t i) { phi[i] = capacity[i] > 0 ? v_l[i] / capacity[i] : 0; });
+  for_each_row(phi.size(), [&](std::size_t i) {
+    least[i] = phi[i];
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (splines->ends_at(site[i], side)) continue;
+      const std::int32_t j = neighbour[i][side];
+      least[i] = std::min(least[i], j == staggered::none ? 0 : phi[static_cast<std::size_t>(j)]);
+    }
+  });
 }
 
 template <int Dim>
@@ -127,27 +137,13 @@ template <int Dim>
 void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                         Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                                        Read<multiplier::FillFraction> phi, Write<face::Mobility<Dim>> mobility) const {
-  // The least fill fraction of a multiplier and its neighbours; beyond walls there are none.
-  const auto least_around = [&](std::size_t i) {
-    double least = phi[i];
-    for (std::size_t side = 0; side < 2 * Dim; ++side) {
-      const std::int32_t j = neighbour[i][side];
-      const bool is_outside = j != staggered::none && !splines->has_multiplier(site[static_cast<std::size_t>(j)]);
-      const SplineAxis& axis = splines->axis[side / 2];
-      const bool at_wall = !axis.periodic() && site[i][side / 2] == (side % 2 == 0 ? 0 : axis.multipliers() - 1);
-      if (is_outside || at_wall) continue;
-      least = std::min(least, j == staggered::none ? 0 : phi[static_cast<std::size_t>(j)]);
-    }
-    return least;
-  };
+                                        Read<multiplier::LeastFill> least, Write<face::Mobility<Dim>> mobility) const {
+  // Of the multipliers below and above a face; at a wall there is one.
   const auto fill_of_face = [&](std::size_t i, std::size_t d) {
-    double fill = splines->has_multiplier(site[i]) ? least_around(i) : 1;
+    const double above = splines->has_multiplier(site[i]) ? least[i] : 1;
+    if (splines->ends_at(site[i], 2 * d)) return above;
     const std::int32_t below = neighbour[i][2 * d];
-    const bool at_low_wall = !splines->axis[d].periodic() && site[i][d] == 0;
-    if (!at_low_wall)
-      fill = below == staggered::none ? 0 : std::min(fill, least_around(static_cast<std::size_t>(below)));
-    return fill;
+    return below == staggered::none ? 0 : std::min(above, least[static_cast<std::size_t>(below)]);
   };
   invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
                      [&](std::size_t i, std::size_t d, double full) {

@@ -22,12 +22,14 @@ struct P2GMultipliers {
                   Write<multiplier::Curvature> curvature) const;
 };
 
-/// phi_l = V~_l/V_l.
+/// phi_l = V~_l/V_l, and the least of a multiplier and its neighbours; beyond walls there are none.
 template <int Dim>
 struct FindFill {
   static constexpr std::string_view doc = "fill fraction of multipliers";
-  void operator()(Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                  Write<multiplier::FillFraction> phi) const;
+  void operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
+                  Read<multiplier::Capacity> capacity, Write<multiplier::FillFraction> phi,
+                  Write<multiplier::LeastFill> least) const;
 };
 
 /// (E61) of a cell, from its multipliers.
@@ -53,13 +55,13 @@ struct FindMobilityMixed {
   static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                  Read<multiplier::FillFraction> phi, Write<face::Mobility<Dim>> mobility) const;
+                  Read<multiplier::LeastFill> least, Write<face::Mobility<Dim>> mobility) const;
 };
 
-/// The active multipliers and the matrix S = B m^-1 B^T between them.
+/// (E78)  The active multipliers and the matrix S = B m^-1 B^T between them.
 template <int Dim>
 struct AssembleMultipliers {
-  static constexpr std::string_view doc = "active multipliers, S = B m^-1 B^T";
+  static constexpr std::string_view doc = "(E77) (E78) active multipliers, S = B m^-1 B^T";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
                   Read<multiplier::FillFraction> phi, Resize<Unknowns> unknowns, Write<multiplier::Row> row,

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Divergence and gradient on the staggered grid: differences of the coefficients of neighbouring faces, whatever the
-/// quadrature. With u = sum_f u_f N_f the divergence is exactly sum_l (B u)_l N_l.
+/// (E76) Divergence and gradient on the staggered grid: differences of the coefficients of neighbouring faces, whatever
+/// the quadrature. With u = sum_f u_f N_f the divergence is exactly sum_l (B u)_l N_l.
 
 #include "components/staggered.hpp"
 #include "systems/conforming/splines.hpp"
@@ -27,15 +27,19 @@ class Incidence {
     }
     return sum;
   }
-  /// (B^T q)_f for the face of direction d of a row; `at` is q by row of the multiplier, zero where there is none.
+  /// scale (B^T q)_f for the face of direction d of a row, of all sources at once; `at` is q by row of the multiplier,
+  /// zero where there is none.
   template <class AtMultiplier>
-  double gradient(std::size_t row, std::size_t d, const AtMultiplier& at) const {
-    double sum = splines_.has_multiplier(site_[row]) ? -per_width(row, d) * at(row) : 0;
+  unknown::Sources gradient(std::size_t row, std::size_t d, double scale, const AtMultiplier& at) const {
+    unknown::Sources sum{};
+    const auto add = [&](std::size_t of, double sign) {
+      if (!splines_.has_multiplier(site_[of])) return;
+      const double weight = sign * scale * per_width(of, d);
+      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += weight * at(of)[s];
+    };
+    add(row, -1);
     const std::int32_t below = neighbour_[row][2 * d];
-    if (below != staggered::none) {
-      const auto low = static_cast<std::size_t>(below);
-      if (splines_.has_multiplier(site_[low])) sum += per_width(low, d) * at(low);
-    }
+    if (below != staggered::none) add(static_cast<std::size_t>(below), 1);
     return sum;
   }
   /// 1/w_d of a multiplier. [1/m]

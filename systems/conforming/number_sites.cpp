@@ -53,31 +53,21 @@ std::uint8_t held_at(const Splines<Dim>& splines, const Walls<Dim>& walls, const
   return static_cast<std::uint8_t>(held);
 }
 
-/// Neighbours above are found, those below follow.
-template <int Dim>
-void find_site_neighbours(const Splines<Dim>& splines, const SiteRows<Dim>& rows, std::span<const Index<Dim>> site,
+/// Sites that share a cell know each other.
+template <int Dim, int K>
+void find_site_neighbours(const OccupiedCells<Dim>& cells, const CellSites& sites,
                           std::span<typename staggered::Neighbour<Dim>::value_type> neighbour) {
-  for_each_range(site.size(), [&](std::size_t begin, std::size_t end) {
-    typename SiteRows<Dim>::Finder find(rows);
-    for (std::size_t i = begin; i < end; ++i) {
-      typename SiteRows<Dim>::Address own;
-      for (std::size_t d = 0; d < Dim; ++d) own = own + rows.part(static_cast<int>(d), site[i][d]);
+  for_each_row(neighbour.size(), [&](std::size_t i) { neighbour[i].fill(staggered::none); });
+  for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto&) {
+    const std::uint32_t* rows = sites.of(c);
+    for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
       for (std::size_t d = 0; d < Dim; ++d) {
-        for (const int side : {-1, 1}) {
-          const SplineAxis& axis = splines.axis[d];
-          int at = site[i][d] + side;
-          if (axis.periodic()) at = at < 0 ? at + axis.sites() : axis.wrapped(at);
-          std::int32_t& row = neighbour[i][2 * d + (side > 0 ? 1 : 0)];
-          row = staggered::none;
-          if (at < 0 || at >= axis.sites()) continue;
-          typename SiteRows<Dim>::Address address;
-          for (std::size_t e = 0; e < Dim; ++e) {
-            address = address + rows.part(static_cast<int>(e), e == d ? at : site[i][e]);
-          }
-          if (const auto found = find(address)) row = static_cast<std::int32_t>(*found);
-        }
+        if (offset[d] == K) continue;
+        const std::uint32_t above = rows[k + power(K + 1, static_cast<int>(d))];
+        neighbour[rows[k]][2 * d + 1] = static_cast<std::int32_t>(above);
+        neighbour[above][2 * d] = static_cast<std::int32_t>(rows[k]);
       }
-    }
+    });
   });
 }
 
@@ -118,9 +108,9 @@ void NumberSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splin
           }
         },
         cells_per_task);
+    find_site_neighbours<Dim, K>(*cells, *sites, neighbour.span());
   });
   rows->for_each([&](const Index<Dim>& at, std::uint32_t i) { site[i] = at; });
-  find_site_neighbours<Dim>(*splines, *rows, site.span(), neighbour.span());
   const double cell_volume = std::pow(grid->spacing, Dim);
   for_each_row(site.size(), [&](std::size_t i) {
     held[i] = held_at<Dim>(*splines, *walls, site[i]);

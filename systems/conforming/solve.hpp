@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Solves for the multipliers of a step: by a factorization where that is cheap, as it is in the plane, else by
+/// (E79) Solves for the multipliers of a step: by a factorization where that is cheap, as it is in the plane, else by
 /// conjugate gradients with multigrid.
 
 #include "components/staggered.hpp"
@@ -46,7 +46,7 @@ StaggeredLaplacian<Dim> laplacian_of(const Splines<Dim>& splines, std::span<cons
 
 template <int Dim>
 struct PrepareMultipliers {
-  static constexpr std::string_view doc = "factors or grids of S";
+  static constexpr std::string_view doc = "(E79) factors or grids of S";
   void operator()(Read<Splines<Dim>> splines, Read<unknown::Site<Dim>> site, Read<unknown::Neighbour<Dim>> neighbour,
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
                   Read<unknown::NullVector> null_vector, Write<MultiplierSolver<Dim>> solver) const;
@@ -55,7 +55,7 @@ struct PrepareMultipliers {
 /// S x = source for the three sources of a step at once.
 template <int Dim>
 struct SolveMultipliers {
-  static constexpr std::string_view doc = "S x = B v* and the other sources";
+  static constexpr std::string_view doc = "(E79) S x = B v* and the other sources";
   void operator()(Read<Splines<Dim>> splines, Read<SolverTolerance> tolerance, Read<unknown::Site<Dim>> site,
                   Read<unknown::Neighbour<Dim>> neighbour, Read<unknown::Conductance<Dim>> conductance,
                   Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The splines of the conforming discretization, an axis at a time: B-splines of degree K on the cells of the axis, for
-/// the velocity along it, and of degree K - 1, for the velocities across it and the multipliers. Between walls knots
-/// are open, so that the first and last spline alone meet the wall; along a periodic axis they go around.
+/// (E76) The splines of the conforming discretization, an axis at a time: B-splines of degree K on the cells of the
+/// axis, for the velocity along it, and of degree K - 1, for the velocities across it and the multipliers. Between
+/// walls knots are open, so that the first and last spline alone meet the wall; along a periodic axis they go around.
 ///
 /// Differentiation maps the one family onto the other by differences of coefficients,
 /// d/dx sum_i u_i N^K_i = sum_j (u_{j+1} - u_j)/w_j N^{K-1}_j, w_j the distance of the Greville points of the splines j
@@ -96,6 +96,11 @@ struct Splines {
       if (site[d] >= axis[d].multipliers()) return false;
     }
     return true;
+  }
+  /// Whether the multipliers end at a site towards a side, 2 d below and 2 d + 1 above along axis d: at a wall.
+  bool ends_at(const Index<Dim>& site, std::size_t side) const {
+    const SplineAxis& along = axis[side / 2];
+    return !along.periodic() && site[side / 2] == (side % 2 == 0 ? 0 : along.multipliers() - 1);
   }
   /// Integral of the function of a face of direction `d`, in units of h^Dim.
   double face_integral(const Index<Dim>& site, std::size_t d) const {

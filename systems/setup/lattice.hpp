@@ -8,8 +8,9 @@
 
 namespace minamo {
 
-/// Where in its part of a cell a particle of a lattice lies: next to walls nearer to them, (E70), or in the middle.
-enum class LatticePlaces { nearer_to_walls, middle_of_parts };
+/// Where in its part of a cell a particle of a lattice lies: in the middle, or next to walls where a sum over particles
+/// is the integral, (E70): of the basis of equal order, or of quadratic splines with open knots.
+enum class LatticePlaces { middle_of_parts, nearer_to_walls, exact_for_splines };
 
 /// The cell (not dual cell) of a point inside the box, by its lowest node.
 template <int Dim>
@@ -20,6 +21,11 @@ Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x);
 /// expression of a shape sees of time and ode variables.
 template <int Dim>
 std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start = {});
+
+/// (E70)  x of a lattice of n per cell and direction; in the cells at walls moved so that the sums of the quadratic
+/// splines are their integrals. One particle per cell and direction moves nearer to the wall alone.
+template <int Dim>
+Vec<Dim> exact_for_splines(const Grid<Dim>& grid, int per_cell, Vec<Dim> x);
 
 /// (E70)  x of a lattice of n per cell and direction; if it is of a row next to a wall, h/(24 n) nearer to the wall.
 template <int Dim>

@@ -1,5 +1,6 @@
 #include "systems/setup/memory.hpp"
 
+#include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 
 #include <algorithm>
@@ -10,6 +11,9 @@ namespace {
 
 /// Water that moves wets more nodes than at the start; in the plane the more, the fewer particles there are.
 double spread(const Scene& scene) { return scene.dimension == 3 ? 2.5 : 1 + 6.0 / fewest_per_cell(scene); }
+
+/// Columns of faces and multipliers, what cells know of their sites, factors in the plane and multigrid in space.
+double bytes_per_site(const Scene& scene) { return scene.dimension == 2 ? 2500 : 2000; }
 
 }  // namespace
 
@@ -23,7 +27,8 @@ double memory_of(const Scene& scene, const SceneSize& size) {
   constexpr double program = 30e6;
   const double bytes_per_particle = scene.dimension == 2 ? 400 : 500;
   const double nodes = std::min(size.nodes * spread(scene), size.all_nodes);
-  const double bytes_per_node = scene.facts.get<LinearSolver>().bytes_per_node(scene, nodes);
+  const double bytes_per_node =
+      is_conforming(scene) ? bytes_per_site(scene) : scene.facts.get<LinearSolver>().bytes_per_node(scene, nodes);
   return program + bytes_per_particle * size.particles + bytes_per_node * nodes;
 }
 

@@ -87,12 +87,23 @@ struct Seeds {
 };
 
 template <int Dim>
+Vec<Dim> moved_at_walls(const Scene& scene, const Grid<Dim>& grid, int per_cell, const Vec<Dim>& x) {
+  switch (scene.facts.get<LatticePlaces>()) {
+  case LatticePlaces::nearer_to_walls:
+    return nearer_to_walls<Dim>(grid, per_cell, x);
+  case LatticePlaces::exact_for_splines:
+    return exact_for_splines<Dim>(grid, per_cell, x);
+  default:
+    return x;
+  }
+}
+
+template <int Dim>
 Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& problems) {
   Seeds<Dim> seeds;
   std::unordered_map<std::size_t, double> filled;
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
     const ParticleScene& region = scene.particles[r];
-    const bool moves = scene.facts.get<LatticePlaces>() == LatticePlaces::nearer_to_walls && !region.jitter;
     const auto positions = lattice<Dim>(region, grid, scene.start);
     const std::string pointer = fmt::format("/particles/{}", r);
     if (positions.empty()) {
@@ -105,7 +116,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& prob
       double& cell = filled[grid.row(cell_of<Dim>(grid, x))];
       cell += share;
       if (cell > 1 + 1e-9 && !overlap) overlap = &x;
-      seeds.position.push_back(moves ? nearer_to_walls<Dim>(grid, region.per_cell, x) : x);
+      seeds.position.push_back(region.jitter ? x : moved_at_walls<Dim>(scene, grid, region.per_cell, x));
       seeds.region.push_back(r);
     }
     if (overlap) {

@@ -1,0 +1,229 @@
+/// \file
+/// A step of the conforming discretization against a dense solve, at rest, and on any number of threads.
+
+#include "components/measure.hpp"
+#include "components/staggered.hpp"
+#include "support/extremes.hpp"
+#include "support/scenes.hpp"
+#include "systems/conforming/splines.hpp"
+#include "systems/conforming/volume.hpp"
+
+#include <Eigen/Dense>
+#include <oneapi/tbb/global_control.h>
+
+#include <functional>
+#include <map>
+
+using namespace minamo;
+using namespace minamo::scene_run;
+
+namespace {
+
+Json conforming(const Json& scene, int degree) {
+  return with(scene, {R"(/discretization={"scheme": "conforming", "degree": )" + std::to_string(degree) + "}"});
+}
+
+/// A body of water, far from smooth, that falls onto the floor.
+Json plane_scene(int degree) {
+  return conforming(Json::parse(R"json({"dimension": 2,
+      "grid": {"low": [0, 0], "high": [1, 0.7], "cells": [10, 7]}, "fluid": {"density": 1000, "viscosity": 0},
+      "body_force": [1, -9.81], "solver": {"scheme": "block", "tolerance": 1e-12},
+      "particles": [{"shape": {"where": "y < 0.32 + 0.1*sin(9*x)"}, "arrangement": "jittered", "seed": 3,
+                     "velocity": ["0.3*sin(5*y)", "-0.5*x"]}],
+      "time": {"end": 1, "step": 5e-3}})json"),
+                    degree);
+}
+
+Json space_scene(int degree) {
+  return conforming(Json::parse(R"json({"dimension": 3,
+      "grid": {"low": [0, 0, 0], "high": [0.6, 0.5, 0.5], "cells": [6, 5, 5]},
+      "fluid": {"density": 1000, "viscosity": 0}, "body_force": [1, -9.81, 0.5],
+      "solver": {"scheme": "block", "tolerance": 1e-12},
+      "particles": [{"shape": {"where": "y < 0.22 + 0.1*sin(9*x) + 0.2*z"}, "arrangement": "jittered", "seed": 3,
+                     "velocity": ["0.3*sin(5*y)", "-0.5*x", "z"]}],
+      "time": {"end": 1, "step": 5e-3}})json"),
+                    degree);
+}
+
+/// The saddle point system of a step, unknowns the faces that move and the active multipliers:
+/// m v + B^T x = m v* + m w, B v = 0, the velocity w that damping adds from the same with B w = -source.
+template <int Dim>
+struct DenseStep {
+  std::vector<std::pair<std::size_t, int>> faces;  ///< row, direction
+  Eigen::MatrixXd matrix;
+  std::size_t multipliers = 0;
+
+  explicit DenseStep(World& world) {
+    const auto mobility = world.column<face::Mobility<Dim>>();
+    const auto site = world.column<staggered::Site<Dim>>();
+    const auto of_unknown = world.column<unknown::Staggered>();
+    const auto& splines = world.resource<Splines<Dim>>();
+    const double h = world.resource<Grid<Dim>>().spacing;
+    std::map<std::pair<Index<Dim>, int>, std::size_t> number;
+    for (std::size_t i = 0; i < mobility.size(); ++i) {
+      for (int d = 0; d < Dim; ++d) {
+        if (mobility[i][d] == 0) continue;
+        number[{site[i], d}] = faces.size();
+        faces.emplace_back(i, d);
+      }
+    }
+    multipliers = of_unknown.size();
+    const std::size_t n = faces.size();
+    matrix =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n + multipliers), static_cast<Eigen::Index>(n + multipliers));
+    for (std::size_t f = 0; f < n; ++f) {
+      const auto at = static_cast<Eigen::Index>(f);
+      matrix(at, at) = 1 / mobility[faces[f].first][faces[f].second];
+    }
+    for (std::size_t l = 0; l < multipliers; ++l) {
+      for (int d = 0; d < Dim; ++d) {
+        Index<Dim> at = site[of_unknown[l]];
+        const auto axis = static_cast<std::size_t>(d);
+        const double per_width = 1 / (h * splines.axis[axis].width(at[axis]));
+        for (const double sign : {-1.0, 1.0}) {
+          if (sign > 0) at[axis] = splines.axis[axis].wrapped(at[axis] + 1);
+          const auto found = number.find({at, d});
+          if (found == number.end()) continue;
+          const auto row = static_cast<Eigen::Index>(n + l);
+          const auto column = static_cast<Eigen::Index>(found->second);
+          matrix(row, column) += sign * per_width;
+          matrix(column, row) += sign * per_width;
+        }
+      }
+    }
+  }
+  /// Faces of m q and multipliers of -divergence of -`divergence`.
+  Eigen::VectorXd solve(const std::function<double(std::size_t, int)>& q,
+                        const std::function<double(std::size_t)>& divergence) const {
+    const auto n = faces.size();
+    Eigen::VectorXd b(static_cast<Eigen::Index>(n + multipliers));
+    for (std::size_t f = 0; f < n; ++f) {
+      const auto at = static_cast<Eigen::Index>(f);
+      b[at] = matrix(at, at) * q(faces[f].first, faces[f].second);
+    }
+    for (std::size_t l = 0; l < multipliers; ++l) b[static_cast<Eigen::Index>(n + l)] = divergence(l);
+    return matrix.fullPivLu().solve(b);
+  }
+};
+
+template <int Dim>
+void check_against_dense_solve(const Json& scene) {
+  SceneRun run(scene);
+  run.step(3);
+  World& world = run.world();
+  const DenseStep<Dim> dense(world);
+  REQUIRE(dense.multipliers > 20);
+  const auto predictor = world.column<face::Predictor<Dim>>();
+  const auto source = world.column<unknown::Source>();
+  const Eigen::VectorXd damping =
+      dense.solve([](std::size_t, int) { return 0.0; }, [&](std::size_t l) { return -source[l][unknown::damping]; });
+  std::map<std::pair<std::size_t, int>, double> damped;
+  for (std::size_t f = 0; f < dense.faces.size(); ++f) damped[dense.faces[f]] = damping[static_cast<Eigen::Index>(f)];
+  const Eigen::VectorXd v = dense.solve(
+      [&](std::size_t i, int d) {
+        return predictor[i][d] + damped[{i, d}];
+      },
+      [](std::size_t) { return 0.0; });
+  const Eigen::VectorXd shift =
+      dense.solve([](std::size_t, int) { return 0.0; }, [&](std::size_t l) { return -source[l][unknown::volume]; });
+  Largest error, size, shift_error, shift_size;
+  for (std::size_t f = 0; f < dense.faces.size(); ++f) {
+    const auto [i, d] = dense.faces[f];
+    const auto at = static_cast<Eigen::Index>(f);
+    error.add(std::abs(world.column<face::BalanceVelocity<Dim>>()[i][d] - v[at]));
+    size.add(std::abs(v[at]));
+    shift_error.add(std::abs(world.column<face::Shift<Dim>>()[i][d] - shift[at]));
+    shift_size.add(std::abs(shift[at]));
+  }
+  CHECK(error.value() <= 1e-9 * size.value());
+  CHECK(shift_error.value() <= 1e-9 * shift_size.value());
+}
+
+std::map<std::string, std::vector<std::byte>> state_after(const Json& scene, int threads, Execution execution) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  SceneRun run(scene, execution);
+  run.step(8);
+  return state(run.world());
+}
+
+/// Particles on a lattice at rest.
+Json column(int dimension, int degree) {
+  Json scene = conforming(scene_of_file(dimension == 2 ? "hydrostatic.json" : "hydrostatic_3d.json"), degree);
+  for (const char* key : {"transfer", "integrator", "quadrature", "volume"}) scene.erase(key);
+  return scene;
+}
+
+template <int Dim>
+double largest_speed(World& world) {
+  Largest speed;
+  for (const Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) speed.add(v.norm());
+  return speed.value();
+}
+
+}  // namespace
+
+TEST_CASE("a conforming step is that of a dense solve of the whole system", "[property]") {
+  const int degree = GENERATE(2, 3);
+  check_against_dense_solve<2>(plane_scene(degree));
+  check_against_dense_solve<2>(with(plane_scene(degree), {R"(/walls={"x": "periodic"})"}));
+  check_against_dense_solve<2>(
+      with(plane_scene(degree), {R"(/walls="no_slip")", R"(/quadrature={"scheme": "particles"})"}));
+  check_against_dense_solve<3>(space_scene(degree));
+}
+
+TEST_CASE("a conforming step has the same bits on any number of threads, as a graph and as a list",
+          "[property][threads]") {
+  const int degree = GENERATE(2, 3);
+  const Json scene =
+      GENERATE_COPY(plane_scene(degree), space_scene(degree),
+                    with(conforming(scene_of_file("dam_break.json"), degree), {"/particles/0/per_cell=4"}));
+  const auto alone = state_after(scene, 1, Execution::list);
+  CHECK(alone == state_after(scene, 2, Execution::graph));
+  CHECK(alone == state_after(scene, 1, Execution::graph));
+}
+
+TEST_CASE("a column of water on a lattice stays at rest", "[property]") {
+  const int degree = GENERATE(2, 3);
+  SceneRun plane(column(2, degree));
+  plane.step(50);
+  CHECK(largest_speed<2>(plane.world()) <= 1e-9);
+  SceneRun space(column(3, degree));
+  space.step(20);
+  CHECK(largest_speed<3>(space.world()) <= 1e-9);
+}
+
+TEST_CASE("the velocity of a conforming step has no divergence", "[property]") {
+  const int degree = GENERATE(2, 3);
+  const Json scene = with(plane_scene(degree), {R"(/solver={"scheme": "block"})"});
+  SceneRun run(scene);
+  Largest divergence;
+  for (int k = 0; k < 40; ++k) {
+    run.step();
+    const double h = run.world().resource<Grid<2>>().spacing;
+    divergence.add(run.world().resource<measure::MaxDivergence>().value * h / largest_speed<2>(run.world()));
+  }
+  CHECK(divergence.value() <= 1e-10);
+}
+
+TEST_CASE("nothing is stirred in liquid that moves as a rigid body", "[property]") {
+  const int degree = GENERATE(2, 3);
+  Json scene = column(2, degree);
+  scene["walls"] = {{"x", "periodic"}};
+  scene["particles"][0]["velocity"] = {0.7, 0};
+  SceneRun run(scene);
+  run.step(10);
+  Largest stir;
+  for (const Vec<2>& s : run.world().column<particle::Stir<2>>()) stir.add(s.norm());
+  CHECK(stir.value() <= 1e-12);
+}
+
+TEST_CASE("every transfer scheme with faces and every integrator takes conforming steps", "[property]") {
+  const int degree = GENERATE(2, 3);
+  const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm");
+  const std::string integrator = GENERATE("newmark", "midpoint");
+  CAPTURE(degree, transfer, integrator);
+  SceneRun plane(with_method(plane_scene(degree), transfer, integrator));
+  CHECK_NOTHROW(plane.step(10));
+  SceneRun space(with_method(space_scene(degree), transfer, integrator));
+  CHECK_NOTHROW(space.step(4));
+}
