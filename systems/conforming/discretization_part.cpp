@@ -1,6 +1,7 @@
 #include "systems/conforming/balances.hpp"
 #include "systems/conforming/fill.hpp"
 #include "systems/conforming/filters.hpp"
+#include "systems/conforming/limit_gradient.hpp"
 #include "systems/conforming/measures.hpp"
 #include "systems/conforming/number_sites.hpp"
 #include "systems/conforming/pressure.hpp"
@@ -57,6 +58,7 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<G2PFaceAccelerationPic>("g2p_face_acceleration_pic");
   registry.add<G2PFaceAccelerationTpic>("g2p_face_acceleration_tpic");
   registry.add<G2PFaceAccelerationApic>("g2p_face_acceleration_apic");
+  registry.add<LimitGradient>("limit_gradient");
   registry.add<AdvectByFaces>("advect_by_faces");
   registry.add<P2GMultipliers>("p2g_multipliers");
   registry.add<FindFill>("find_fill");
@@ -75,6 +77,7 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<FillFaceSource>("face_source");
   registry.add<DampFaceDivergence>("damp_face_divergence");
   registry.add<FillFaceVolumeSource>("face_volume_source");
+  registry.add<PrepareMultipliers>("prepare_multipliers");
   registry.add<SolveMultipliers>("solve_multipliers");
   registry.add<ProjectFaces>("project_faces");
   registry.add<CorrectFacesMidpoint>("correct_faces_midpoint");

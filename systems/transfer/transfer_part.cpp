@@ -59,7 +59,7 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
     const auto& integrator = of.facts.get<IntegratorNeeds>();
     const bool needs_liquid = corrected || scheme.reads_liquid_indicator;
     if (is_conforming(of)) {
-      if (needs_liquid) recipe.add("material", "find_liquid_cells_by_multipliers");
+      if (needs_liquid || scheme.carries_gradient) recipe.add("material", "find_liquid_cells_by_multipliers");
     } else {
       recipe.add("p2g", "p2g_mass");
       if (needs_liquid) recipe.add("p2g", "find_liquid_cells");
@@ -67,6 +67,7 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
     }
     for (const System& system : p2g) recipe.add("p2g", system);
     for (const System& system : g2p) recipe.add("g2p", system, When::step);
+    if (scheme.carries_gradient) add_systems(of, recipe, "g2p", {{}, {"limit_gradient"}}, When::step);
     if (corrected) is_conforming(of) ? correct_face_inertia(integrator, recipe) : correct_inertia(integrator, recipe);
     add_systems(of, recipe, "advect", {{"advect"}, {"advect_by_faces"}}, When::step);
   };
