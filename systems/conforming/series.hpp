@@ -28,7 +28,8 @@ struct Linear {
 };
 
 /// (E64) on faces: q_f = q + grad q r + sum_ab H_ab (r_a r_b - delta_ab s_a)/2, s_a the spread of the knots of the face
-/// along an axis. The third term changes no momentum: sum_f N_f (r_a^2 - s_a) = 0.
+/// along an axis. The third term changes no momentum: sum_f N_f (r_a^2 - s_a) = 0. Hats, across at degree 2, hold no
+/// squares, and get none.
 template <int Dim>
 struct Quadratic {
   static constexpr int order = 2;
@@ -139,7 +140,8 @@ class FaceSeries {
   [[gnu::always_inline]] Four along(std::size_t a) const {
     Four sum = Axis == 0 ? q_.value[D] : Four{};
     if constexpr (Lanes::order > 0) sum += q_.gradient[D][Axis] * way<Axis>(a);
-    if constexpr (Lanes::order > 1) {
+    constexpr bool holds_squares = Axis == D || K > 2;  // hats do not
+    if constexpr (Lanes::order > 1 && holds_squares) {
       sum += q_.second[D][static_cast<std::size_t>(second_along<Dim>(Axis))] * q_.square.template of<D, Axis>()[a];
     }
     return sum;
