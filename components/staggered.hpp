@@ -125,6 +125,24 @@ struct NewVelocity : Column<Staggered, Vec<Dim>> {
   static constexpr ComponentInfo info{"face.new_velocity", "v_f^{n+1}", "m/s", Lifetime::scratch};
 };
 
+/// Velocity v*_f that the particles take over, XPIC and FMPM. [m/s]
+template <int Dim>
+struct FilteredVelocity : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"face.filtered_velocity", "v*_f", "m/s", Lifetime::scratch};
+};
+
+/// What the filter has not yet passed. [m/s]
+template <int Dim>
+struct Residue : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"face.residue", "r_f", "m/s", Lifetime::scratch};
+};
+
+/// The same after a trip to the particles and back. [m/s]
+template <int Dim>
+struct Smoothed : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"face.smoothed", "S^+ S r_f", "m/s", Lifetime::scratch};
+};
+
 /// Acceleration a_f^{n+1} at the end of the step. [m/s^2]
 template <int Dim>
 struct NewAcceleration : Column<Staggered, Vec<Dim>> {

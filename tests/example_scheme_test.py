@@ -66,7 +66,10 @@ class Run:
 
 class Rpic(unittest.TestCase):
     def both(self, scene: Scene) -> list[Scene]:
-        return [scene, in_space(scene)]
+        """In the plane and in space, on nodes and on faces."""
+        faces = [{**of, "discretization": {"scheme": "conforming"}, "fluid": {**of["fluid"], "viscosity": 0}}
+                 for of in (scene, in_space(scene))]
+        return [scene, in_space(scene), *faces]
 
     def test_momentum_is_conserved(self) -> None:
         for scene in self.both(spinning_square()):

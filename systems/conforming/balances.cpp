@@ -86,11 +86,8 @@ void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
                                    Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p,
                                    Read<face::Mass<Dim>> m_f, Read<face::Held> held,
                                    Write<face::BodyForce<Dim>> b_f) const {
-  with_degree(splines->degree, [&](auto degree) {
-    scatter_mean_of<Dim, degree()>(
-        {*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), b_f.span(),
-        [&](std::size_t p, const auto&, const auto&, const auto&) { return ConstantAround<Dim>{b_p[p]}; });
-  });
+  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), b_f.span(),
+                       [&](std::size_t p) { return series::Constant<Dim>{b_p[p]}; });
   for_each_row(b_f.size(), [&](std::size_t i) { hold<Dim>(held[i], b_f[i]); });
 }
 

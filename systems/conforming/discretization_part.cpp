@@ -1,9 +1,11 @@
 #include "systems/conforming/balances.hpp"
 #include "systems/conforming/fill.hpp"
+#include "systems/conforming/filters.hpp"
 #include "systems/conforming/limit_gradient.hpp"
 #include "systems/conforming/measures.hpp"
 #include "systems/conforming/number_sites.hpp"
 #include "systems/conforming/pressure.hpp"
+#include "systems/conforming/second_order.hpp"
 #include "systems/conforming/solve.hpp"
 #include "systems/conforming/transfer.hpp"
 #include "systems/conforming/volume.hpp"
@@ -41,10 +43,16 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<NumberSites>("number_sites");
   registry.add<P2GFacesPic>("p2g_faces_pic");
   registry.add<P2GFacesTpic>("p2g_faces_tpic");
+  registry.add<P2GFacesTpic2>("p2g_faces_tpic2");
   registry.add<G2PFacesPic>("g2p_faces_pic");
   registry.add<G2PFacesFlip>("g2p_faces_flip");
   registry.add<G2PFacesTpic>("g2p_faces_tpic");
+  registry.add<G2PFacesTpic2>("g2p_faces_tpic2");
   registry.add<G2PFacesApic>("g2p_faces_apic");
+  registry.add<FilterFacesXpic>("filter_faces_xpic");
+  registry.add<G2PFacesXpic>("g2p_faces_xpic");
+  registry.add<FilterFacesFmpm>("filter_faces_fmpm");
+  registry.add<G2PFacesFmpm>("g2p_faces_fmpm");
   registry.add<P2GFaceAccelerationPic>("p2g_face_acceleration_pic");
   registry.add<P2GFaceAccelerationTpic>("p2g_face_acceleration_tpic");
   registry.add<G2PFaceAccelerationPic>("g2p_face_acceleration_pic");

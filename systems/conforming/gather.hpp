@@ -1,63 +1,47 @@
 #pragma once
 /// \file
-/// From faces to particles: value and gradient of a velocity that faces carry.
+/// From faces to particles: value and derivatives of a velocity that faces carry.
 
 #include "components/particle.hpp"
-#include "systems/conforming/support.hpp"
+#include "systems/conforming/lanes.hpp"
+#include "systems/conforming/polynomial.hpp"
 
 #include <span>
 
 namespace minamo {
 
-/// Coefficients of the faces of a cell, by direction.
-template <int Dim, int K>
-using FaceCoefficients = std::array<std::array<double, cell_sites<Dim, K>>, static_cast<std::size_t>(Dim)>;
-
-/// at_face(row) is the vector of the three faces of a site.
-template <int Dim, int K, class AtFace>
-[[gnu::always_inline]] inline FaceCoefficients<Dim, K> coefficients(const std::uint32_t* rows, const AtFace& at_face) {
-  FaceCoefficients<Dim, K> q;
-  for (std::size_t k = 0; k < cell_sites<Dim, K>; ++k) {
-    const Vec<Dim> of_site = at_face(rows[k]);
-    for (std::size_t d = 0; d < Dim; ++d) q[d][k] = of_site[static_cast<Eigen::Index>(d)];
-  }
-  return q;
-}
-
-/// q(y) = sum_f N_f(y) q_f.
-template <int Dim, int K>
-[[gnu::always_inline]] inline Vec<Dim> value_at(const FaceCoefficients<Dim, K>& q,
-                                                const SplineWeights<Dim, K>& weights) {
+/// q(y) = sum_f N_f(y) q_f and, with the slopes of the splines, its gradient, row i of component i.
+template <int Dim>
+struct FaceJet {
   Vec<Dim> value;
-  for_each_direction<Dim>([&](auto d) {
-    constexpr int D = d();
-    double sum = 0;
-    for_each_face<Dim, K, D>(
-        [&](std::size_t k, const Index<Dim>& offset) { sum += weights.template face<D>(offset) * q[D][k]; });
-    value[D] = sum;
-  });
-  return value;
-}
+  Mat<Dim> gradient;
+};
 
 namespace detail {
 
-/// Value and derivatives of component D, one axis after the other.
-template <int Dim, int K, int D>
-[[gnu::always_inline]] inline void component_jet(const std::array<double, cell_sites<Dim, K>>& q,
-                                                 const SplineWeights<Dim, K>& w, const SplineSlopes<Dim, K>& s,
-                                                 Vec<Dim>& value, Mat<Dim>& gradient) {
-  constexpr std::size_t n[] = {D == 0 ? K + 1 : K, D == 1 ? K + 1 : K, D == 2 ? K + 1 : K};
+/// Sums of a component over its faces, with weights and, along one axis at a time, other numbers in their place.
+template <int Dim, class Real>
+struct ComponentSums {
+  Real value;
+  std::array<Real, static_cast<std::size_t>(Dim)> other;
+};
+
+/// One axis after the other.
+template <int Dim, int K, int D, class Real>
+[[gnu::always_inline]] inline ComponentSums<Dim, Real> component_sums(const std::array<double, cell_sites<Dim, K>>& q,
+                                                                      const SplineNumbers<Dim, K, Real>& weights,
+                                                                      const SplineNumbers<Dim, K, Real>& others) {
   constexpr std::size_t stride = K + 1;
-  const double* wx = D == 0 ? w.along[0].data() : w.across[0].data();
-  const double* wy = D == 1 ? w.along[1].data() : w.across[1].data();
-  const double* sx = D == 0 ? s.along[0].data() : s.across[0].data();
-  const double* sy = D == 1 ? s.along[1].data() : s.across[1].data();
+  const auto& wx = weights.template of<D, 0>();
+  const auto& wy = weights.template of<D, 1>();
+  const auto& sx = others.template of<D, 0>();
+  const auto& sy = others.template of<D, 1>();
   const auto plane = [&](const double* of) {
-    std::array<double, 3> sum{};  // value, d/dx, d/dy
-    for (std::size_t b = 0; b < n[1]; ++b) {
-      double line = 0;
-      double slope = 0;
-      for (std::size_t a = 0; a < n[0]; ++a) {
+    std::array<Real, 3> sum{};  // value, along x, along y
+    for (std::size_t b = 0; b < wy.size(); ++b) {
+      Real line{};
+      Real slope{};
+      for (std::size_t a = 0; a < wx.size(); ++a) {
         line += wx[a] * of[b * stride + a];
         slope += sx[a] * of[b * stride + a];
       }
@@ -69,42 +53,42 @@ template <int Dim, int K, int D>
   };
   if constexpr (Dim == 2) {
     const auto sum = plane(q.data());
-    value[D] = sum[0];
-    gradient(D, 0) = sum[1];
-    gradient(D, 1) = sum[2];
+    return {sum[0], {sum[1], sum[2]}};
   } else {
-    const double* wz = D == 2 ? w.along[2].data() : w.across[2].data();
-    const double* sz = D == 2 ? s.along[2].data() : s.across[2].data();
-    value[D] = 0;
-    gradient.row(D).setZero();
-    for (std::size_t c = 0; c < n[2]; ++c) {
+    const auto& wz = weights.template of<D, 2>();
+    const auto& sz = others.template of<D, 2>();
+    ComponentSums<Dim, Real> all{};
+    for (std::size_t c = 0; c < wz.size(); ++c) {
       const auto sum = plane(q.data() + c * stride * stride);
-      value[D] += wz[c] * sum[0];
-      gradient(D, 0) += wz[c] * sum[1];
-      gradient(D, 1) += wz[c] * sum[2];
-      gradient(D, 2) += sz[c] * sum[0];
+      all.value += wz[c] * sum[0];
+      all.other[0] += wz[c] * sum[1];
+      all.other[1] += wz[c] * sum[2];
+      all.other[2] += sz[c] * sum[0];
     }
+    return all;
   }
 }
 
 }  // namespace detail
 
-/// Value and gradient (row i of component i) at a point.
-template <int Dim>
-struct FaceJet {
-  Vec<Dim> value;
-  Mat<Dim> gradient;
-};
-
+/// At one point of a cell.
 template <int Dim, int K>
-[[gnu::always_inline]] inline FaceJet<Dim>
-jet_at(const FaceCoefficients<Dim, K>& q, const SplineWeights<Dim, K>& weights, const SplineSlopes<Dim, K>& slopes) {
+FaceJet<Dim> jet_at(const FaceCoefficients<Dim, K>& q, const SplineWeights<Dim, K>& weights,
+                    const SplineSlopes<Dim, K>& slopes) {
   FaceJet<Dim> jet;
   for_each_direction<Dim>([&](auto d) {
     constexpr int D = d();
-    detail::component_jet<Dim, K, D>(q[D], weights, slopes, jet.value, jet.gradient);
+    const auto sums = detail::component_sums<Dim, K, D, double>(q[D], weights, slopes);
+    jet.value[D] = sums.value;
+    for (std::size_t e = 0; e < Dim; ++e) jet.gradient(D, static_cast<Eigen::Index>(e)) = sums.other[e];
   });
   return jet;
+}
+
+/// A column of faces as a function of the row.
+template <int Dim>
+auto of_faces(std::span<const Vec<Dim>> q_f) {
+  return [q_f](std::size_t i) -> const Vec<Dim>& { return q_f[i]; };
 }
 
 /// What a gather reads beside the field.
@@ -117,18 +101,20 @@ struct FaceTarget {
   std::span<const Vec<Dim>> y_p;
 };
 
-/// use(p, q(y_p)) for every particle.
+/// (E17), (E18)  use(c, p, jet of q at y_p) for every particle p, c its cell; at_face(row) is the vector of the faces
+/// of a site.
 template <int Dim, class AtFace, class Use>
-void gather_faces(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
+void gather_faces_by_cell(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
   with_degree(target.splines.degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(target.cells, [&](std::size_t c, const auto& cell) {
       const CellFrame<Dim> frame(target.grid, target.splines, cell.node);
-      const auto q = coefficients<Dim, K>(target.sites.of(c), at_face);
-      for (std::size_t p = cell.begin; p < cell.end; ++p) {
-        const SplineWeights<Dim, K> weights(frame, frame.local(target.y_p[p]));
-        use(p, value_at<Dim, K>(q, weights));
-      }
+      const FacePolynomials<Dim, K> q(frame, target.sites.of(c), at_face);
+      for_each_group(cell, [&](const Group& group) {
+        const LanePlace<Dim> xi = local<Dim>(frame, target.y_p, group);
+        const LaneJet<Dim> jet(q, xi);
+        for_each_lane(group, [&](std::size_t lane, std::size_t p) { use(c, p, jet.of(lane)); });
+      });
     });
   });
 }
@@ -136,17 +122,13 @@ void gather_faces(const FaceTarget<Dim>& target, const AtFace& at_face, const Us
 /// use(p, jet of q at y_p) for every particle.
 template <int Dim, class AtFace, class Use>
 void gather_faces_with_gradient(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
-  with_degree(target.splines.degree, [&](auto degree) {
-    constexpr int K = degree();
-    for_each_cell<Dim>(target.cells, [&](std::size_t c, const auto& cell) {
-      const CellFrame<Dim> frame(target.grid, target.splines, cell.node);
-      const auto q = coefficients<Dim, K>(target.sites.of(c), at_face);
-      for (std::size_t p = cell.begin; p < cell.end; ++p) {
-        const Vec<Dim> xi = frame.local(target.y_p[p]);
-        use(p, jet_at<Dim, K>(q, SplineWeights<Dim, K>(frame, xi), SplineSlopes<Dim, K>(frame, xi)));
-      }
-    });
-  });
+  gather_faces_by_cell<Dim>(target, at_face, [&](std::size_t, std::size_t p, const Jet<Dim>& q) { use(p, q); });
+}
+
+/// use(p, q(y_p)) for every particle.
+template <int Dim, class AtFace, class Use>
+void gather_faces(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
+  gather_faces_by_cell<Dim>(target, at_face, [&](std::size_t, std::size_t p, const Jet<Dim>& q) { use(p, q.value); });
 }
 
 }  // namespace minamo

@@ -1,10 +1,12 @@
 #pragma once
 /// \file
 /// From particles to faces: mass, and the mass-weighted mean of what particles carry. A transfer scheme says what a
-/// particle brings to a face.
+/// particle brings, as a series around it.
 
 #include "components/particle.hpp"
-#include "systems/conforming/support.hpp"
+#include "systems/conforming/lanes.hpp"
+#include "systems/conforming/polynomial.hpp"
+#include "systems/conforming/series.hpp"
 
 #include <span>
 
@@ -25,30 +27,81 @@ struct FaceSource {
 template <int Dim, int K>
 using FaceSums = std::array<std::array<double, cell_sites<Dim, K>>, static_cast<std::size_t>(Dim)>;
 
-/// Calls add(p, frame, xi, weights, sums) for every particle, and adds the sums of every cell to `out`, `Count` columns
-/// of faces, which are set to zero first.
-template <int Dim, int K, std::size_t Count, class Add>
-void scatter_sums(const FaceSource<Dim>& source, const std::array<std::span<Vec<Dim>>, Count>& out, const Add& add) {
-  for (const std::span<Vec<Dim>> column : out) {
+namespace detail {
+
+/// Sums at the faces of a cell, by direction, in the order of for_each_face().
+template <int Dim, int K>
+using LaneSums = std::array<std::array<Four, (K + 1) * power(K, Dim - 1)>, static_cast<std::size_t>(Dim)>;
+
+/// Adds m N_f to the masses, if there are any, and m N_f q_f to the sums, for the faces of direction D.
+template <int D, int Dim, int K, class Series>
+[[gnu::always_inline]] inline void add_to_faces(const Four& m, const SplineWeights<Dim, K, Four>& weights,
+                                                const LaneSeries<Dim, K, Series>& q, LaneSums<Dim, K>* mass,
+                                                LaneSums<Dim, K>& sum) {
+  const auto& wx = weights.template of<D, 0>();
+  const auto& wy = weights.template of<D, 1>();
+  const FaceSeries<D, Dim, K, Series> at(q);
+  std::size_t k = 0;
+  const auto row = [&](const Four& m_bc, const auto& of_row) {
+    for (std::size_t a = 0; a < wx.size(); ++a) {
+      const Four share = m_bc * wx[a];
+      if (mass != nullptr) (*mass)[D][k] += share;
+      sum[D][k] += share * of_row(a);
+      ++k;
+    }
+  };
+  if constexpr (Dim == 2) {
+    for (std::size_t b = 0; b < wy.size(); ++b) row(m * wy[b], at.row(b));
+  } else {
+    const auto& wz = weights.template of<D, 2>();
+    for (std::size_t c = 0; c < wz.size(); ++c) {
+      const Four m_c = m * wz[c];
+      for (std::size_t b = 0; b < wy.size(); ++b) row(m_c * wy[b], at.row(b, c));
+    }
+  }
+}
+
+/// Adds the sums of a cell to those of its faces.
+template <int Dim, int K>
+[[gnu::always_inline]] inline void add_lanes(const LaneSums<Dim, K>& sums, const std::uint32_t* rows,
+                                             std::span<Vec<Dim>> out) {
+  for_each_direction<Dim>([&](auto d) {
+    constexpr int D = d();
+    std::size_t i = 0;
+    for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>&) { out[rows[k]][D] += sum_of_lanes(sums[D][i++]); });
+  });
+}
+
+/// Sums of m_p N_f q_pf, and into m_f, unless it is empty, those of m_p N_f.
+template <int Dim, int K, class OfCell>
+void scatter_sums(const FaceSource<Dim>& source, std::span<Vec<Dim>> m_f, std::span<Vec<Dim>> q_f,
+                  const OfCell& of_cell) {
+  for (const std::span<Vec<Dim>> column : {m_f, q_f}) {
     for_each_row(column.size(), [&](std::size_t i) { column[i].setZero(); });
   }
   for_each_cell_coloured<Dim>(source.cells, [&](std::size_t c, const auto& cell) {
     const CellFrame<Dim> frame(source.grid, source.splines, cell.node);
-    std::array<FaceSums<Dim, K>, Count> sums{};
-    for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Vec<Dim> xi = frame.local(source.y_p[p]);
-      add(p, frame, xi, SplineWeights<Dim, K>(frame, xi), sums);
-    }
-    const std::uint32_t* rows = source.sites.of(c);
-    for (std::size_t q = 0; q < Count; ++q) {
-      for (std::size_t k = 0; k < cell_sites<Dim, K>; ++k) {
-        for (std::size_t d = 0; d < Dim; ++d) out[q][rows[k]][static_cast<Eigen::Index>(d)] += sums[q][d][k];
-      }
-    }
+    const auto& of_particle = of_cell(c, frame, std::integral_constant<int, K>());
+    LaneSums<Dim, K> mass{};
+    LaneSums<Dim, K> sum{};
+    for_each_group(cell, [&](const Group& group) {
+      const LanePlace<Dim> xi = local<Dim>(frame, source.y_p, group);
+      const SplineWeights<Dim, K, Four> weights(frame, xi);
+      Four m = of_group(group, [&](std::size_t p) { return source.m_p[p]; });
+      m = of_lane >= static_cast<double>(group.count) ? Four{} : m;
+      const std::array of_lanes{of_particle(group.particle(0)), of_particle(group.particle(1)),
+                                of_particle(group.particle(2)), of_particle(group.particle(3))};
+      const LaneSeries<Dim, K, std::decay_t<decltype(of_lanes[0])>> q(frame, xi, of_lanes);
+      for_each_direction<Dim>([&](auto d) { add_to_faces<d()>(m, weights, q, m_f.empty() ? nullptr : &mass, sum); });
+    });
+    if (!m_f.empty()) add_lanes<Dim, K>(mass, source.sites.of(c), m_f);
+    add_lanes<Dim, K>(sum, source.sites.of(c), q_f);
   });
 }
 
-/// Divides nodal sums by the mass; faces without mass get zero.
+}  // namespace detail
+
+/// Divides sums at faces by the mass; faces without mass get zero.
 template <int Dim>
 void divide_by_mass(std::span<const Vec<Dim>> m_f, std::span<Vec<Dim>> q_f) {
   for_each_row(q_f.size(), [&](std::size_t i) {
@@ -58,82 +111,34 @@ void divide_by_mass(std::span<const Vec<Dim>> m_f, std::span<Vec<Dim>> q_f) {
   });
 }
 
-/// m_f = sum_p N_f m_p and q_f = sum_p N_f m_p q_pf / m_f. value(p, frame, xi, weights) tells of a particle what it
-/// brings: an object whose at<D>(offset) is q_pf for a face of direction D.
-template <int Dim, int K, class Value>
-void scatter_mean(const FaceSource<Dim>& source, std::span<Vec<Dim>> m_f, std::span<Vec<Dim>> q_f, const Value& value) {
-  scatter_sums<Dim, K, 2>(source, {m_f, q_f},
-                          [&](std::size_t p, const CellFrame<Dim>& frame, const Vec<Dim>& xi,
-                              const SplineWeights<Dim, K>& weights, auto& sums) {
-                            const auto of_particle = value(p, frame, xi, weights);
-                            const double m = source.m_p[p];
-                            for_each_direction<Dim>([&](auto d) {
-                              constexpr int D = d();
-                              for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
-                                const double share = m * weights.template face<D>(offset);
-                                sums[0][D][k] += share;
-                                sums[1][D][k] += share * of_particle.template at<D>(offset);
-                              });
-                            });
-                          });
+/// m_f = sum_p N_f m_p and q_f = sum_p N_f m_p q_pf / m_f. of_particle(p) is the series that a particle brings, one of
+/// series::Constant, Linear and Quadratic.
+template <int Dim, class OfParticle>
+void scatter_mean(const FaceSource<Dim>& source, std::span<Vec<Dim>> m_f, std::span<Vec<Dim>> q_f,
+                  const OfParticle& of_particle) {
+  with_degree(source.splines.degree, [&](auto degree) {
+    detail::scatter_sums<Dim, degree()>(
+        source, m_f, q_f, [&](std::size_t, const auto&, auto) -> const auto& { return of_particle; });
+  });
   divide_by_mass<Dim>(m_f, q_f);
 }
 
-/// The same where the mass is known: q_f = sum_p N_f m_p q_pf / m_f.
-template <int Dim, int K, class Value>
+/// The same where the mass is known, and what a particle brings may depend on its cell: of_cell(c, frame, degree) is
+/// of_particle for the particles of a cell.
+template <int Dim, class OfCell>
+void scatter_mean_by_cell(const FaceSource<Dim>& source, std::span<const Vec<Dim>> m_f, std::span<Vec<Dim>> q_f,
+                          const OfCell& of_cell) {
+  with_degree(source.splines.degree,
+              [&](auto degree) { detail::scatter_sums<Dim, degree()>(source, {}, q_f, of_cell); });
+  divide_by_mass<Dim>(m_f, q_f);
+}
+
+/// The same for what does not.
+template <int Dim, class OfParticle>
 void scatter_mean_of(const FaceSource<Dim>& source, std::span<const Vec<Dim>> m_f, std::span<Vec<Dim>> q_f,
-                     const Value& value) {
-  scatter_sums<Dim, K, 1>(source, {q_f},
-                          [&](std::size_t p, const CellFrame<Dim>& frame, const Vec<Dim>& xi,
-                              const SplineWeights<Dim, K>& weights, auto& sums) {
-                            const auto of_particle = value(p, frame, xi, weights);
-                            const double m = source.m_p[p];
-                            for_each_direction<Dim>([&](auto d) {
-                              constexpr int D = d();
-                              for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
-                                sums[0][D][k] +=
-                                    m * weights.template face<D>(offset) * of_particle.template at<D>(offset);
-                              });
-                            });
-                          });
-  divide_by_mass<Dim>(m_f, q_f);
+                     const OfParticle& of_particle) {
+  scatter_mean_by_cell<Dim>(
+      source, m_f, q_f, [&](std::size_t, const auto&, auto) -> const auto& { return of_particle; });
 }
-
-/// A quantity that is constant around a particle.
-template <int Dim>
-struct ConstantAround {
-  const Vec<Dim>& q;
-  template <int D>
-  [[gnu::always_inline]] double at(const Index<Dim>&) const {
-    return q[D];
-  }
-};
-
-/// The first two terms of a Taylor series around a particle, q + grad q (x_f - y), x_f the Greville points of the face:
-/// exact for a quantity that is linear in space.
-template <int Dim, int K>
-struct TaylorAround {
-  /// By direction of the face and axis: what the way along the axis adds.
-  std::array<std::array<std::array<double, K + 1>, static_cast<std::size_t>(Dim)>, static_cast<std::size_t>(Dim)> way;
-
-  TaylorAround(const CellFrame<Dim>& frame, const Vec<Dim>& xi, const Vec<Dim>& q, const Mat<Dim>& gradient) {
-    for (int d = 0; d < Dim; ++d) {
-      for (int e = 0; e < Dim; ++e) {
-        const double per_width = frame.spacing * gradient(d, e);
-        const double start = (e == 0 ? q[d] : 0) - per_width * xi[e];
-        const CellSplines& of = *frame.splines[static_cast<std::size_t>(e)];
-        const auto& place = d == e ? of.along_place : of.across_place;
-        auto& along = way[static_cast<std::size_t>(d)][static_cast<std::size_t>(e)];
-        for (std::size_t a = 0; a < K + 1; ++a) along[a] = start + per_width * place[a];
-      }
-    }
-  }
-  template <int D>
-  [[gnu::always_inline]] double at(const Index<Dim>& offset) const {
-    double sum = 0;
-    for (std::size_t e = 0; e < Dim; ++e) sum += way[D][e][static_cast<std::size_t>(offset[e])];
-    return sum;
-  }
-};
 
 }  // namespace minamo

@@ -48,15 +48,26 @@ double greville(const Knots& knots, int m, int degree) {
   return sum / degree;
 }
 
+/// Variance of the inner knots over degree - 1.
+double spread(const Knots& knots, int m, int degree) {
+  if (degree == 1) return 0;
+  const double middle = greville(knots, m, degree);
+  double sum = 0;
+  for (int k = 1; k <= degree; ++k) sum += (knots(m + k) - middle) * (knots(m + k) - middle);
+  return sum / (degree * (degree - 1));
+}
+
 CellSplines make_cell(int degree, const Knots& knots) {
   CellSplines cell;
   for (int a = 0; a <= degree; ++a) {
     cell.along[static_cast<std::size_t>(a)] = spline(knots, a - degree, degree);
     cell.along_place[static_cast<std::size_t>(a)] = greville(knots, a - degree, degree);
+    cell.along_spread[static_cast<std::size_t>(a)] = spread(knots, a - degree, degree);
   }
   for (int a = 0; a < degree; ++a) {
     cell.across[static_cast<std::size_t>(a)] = spline(knots, a - degree + 1, degree - 1);
     cell.across_place[static_cast<std::size_t>(a)] = greville(knots, a - degree + 1, degree - 1);
+    cell.across_spread[static_cast<std::size_t>(a)] = spread(knots, a - degree + 1, degree - 1);
   }
   return cell;
 }

@@ -29,6 +29,10 @@ struct CellSplines {
   /// Greville points from the low end of the cell, in units of h: sum_i N_i g_i = xi.
   std::array<double, most> along_place{};
   std::array<double, most> across_place{};
+  /// Spread of the inner knots of a spline around its Greville point, s_i, in units of h^2: sum_i N_i (g_i^2 - s_i) =
+  /// xi^2.
+  std::array<double, most> along_spread{};
+  std::array<double, most> across_spread{};
 };
 
 /// The splines of an axis. Spline number c + a is the a-th of those in cell c.

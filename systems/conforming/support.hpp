@@ -99,6 +99,16 @@ Index<Dim> cell_around(const Grid<Dim>& grid, const Splines<Dim>& splines, const
   return cell;
 }
 
+/// A coordinate of a place, be it a vector or one with a number per lane.
+template <int Dim>
+[[gnu::always_inline]] inline double coordinate(const Vec<Dim>& xi, std::size_t d) {
+  return xi[static_cast<Eigen::Index>(d)];
+}
+template <class Real, std::size_t Dim>
+[[gnu::always_inline]] inline const Real& coordinate(const std::array<Real, Dim>& xi, std::size_t d) {
+  return xi[d];
+}
+
 /// A cell: the splines in it, and where it is.
 template <int Dim>
 struct CellFrame {
@@ -133,68 +143,89 @@ struct CellFrame {
   }
 };
 
-/// Values of the splines of a cell at a point.
-template <int Dim, int K>
-struct SplineWeights {
-  std::array<std::array<double, K + 1>, static_cast<std::size_t>(Dim)> along;
-  std::array<std::array<double, K>, static_cast<std::size_t>(Dim)> across;
+/// Value at x of a polynomial of a degree of at least 1, its coefficients from the constant on.
+template <int Degree, class Real>
+[[gnu::always_inline]] inline Real polynomial(const CellSplines::Polynomial& c, const Real& x) {
+  Real value = c[Degree] * x + c[Degree - 1];
+  for (int k = Degree - 2; k >= 0; --k) value = value * x + c[static_cast<std::size_t>(k)];
+  return value;
+}
 
-  SplineWeights(const CellFrame<Dim>& frame, const Vec<Dim>& xi) {
+/// Its derivative.
+template <int Degree, class Real>
+[[gnu::always_inline]] inline Real slope_of_polynomial(const CellSplines::Polynomial& c, const Real& x) {
+  Real value = Real{} + Degree * c[Degree];
+  for (int k = Degree - 1; k >= 1; --k) value = value * x + k * c[static_cast<std::size_t>(k)];
+  return value;
+}
+
+/// A number for every spline of a cell.
+template <int Dim, int K, class Real>
+struct SplineNumbers {
+  std::array<std::array<Real, K + 1>, static_cast<std::size_t>(Dim)> along;
+  std::array<std::array<Real, K>, static_cast<std::size_t>(Dim)> across;
+
+  /// Of the splines that faces of direction D have along an axis.
+  template <int D, int Axis>
+  [[gnu::always_inline]] const auto& of() const {
+    if constexpr (Axis == D) {
+      return along[Axis];
+    } else {
+      return across[Axis];
+    }
+  }
+};
+
+/// Values of the splines of a cell at a point, or at one in every lane.
+template <int Dim, int K, class Real = double>
+struct SplineWeights : SplineNumbers<Dim, K, Real> {
+  using SplineNumbers<Dim, K, Real>::along;
+  using SplineNumbers<Dim, K, Real>::across;
+
+  template <class Place>
+  SplineWeights(const CellFrame<Dim>& frame, const Place& xi) {
     for (std::size_t d = 0; d < Dim; ++d) {
-      const double x = xi[static_cast<Eigen::Index>(d)];
+      const Real x = coordinate(xi, d);
       const CellSplines& of = *frame.splines[d];
-      for (std::size_t a = 0; a < K + 1; ++a) along[d][a] = horner<K>(of.along[a], x);
-      for (std::size_t a = 0; a < K; ++a) across[d][a] = horner<K - 1>(of.across[a], x);
+      for (std::size_t a = 0; a < K + 1; ++a) along[d][a] = polynomial<K>(of.along[a], x);
+      for (std::size_t a = 0; a < K; ++a) across[d][a] = polynomial<K - 1>(of.across[a], x);
     }
   }
   /// N_f for a face of direction D.
   template <int D>
-  [[gnu::always_inline]] double face(const Index<Dim>& offset) const {
-    double product = factor<D>(0, offset[0]) * factor<D>(1, offset[1]);
+  [[gnu::always_inline]] Real face(const Index<Dim>& offset) const {
+    Real product = factor<D>(0, offset[0]) * factor<D>(1, offset[1]);
     if constexpr (Dim == 3) product *= factor<D>(2, offset[2]);
     return product;
   }
-  [[gnu::always_inline]] double multiplier(const Index<Dim>& offset) const {
-    double product = 1;
-    for (std::size_t d = 0; d < Dim; ++d) product *= across[d][static_cast<std::size_t>(offset[d])];
+  [[gnu::always_inline]] Real multiplier(const Index<Dim>& offset) const {
+    Real product = across[0][static_cast<std::size_t>(offset[0])];
+    for (std::size_t d = 1; d < Dim; ++d) product *= across[d][static_cast<std::size_t>(offset[d])];
     return product;
   }
   template <int D>
-  [[gnu::always_inline]] double factor(int axis, int a) const {
+  [[gnu::always_inline]] Real factor(int axis, int a) const {
     const auto d = static_cast<std::size_t>(axis);
     return axis == D ? along[d][static_cast<std::size_t>(a)] : across[d][static_cast<std::size_t>(a)];
   }
-
- private:
-  template <int Degree>
-  [[gnu::always_inline]] static double horner(const CellSplines::Polynomial& c, double x) {
-    double value = c[Degree];
-    for (int k = Degree - 1; k >= 0; --k) value = value * x + c[static_cast<std::size_t>(k)];
-    return value;
-  }
 };
 
-/// Derivatives of the splines of a cell at a point, per m.
-template <int Dim, int K>
-struct SplineSlopes {
-  std::array<std::array<double, K + 1>, static_cast<std::size_t>(Dim)> along;
-  std::array<std::array<double, K>, static_cast<std::size_t>(Dim)> across;
+/// Derivatives of the splines of a cell at a point, or at one in every lane, per m.
+template <int Dim, int K, class Real = double>
+struct SplineSlopes : SplineNumbers<Dim, K, Real> {
+  using SplineNumbers<Dim, K, Real>::along;
+  using SplineNumbers<Dim, K, Real>::across;
 
-  SplineSlopes(const CellFrame<Dim>& frame, const Vec<Dim>& xi) {
+  template <class Place>
+  SplineSlopes(const CellFrame<Dim>& frame, const Place& xi) {
     for (std::size_t d = 0; d < Dim; ++d) {
-      const double x = xi[static_cast<Eigen::Index>(d)];
+      const Real x = coordinate(xi, d);
       const CellSplines& of = *frame.splines[d];
-      for (std::size_t a = 0; a < K + 1; ++a) along[d][a] = frame.per_spacing * slope<K>(of.along[a], x);
-      for (std::size_t a = 0; a < K; ++a) across[d][a] = frame.per_spacing * slope<K - 1>(of.across[a], x);
+      for (std::size_t a = 0; a < K + 1; ++a) along[d][a] = frame.per_spacing * slope_of_polynomial<K>(of.along[a], x);
+      for (std::size_t a = 0; a < K; ++a) {
+        across[d][a] = frame.per_spacing * slope_of_polynomial<K - 1>(of.across[a], x);
+      }
     }
-  }
-
- private:
-  template <int Degree>
-  [[gnu::always_inline]] static double slope(const CellSplines::Polynomial& c, double x) {
-    double value = Degree * c[Degree];
-    for (int k = Degree - 1; k >= 1; --k) value = value * x + k * c[static_cast<std::size_t>(k)];
-    return value;
   }
 };
 

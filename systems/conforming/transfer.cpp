@@ -9,26 +9,13 @@
 
 namespace minamo {
 
-namespace {
-
-/// A column as a function of the row.
-template <int Dim>
-auto of_faces(std::span<const Vec<Dim>> q_f) {
-  return [q_f](std::size_t i) -> const Vec<Dim>& { return q_f[i]; };
-}
-
-}  // namespace
-
 template <int Dim>
 void P2GFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                                   Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
-  with_degree(splines->degree, [&](auto degree) {
-    scatter_mean<Dim, degree()>(
-        {*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
-        [&](std::size_t p, const auto&, const auto&, const auto&) { return ConstantAround<Dim>{v_p[p]}; });
-  });
+  scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
+                    [&](std::size_t p) { return series::Constant<Dim>{v_p[p]}; });
 }
 
 template <int Dim>
@@ -37,13 +24,10 @@ void P2GFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
                                    Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                                    Read<particle::VelocityGradient<Dim>> grad_v_p, Write<face::Mass<Dim>> m_f,
                                    Write<face::Velocity<Dim>> v_f) const {
-  with_degree(splines->degree, [&](auto degree) {
-    constexpr int K = degree();
-    scatter_mean<Dim, K>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
-                         [&](std::size_t p, const CellFrame<Dim>& frame, const Vec<Dim>& xi, const auto&) {
-                           return TaylorAround<Dim, K>(frame, xi, v_p[p], grad_v_p[p]);
-                         });
-  });
+  scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
+                    [&](std::size_t p) {
+                      return series::Linear<Dim>{v_p[p], grad_v_p[p]};
+                    });
 }
 
 template <int Dim>
@@ -83,16 +67,14 @@ void G2PFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
                                    Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
                                    Write<particle::VelocityGradient<Dim>> grad_v_p) const {
   const FaceTarget<Dim> target{*grid, *splines, *cells, *sites, y_p.span()};
-  // With hats across, the derivatives across are those of APIC already.
-  if (conserves_spin && splines->degree > 2) {
+  if (conserves_spin && has_spin_beyond(splines->degree)) {
     gather_faces_with_affine<Dim>(target, of_faces<Dim>(v_f.span()),
-                                  [&](std::size_t p, const FaceJet<Dim>& v, const Mat<Dim>& c) {
-                                    const Mat<Dim> beyond = c - v.gradient;
+                                  [&](std::size_t, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& c_p) {
                                     v_p[p] = v.value;
-                                    grad_v_p[p] = v.gradient + 0.5 * (beyond - beyond.transpose());
+                                    grad_v_p[p] = v.gradient + spin_beyond<Dim>(c_p, v.gradient);
                                   });
   } else {
-    gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f.span()), [&](std::size_t p, const FaceJet<Dim>& v) {
+    gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f.span()), [&](std::size_t p, const Jet<Dim>& v) {
       v_p[p] = v.value;
       grad_v_p[p] = v.gradient;
     });
@@ -105,7 +87,7 @@ void G2PFacesApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
                                    Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
                                    Write<particle::VelocityGradient<Dim>> c_p) const {
   gather_faces_with_affine<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(v_f.span()),
-                                [&](std::size_t p, const FaceJet<Dim>& v, const Mat<Dim>& c) {
+                                [&](std::size_t, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& c) {
                                   v_p[p] = v.value;
                                   c_p[p] = c;
                                 });
@@ -117,11 +99,8 @@ void P2GFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<
                                              Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                              Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f,
                                              Write<face::Acceleration<Dim>> a_f) const {
-  with_degree(splines->degree, [&](auto degree) {
-    scatter_mean_of<Dim, degree()>(
-        {*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
-        [&](std::size_t p, const auto&, const auto&, const auto&) { return ConstantAround<Dim>{a_p[p]}; });
-  });
+  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
+                       [&](std::size_t p) { return series::Constant<Dim>{a_p[p]}; });
 }
 
 template <int Dim>
@@ -131,13 +110,10 @@ void P2GFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
                                               Read<particle::Acceleration<Dim>> a_p,
                                               Read<particle::AccelerationGradient<Dim>> grad_a_p,
                                               Read<face::Mass<Dim>> m_f, Write<face::Acceleration<Dim>> a_f) const {
-  with_degree(splines->degree, [&](auto degree) {
-    constexpr int K = degree();
-    scatter_mean_of<Dim, K>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
-                            [&](std::size_t p, const CellFrame<Dim>& frame, const Vec<Dim>& xi, const auto&) {
-                              return TaylorAround<Dim, K>(frame, xi, a_p[p], grad_a_p[p]);
-                            });
-  });
+  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), a_f.span(),
+                       [&](std::size_t p) {
+                         return series::Linear<Dim>{a_p[p], grad_a_p[p]};
+                       });
 }
 
 template <int Dim>
@@ -158,7 +134,7 @@ void G2PFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
                                               Write<particle::Acceleration<Dim>> a_p,
                                               Write<particle::AccelerationGradient<Dim>> grad_a_p) const {
   gather_faces_with_gradient<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(a_f.span()),
-                                  [&](std::size_t p, const FaceJet<Dim>& a) {
+                                  [&](std::size_t p, const Jet<Dim>& a) {
                                     a_p[p] = a.value;
                                     grad_a_p[p] = a.gradient;
                                   });
@@ -172,7 +148,7 @@ void G2PFaceAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
                                               Write<particle::Acceleration<Dim>> a_p,
                                               Write<particle::AccelerationGradient<Dim>> c_p) const {
   gather_faces_with_affine<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(a_f.span()),
-                                [&](std::size_t p, const FaceJet<Dim>& a, const Mat<Dim>& c) {
+                                [&](std::size_t, std::size_t p, const Jet<Dim>& a, const Mat<Dim>& c) {
                                   a_p[p] = a.value;
                                   c_p[p] = c;
                                 });

@@ -4,27 +4,10 @@
 /// cell, after which value and derivatives at a particle cost less than its weights.
 
 #include "systems/grid/support.hpp"
+#include "systems/transfer/jet.hpp"
 #include "systems/transfer/padded.hpp"
 
 namespace minamo {
-
-/// Second derivatives of a vector field, in the order xx xy yy, in space xx xy xz yy yz zz.
-template <int Dim>
-using SecondDerivatives = Eigen::Matrix<double, Dim, Dim*(Dim + 1) / 2>;
-
-/// Column of d_a^2 in SecondDerivatives.
-template <int Dim>
-constexpr int second_along(int a) {
-  return a * Dim - a * (a - 1) / 2;
-}
-
-/// Value and derivatives of a nodal field q at a point.
-template <int Dim>
-struct Jet {
-  Vec<Dim> value;
-  Mat<Dim> gradient;              ///< row i: gradient of component i
-  SecondDerivatives<Dim> second;  ///< zero across a wall in the half cell beside it
-};
 
 /// (E17), (E18)  q(y) = sum_I S_I(y) q_I and its derivatives, y in the dual cell of a support.
 template <int Dim>

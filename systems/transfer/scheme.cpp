@@ -23,7 +23,9 @@ std::vector<TransferScheme> built_in_transfer_schemes() {
           {.name = "fmpm",
            .doc = "PIC with a fuller mass matrix, whose damping shrinks with the order; FMPM(1) is PIC",
            .p2g_velocity = {"p2g_velocity_pic"},
-           .g2p_velocity = {"filter_velocity_fmpm", "g2p_velocity_fmpm"}},
+           .g2p_velocity = {"filter_velocity_fmpm", "g2p_velocity_fmpm"},
+           .p2g_faces = {"p2g_faces_pic"},
+           .g2p_faces = {"filter_faces_fmpm", "g2p_faces_fmpm"}},
           {.name = "pic",
            .doc = "particles take over the grid velocity; strong damping",
            .p2g_velocity = {"p2g_velocity_pic"},
@@ -47,8 +49,8 @@ std::vector<TransferScheme> built_in_transfer_schemes() {
            .p2g_acceleration = {"p2g_acceleration_tpic"},
            .g2p_velocity = {"g2p_velocity_tpic2"},
            .g2p_acceleration = {"g2p_acceleration_tpic"},
-           .p2g_faces = {"p2g_faces_tpic"},
-           .g2p_faces = {"g2p_faces_tpic"},
+           .p2g_faces = {"p2g_faces_tpic2"},
+           .g2p_faces = {"g2p_faces_tpic2"},
            .p2g_face_acceleration = {"p2g_face_acceleration_tpic"},
            .g2p_face_acceleration = {"g2p_face_acceleration_tpic"},
            .carries_gradient = true,
@@ -56,7 +58,9 @@ std::vector<TransferScheme> built_in_transfer_schemes() {
           {.name = "xpic",
            .doc = "PIC whose damping shrinks with the order; XPIC(1) is PIC",
            .p2g_velocity = {"p2g_velocity_pic"},
-           .g2p_velocity = {"filter_velocity_xpic", "g2p_velocity_xpic"}}};
+           .g2p_velocity = {"filter_velocity_xpic", "g2p_velocity_xpic"},
+           .p2g_faces = {"p2g_faces_pic"},
+           .g2p_faces = {"filter_faces_xpic", "g2p_faces_xpic"}}};
 }
 
 }  // namespace minamo

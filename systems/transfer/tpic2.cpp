@@ -7,15 +7,6 @@ namespace minamo {
 
 namespace {
 
-/// use(column, a, b) for the columns of a curvature.
-template <int Dim, class Use>
-[[gnu::always_inline]] inline void for_each_pair(const Use& use) {
-  int column = 0;
-  for (int a = 0; a < Dim; ++a) {
-    for (int b = a; b < Dim; ++b) use(column++, a, b);
-  }
-}
-
 /// What a particle brings to the nodes of its cell, times its mass: the series of (E64) as a polynomial in how many
 /// nodes a node is from the first.
 template <int Dim>
@@ -65,17 +56,6 @@ struct Series {
   }
 };
 
-/// phi_p of (E65), how much of a velocity's curvature the grid resolves.
-template <int Dim>
-double resolved_curvature(const Mat<Dim>& gradient, const SecondDerivatives<Dim>& curvature, double h) {
-  double square = 0;
-  for_each_pair<Dim>(
-      [&](int column, int a, int b) { square += (a == b ? 1 : 2) * curvature.col(column).squaredNorm(); });
-  const double of_gradient = gradient.squaredNorm();
-  const double sum = of_gradient + h * h * square;
-  return sum > 0 ? of_gradient / sum : 0;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -94,11 +74,7 @@ void P2GVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<
 }
 
 template <int Dim>
-G2PVelocityTpic2<Dim>::G2PVelocityTpic2(Input& in)
-    : share(in.number("share", {.doc = "share of the second derivatives that is kept; 0 is TPIC",
-                                .fallback = 1,
-                                .at_least = 0,
-                                .at_most = 1})) {}
+G2PVelocityTpic2<Dim>::G2PVelocityTpic2(Input& in) : share(curvature_share(in)) {}
 
 template <int Dim>
 void G2PVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,

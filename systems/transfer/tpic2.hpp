@@ -13,6 +13,13 @@
 
 namespace minamo {
 
+/// The option `share` of TPIC of second order, s of (E65). [1]
+inline double curvature_share(Input& in) {
+  return in.number(
+      "share",
+      {.doc = "share of the second derivatives that is kept; 0 is TPIC", .fallback = 1, .at_least = 0, .at_most = 1});
+}
+
 /// (E64)  v_I = sum_p S_Ip m_p (v_p + grad v_p r + sum_ab H_ab (r_a r_b - D_ab) / 2) / m_I, r = x_I - y_p,
 /// D_p = sum_I S_Ip r (x) r, so that no term changes the momentum.
 template <int Dim>

@@ -29,7 +29,6 @@ void correct_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
 
 /// The same on faces.
 void correct_face_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
-  recipe.add("material", "find_liquid_cells_by_multipliers");
   recipe.add("assemble", "add_face_inertia");
   recipe.add("advect", "g2p_face_force_gradient", When::step);
   recipe.add_standing_step(integrator.configure_beside,
@@ -58,9 +57,12 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
                    "lumped mass, with or without what it leaves out: (E53), (E62)", "corrected") == "corrected";
   return [scheme, p2g, g2p, corrected](const Scene& of, Recipe& recipe) {
     const auto& integrator = of.facts.get<IntegratorNeeds>();
-    if (!is_conforming(of)) {
+    const bool needs_liquid = corrected || scheme.reads_liquid_indicator;
+    if (is_conforming(of)) {
+      if (needs_liquid || scheme.carries_gradient) recipe.add("material", "find_liquid_cells_by_multipliers");
+    } else {
       recipe.add("p2g", "p2g_mass");
-      if (corrected || scheme.reads_liquid_indicator) recipe.add("p2g", "find_liquid_cells");
+      if (needs_liquid) recipe.add("p2g", "find_liquid_cells");
       if (corrected && integrator.gradients_move) recipe.add("p2g", "carry_gradient_to_middle", When::step);
     }
     for (const System& system : p2g) recipe.add("p2g", system);

@@ -6,6 +6,8 @@
 
 #include <minamo/minamo.hpp>
 
+#include <minamo/systems/conforming/gather.hpp>
+#include <minamo/systems/conforming/scatter.hpp>
 #include <minamo/systems/grid/support.hpp>
 #include <minamo/systems/transfer/gather.hpp>
 #include <minamo/systems/transfer/scatter.hpp>
@@ -34,26 +36,72 @@ struct ScatterVelocity {
   }
 };
 
-/// v_p = sum_I S_Ip v_I, G_p = rotation (A - A^T)/2 + strain (A + A^T)/2, A = sum_I v_I (x) grad S_Ip.
-template <int Dim>
-struct GatherVelocity {
-  static constexpr const char* doc = "v_p and G_p, RPIC";
+/// What is kept of a velocity gradient A: G_p = rotation (A - A^T)/2 + strain (A + A^T)/2.
+struct Kept {
   double rotation = 1;  // [1]
   double strain = 0;    // [1]
 
-  GatherVelocity() = default;
-  explicit GatherVelocity(Input& in) {
+  Kept() = default;
+  explicit Kept(Input& in) {
     rotation = in.number("rotation", {.doc = "share of the turning kept", .fallback = 1, .at_least = 0, .at_most = 1});
     strain = in.number("strain", {.doc = "share of the strain kept", .fallback = 0, .at_least = 0, .at_most = 1});
   }
+  template <int Dim>
+  Mat<Dim> of(const Mat<Dim>& A) const {
+    return 0.5 * rotation * (A - A.transpose()) + 0.5 * strain * (A + A.transpose());
+  }
+};
+
+/// v_p = sum_I S_Ip v_I, G_p of A = sum_I v_I (x) grad S_Ip.
+template <int Dim>
+struct GatherVelocity {
+  static constexpr const char* doc = "v_p and G_p, RPIC";
+  Kept kept;
+
+  GatherVelocity() = default;
+  explicit GatherVelocity(Input& in) : kept(in) {}
 
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
                   Write<particle::VelocityGradient<Dim>> G_p) const {
     gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Jet<Dim>& v) {
-      const Mat<Dim>& A = v.gradient;
       v_p[p] = v.value;
-      G_p[p] = 0.5 * rotation * (A - A.transpose()) + 0.5 * strain * (A + A.transpose());
+      G_p[p] = kept.of<Dim>(v.gradient);
+    });
+  }
+};
+
+/// The same for the conforming discretization, whose velocities live on faces: m_f = sum_p N_f m_p, v_f = sum_p N_f m_p
+/// (v_p + G_p (x_f - y_p)) / m_f.
+template <int Dim>
+struct ScatterToFaces {
+  static constexpr const char* doc = "m_f and v_f, RPIC";
+
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+                  Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> G_p,
+                  Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
+    const FaceSource<Dim> source{*grid, *splines, *cells, *sites, y_p.span(), m_p.span()};
+    const auto of_particle = [&](std::size_t p) { return series::Linear<Dim>{v_p[p], G_p[p]}; };
+    scatter_mean<Dim>(source, m_f.span(), v_f.span(), of_particle);
+  }
+};
+
+template <int Dim>
+struct GatherFromFaces {
+  static constexpr const char* doc = "v_p and G_p, RPIC";
+  Kept kept;
+
+  GatherFromFaces() = default;
+  explicit GatherFromFaces(Input& in) : kept(in) {}
+
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+                  Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> G_p) const {
+    const FaceTarget<Dim> target{*grid, *splines, *cells, *sites, y_p.span()};
+    gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f.span()), [&](std::size_t p, const Jet<Dim>& v) {
+      v_p[p] = v.value;
+      G_p[p] = kept.of<Dim>(v.gradient);
     });
   }
 };
@@ -62,10 +110,14 @@ int main(int argc, char** argv) {
   return minamo::run(argc, argv, [](SystemRegistry& registry) {
     registry.add<ScatterVelocity>("p2g_velocity_rpic");
     registry.add<GatherVelocity>("g2p_velocity_rpic");
+    registry.add<ScatterToFaces>("p2g_faces_rpic");
+    registry.add<GatherFromFaces>("g2p_faces_rpic");
     registry.add(TransferScheme{.name = "rpic",
                                 .doc = "particles take over the grid velocity and its rotation; damps strain",
                                 .p2g_velocity = {"p2g_velocity_rpic"},
                                 .g2p_velocity = {"g2p_velocity_rpic"},
+                                .p2g_faces = {"p2g_faces_rpic"},
+                                .g2p_faces = {"g2p_faces_rpic"},
                                 .carries_gradient = true});
   });
 }
