@@ -99,34 +99,13 @@ void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Re
                                      Read<face::Mass<Dim>> m_f, Read<face::Held> held,
                                      Write<face::InertiaCorrection<Dim>> c_f,
                                      Update<face::Predictor<Dim>> predictor) const {
-  for_each_row(c_f.size(), [&](std::size_t i) { c_f[i].setZero(); });
   const double share = std::min(1.0, step->seconds / clock->step);
-  with_degree(splines->degree, [&](auto degree) {
-    constexpr int K = degree();
-    for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-      const double liquid = share * w_c[c];
-      if (liquid == 0) return;
-      const CellFrame<Dim> frame(*grid, *splines, cell.node);
-      FaceSums<Dim, K> sums{};
-      for (std::size_t p = cell.begin; p < cell.end; ++p) {
-        const Vec<Dim> xi = frame.local(y_p[p]);
-        const SplineWeights<Dim, K> weights(frame, xi);
-        const TaylorAround<Dim, K> force(frame, xi, Vec<Dim>::Zero(), grad_f_p[p]);
-        const double m = liquid * m_p[p];
-        for_each_direction<Dim>([&](auto d) {
-          constexpr int D = d();
-          for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
-            sums[D][k] += m * weights.template face<D>(offset) * force.template at<D>(offset);
-          });
-        });
-      }
-      const std::uint32_t* rows = sites->of(c);
-      for (std::size_t k = 0; k < cell_sites<Dim, K>; ++k) {
-        for (std::size_t d = 0; d < Dim; ++d) c_f[rows[k]][static_cast<Eigen::Index>(d)] += sums[d][k];
-      }
-    });
-  });
-  divide_by_mass<Dim>(m_f.span(), c_f.span());
+  const Vec<Dim> nothing = Vec<Dim>::Zero();
+  scatter_mean_by_cell<Dim>(
+      {*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), c_f.span(),
+      [&](std::size_t c, const auto&, auto) {
+        return [&, w = share * w_c[c]](std::size_t p) { return series::Linear<Dim>{nothing, w * grad_f_p[p]}; };
+      });
   const double tau = rates->velocity / rates->acceleration;
   for_each_row(c_f.size(), [&](std::size_t i) {
     hold<Dim>(held[i], c_f[i]);

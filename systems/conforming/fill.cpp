@@ -1,7 +1,7 @@
 #include "systems/conforming/fill.hpp"
 
 #include "systems/conforming/incidence.hpp"
-#include "systems/conforming/support.hpp"
+#include "systems/conforming/lanes.hpp"
 #include "systems/grid/liquid_cells.hpp"
 
 #include <cmath>
@@ -16,8 +16,8 @@ constexpr double active_from = Dim == 2 ? 1e-3 : 0.1;
 /// Least mass of a face, as a share of that of a full grid.
 constexpr double least_mass = 1e-8;
 /// theta of (E67): fill fractions from which a face counts as full, and as full all the way.
-constexpr double filled_from = 0.9;
-constexpr double filled_to = 0.97;
+constexpr double filled_from = 0.5;
+constexpr double filled_to = 0.7;
 
 /// |dt/2 grad v| up to which the second term of (E63) counts in full, and from which on not at all.
 constexpr double resolved_to = 0.1;
@@ -68,24 +68,32 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
     constexpr int K = degree();
     for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       const CellFrame<Dim> frame(*grid, *splines, cell.node);
-      std::array<double, cell_sites<Dim, K>> volume{};
-      std::array<double, cell_sites<Dim, K>> ahead{};
       double filled = 0;
       for (std::size_t p = cell.begin; p < cell.end; ++p) filled += V_p[p];
       const double liquid = gradient.empty() ? 0 : liquid_indicator(filled / full_cell);
-      for (std::size_t p = cell.begin; p < cell.end; ++p) {
-        const SplineWeights<Dim, K> weights(frame, frame.local(y_p[p]));
-        const double divergence = liquid == 0 ? 0 : divergence_ahead<Dim>(half_step, liquid, gradient[p]);
-        for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
-          const double share = V_p[p] * weights.multiplier(offset);
-          volume[k] += share;
-          ahead[k] += share * divergence;
+      std::array<Four, power(K, Dim)> volume{};
+      std::array<Four, power(K, Dim)> ahead{};
+      for_each_group(cell, [&](const Group& group) {
+        const SplineWeights<Dim, K, Four> weights(frame, local<Dim>(frame, y_p.span(), group));
+        Four V = of_group(group, [&](std::size_t p) { return V_p[p]; });
+        V = of_lane >= static_cast<double>(group.count) ? Four{} : V;
+        Four divergence{};
+        if (liquid > 0) {
+          divergence = of_group(
+              group, [&](std::size_t p) { return divergence_ahead<Dim>(half_step, liquid, gradient[p]); });
+        }
+        std::size_t m = 0;
+        for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
+          const Four share = V * weights.multiplier(offset);
+          volume[m] += share;
+          ahead[m++] += share * divergence;
         });
-      }
+      });
       const std::uint32_t* rows = sites->of(c);
+      std::size_t m = 0;
       for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) {
-        v_l[rows[k]] += volume[k];
-        curvature[rows[k]] += ahead[k];
+        v_l[rows[k]] += sum_of_lanes(volume[m]);
+        curvature[rows[k]] += sum_of_lanes(ahead[m++]);
       });
     });
   });

@@ -180,7 +180,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 template <class Mass>
 std::vector<double> solve_mass(const Mass& mass, std::span<const double> b) {
   constexpr int most_iterations = 500;
-  constexpr double tolerance = 1e-10;
+  constexpr double tolerance = 1e-7;
   const std::vector<double> diagonal = mass.diagonal();
   const auto precondition = [&](const std::vector<double>& r) {
     std::vector<double> z(r.size(), 0);

@@ -23,10 +23,6 @@ struct FaceSource {
   std::span<const double> m_p;
 };
 
-/// Sums at the sites of a cell, by direction.
-template <int Dim, int K>
-using FaceSums = std::array<std::array<double, cell_sites<Dim, K>>, static_cast<std::size_t>(Dim)>;
-
 namespace detail {
 
 /// Sums at the faces of a cell, by direction, in the order of for_each_face().

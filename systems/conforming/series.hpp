@@ -160,30 +160,4 @@ class FaceSeries {
   std::tuple<Part<0>, Part<1>, Part<Dim == 3 ? 2 : 1>> part_;
 };
 
-/// The linear series of one particle: what it brings to a face.
-template <int Dim, int K>
-struct TaylorAround {
-  /// By direction of the face and axis: what the way along the axis adds.
-  std::array<std::array<std::array<double, K + 1>, static_cast<std::size_t>(Dim)>, static_cast<std::size_t>(Dim)> way;
-
-  TaylorAround(const CellFrame<Dim>& frame, const Vec<Dim>& xi, const Vec<Dim>& q, const Mat<Dim>& gradient) {
-    for (int d = 0; d < Dim; ++d) {
-      for (int e = 0; e < Dim; ++e) {
-        const double per_width = frame.spacing * gradient(d, e);
-        const double start = (e == 0 ? q[d] : 0) - per_width * xi[e];
-        const CellSplines& of = *frame.splines[static_cast<std::size_t>(e)];
-        const auto& place = d == e ? of.along_place : of.across_place;
-        auto& along = way[static_cast<std::size_t>(d)][static_cast<std::size_t>(e)];
-        for (std::size_t a = 0; a < K + 1; ++a) along[a] = start + per_width * place[a];
-      }
-    }
-  }
-  template <int D>
-  [[gnu::always_inline]] double at(const Index<Dim>& offset) const {
-    double sum = 0;
-    for (std::size_t e = 0; e < Dim; ++e) sum += way[D][e][static_cast<std::size_t>(offset[e])];
-    return sum;
-  }
-};
-
 }  // namespace minamo
