@@ -1,5 +1,5 @@
 # How our own code is compiled. Nothing here changes what a floating-point expression means (no -ffast-math),
-# but for one source below.
+# but for two sources below.
 
 find_program(minamo_ccache ccache)
 mark_as_advanced(minamo_ccache)
@@ -26,6 +26,8 @@ set(minamo_private_options -fno-math-errno)
 # Its roundings are corrected by an iteration, and its speed is that of fused multiply-add: a
 # factorization of 52 000 rows takes 48 ms with it and 72 ms without.
 set_source_files_properties(systems/solve/envelope_lu.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)
+# Likewise: 12 800 rows within 80 of the diagonal take 2.5 ms with it, 3.0 ms without.
+set_source_files_properties(systems/conforming/envelope_cholesky.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)
 
 function(minamo_compile_options target)
   target_compile_options(${target} PUBLIC ${minamo_public_options})
