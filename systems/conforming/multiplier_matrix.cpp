@@ -1,86 +1,60 @@
 #include "systems/conforming/multiplier_matrix.hpp"
 
-#include <utility>
+#include "engine/parallel.hpp"
+
+#include <algorithm>
 
 namespace minamo {
 
+namespace {
+
+/// Up to this many operations factors are cheaper than as many cycles of multigrid as a step has solves.
+constexpr double most_direct_work = 1e8;
+/// Of a projection: directions without divergence need not be more exact than the velocity that they add up to.
+constexpr double projection_tolerance = 1e-10;
+constexpr std::int64_t most_cycles = 100;
+
+}  // namespace
+
 template <int Dim>
-void MultiplierMatrix<Dim>::prepare(const Incidence<Dim>& incidence, std::span<const std::uint32_t> of_unknown,
-                                    Neighbours neighbour, const Values& per_d) {
-  neighbour_ = neighbour;
-  diagonal_.resize(of_unknown.size());
-  conductance_.resize(of_unknown.size());
-  for_each_row(of_unknown.size(), [&](std::size_t l) {
-    const std::size_t i = of_unknown[l];
+void MultiplierMatrix<Dim>::prepare(const Splines<Dim>& splines, const Incidence<Dim>& incidence, const Graph& graph,
+                                    std::span<const double> per_d) {
+  const std::size_t n = graph.staggered.size();
+  diagonal_.resize(n);
+  conductance_.resize(n);
+  b_.assign(n, {});
+  x_.assign(n, {});
+  for_each_row(n, [&](std::size_t l) {
+    const std::size_t i = graph.staggered[l];
     diagonal_[l] = 0;
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::size_t up = incidence.above(i, d);
       const double per_width = incidence.per_width(i, d);
       diagonal_[l] += per_width * per_width * (per_d[Dim * i + d] + per_d[Dim * up + d]);
-      const bool has_upper = neighbour[l][2 * d + 1] != staggered::none;
+      const bool has_upper = graph.neighbour[l][2 * d + 1] != staggered::none;
       conductance_[l][d] = has_upper ? per_width * incidence.per_width(up, d) * per_d[Dim * up + d] : 0;
     }
   });
-  // Between walls all around the matrix is singular; so little more changes no velocity.
-  constexpr double more = 1 + 1e-11;
-  cholesky_.start(diagonal_.size());
-  for (std::size_t l = 0; l < diagonal_.size(); ++l) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      for (const std::int32_t m : {neighbour[l][2 * d], neighbour[l][2 * d + 1]}) {
-        if (m == staggered::none || static_cast<std::size_t>(m) > l) continue;
-        const bool is_below = m == neighbour[l][2 * d];
-        cholesky_.add(l, static_cast<std::size_t>(m),
-                      -(is_below ? conductance_[static_cast<std::size_t>(m)][d] : conductance_[l][d]));
-      }
-    }
-    cholesky_.add(l, l, more * diagonal_[l]);
-  }
-  cholesky_.factorize(is_small() ? SparseCholesky::Kind::complete : SparseCholesky::Kind::incomplete);
+  matrix_ = {graph.site, graph.neighbour, conductance_, diagonal_, splines.sites(), {}};
+  for (std::size_t d = 0; d < Dim; ++d) matrix_.periodic[d] = splines.axis[d].periodic();
+  null_vector_ = graph.null_vector;
+  if (n == 0) return;
+  closed_.find(matrix_, null_vector_);
+  is_direct_ = direct_.analyse(matrix_) <= most_direct_work && direct_.factorize(matrix_, closed_.grounded());
+  if (!is_direct_) multigrid_.prepare(matrix_, null_vector_, closed_);
 }
 
 template <int Dim>
-void MultiplierMatrix<Dim>::apply(const Values& x, Values& out) const {
-  for_each_row(x.size(), [&](std::size_t l) {
-    double sum = diagonal_[l] * x[l];
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const std::int32_t low = neighbour_[l][2 * d];
-      const std::int32_t high = neighbour_[l][2 * d + 1];
-      if (low >= 0) sum -= conductance_[static_cast<std::size_t>(low)][d] * x[static_cast<std::size_t>(low)];
-      if (high >= 0) sum -= conductance_[l][d] * x[static_cast<std::size_t>(high)];
-    }
-    out[l] = sum;
-  });
-}
-
-template <int Dim>
-void MultiplierMatrix<Dim>::solve(Values& b, Values& x) {
-  const std::size_t n = b.size();
-  product_.resize(n);
-  if (is_small()) {
-    x = b;
-    cholesky_.solve(x);
-    apply(x, product_);
-    add_scaled(-1, product_, b);
-    return;
+void MultiplierMatrix<Dim>::solve(std::span<const double> b, std::span<double> x) {
+  if (b.empty()) return;
+  for (std::size_t l = 0; l < b.size(); ++l) b_[l][0] = b[l];
+  closed_.remove_null_part(null_vector_, b_);
+  if (is_direct_) {
+    direct_.solve(b_, x_);
+  } else {
+    multigrid_.solve({matrix_, null_vector_, b_, 1, projection_tolerance}, x_, most_cycles);
   }
-  constexpr int most = 500;
-  constexpr double relative = 1e-10;
-  x.assign(n, 0.0);
-  direction_.assign(n, 0.0);
-  const double target = relative * relative * dot(b, b);
-  double before = 1;
-  for (int k = 0; k < most && dot(b, b) > target; ++k) {
-    preconditioned_ = b;
-    cholesky_.solve(preconditioned_);
-    const double now = dot(b, preconditioned_);
-    const double share = k == 0 ? 0 : now / before;
-    before = now;
-    for_each_row(n, [&](std::size_t l) { direction_[l] = preconditioned_[l] + share * direction_[l]; });
-    apply(direction_, product_);
-    const double step = now / dot(direction_, product_);
-    add_scaled(step, direction_, x);
-    add_scaled(-step, product_, b);
-  }
+  for (std::size_t l = 0; l < b.size(); ++l) x[l] = x_[l][0];
 }
 
 template class MultiplierMatrix<2>;

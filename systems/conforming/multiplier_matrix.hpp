@@ -5,30 +5,37 @@
 
 #include "components/staggered.hpp"
 #include "systems/conforming/incidence.hpp"
-#include "systems/solve/cholesky.hpp"
+#include "systems/conforming/multigrid.hpp"
 
 namespace minamo {
 
 template <int Dim>
 class MultiplierMatrix {
  public:
-  using Neighbours = std::span<const typename unknown::Neighbour<Dim>::value_type>;
+  /// The active multipliers.
+  struct Graph {
+    std::span<const std::uint32_t> staggered;
+    std::span<const Index<Dim>> site;
+    std::span<const typename unknown::Neighbour<Dim>::value_type> neighbour;
+    std::span<const double> null_vector;
+  };
 
   /// \param per_d  D^-1 by face, number Dim i + d; 0 at faces that walls hold
-  void prepare(const Incidence<Dim>& incidence, std::span<const std::uint32_t> of_unknown, Neighbours neighbour,
-               const Values& per_d);
-  /// Sets x to the solution, b to what is left of it.
-  void solve(Values& b, Values& x);
+  void prepare(const Splines<Dim>& splines, const Incidence<Dim>& incidence, const Graph& graph,
+               std::span<const double> per_d);
+  /// \pre what prepare() has seen is still there
+  void solve(std::span<const double> b, std::span<double> x);
 
  private:
-  void apply(const Values& x, Values& out) const;
-  bool is_small() const { return diagonal_.size() <= (Dim == 2 ? 100'000U : 4000U); }
-
-  Neighbours neighbour_;
-  Values diagonal_;
-  std::vector<std::array<double, static_cast<std::size_t>(Dim)>> conductance_;
-  SparseCholesky cholesky_;
-  Values direction_, product_, preconditioned_;
+  StaggeredLaplacian<Dim> matrix_;
+  std::span<const double> null_vector_;
+  std::vector<double> diagonal_;
+  std::vector<typename StaggeredLaplacian<Dim>::Conductances> conductance_;
+  ClosedComponents closed_;
+  bool is_direct_ = true;
+  DirectSolver<Dim> direct_;
+  MultigridSolver<Dim> multigrid_;
+  std::vector<Sources> b_, x_;
 };
 
 }  // namespace minamo

@@ -93,7 +93,8 @@ void SolveFriction<Dim>::operator()(
     Read<FrictionMatrices<Dim>> matrices, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
     Read<cell::Viscosity> mu_c, Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
-    Read<unknown::Staggered> of_unknown, Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<multiplier::Row> row,
+    Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
+    Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::NullVector> null_vector, Read<multiplier::Row> row,
     Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda,
     Update<SolveReport> report) const {
   const double per_tau = rates->acceleration / rates->velocity;
@@ -119,7 +120,9 @@ void SolveFriction<Dim>::operator()(
       work->v[f] = is_held ? 0 : v_f[i][axis];
     }
   });
-  work->multipliers.prepare(system.incidence, of_unknown.span(), unknown_neighbour.span(), work->per_g);
+  work->multipliers.prepare(*splines, system.incidence,
+                            {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span()},
+                            work->per_g);
   const double size = std::sqrt(weighted_square(work->per_g, work->f));
   const auto [iterations, residual] = system.solve(tolerance->relative * size);
   for_each_row(v_f.size(), [&](std::size_t i) {

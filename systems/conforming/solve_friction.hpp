@@ -15,6 +15,7 @@
 #include "engine/system.hpp"
 #include "systems/conforming/friction_matrices.hpp"
 #include "systems/conforming/multiplier_matrix.hpp"
+#include "systems/solve/gmres.hpp"
 
 namespace minamo {
 
@@ -38,7 +39,8 @@ struct SolveFriction {
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c,
                   Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
-                  Read<unknown::Staggered> of_unknown, Read<unknown::Neighbour<Dim>> unknown_neighbour,
+                  Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
+                  Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::NullVector> null_vector,
                   Read<multiplier::Row> row, Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
                   Update<multiplier::Force> lambda, Update<SolveReport> report) const;
 };
