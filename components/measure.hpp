@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is measured after every step, for the history.
+/// What is measured for the history, in the steps that it has a row of, and the overlap, in every step.
 
 #include "components/types.hpp"
 #include "engine/component.hpp"
@@ -58,7 +58,7 @@ struct Probes {
 };
 
 /// Further columns of the history, in the order in which systems first name them. A system that measures sets its
-/// columns in every step, the start included; NaN is an empty cell.
+/// columns for every row, that of the start included; NaN is an empty cell.
 struct Columns {
   struct Column {
     std::string name;

@@ -60,19 +60,22 @@ class Profiler {
   std::vector<Line> lines_;
 };
 
-/// Records the time from its construction to its end.
-class ScopedTimer {
+/// Records the time from `begin` to its own end, which is then the new `begin`.
+class Lap {
  public:
-  ScopedTimer(Profiler& profiler, std::size_t row)
-      : profiler_(&profiler), row_(row), begin_(std::chrono::steady_clock::now()) {}
-  ~ScopedTimer() { profiler_->record(row_, begin_, std::chrono::steady_clock::now()); }
-  ScopedTimer(const ScopedTimer&) = delete;
-  ScopedTimer& operator=(const ScopedTimer&) = delete;
+  Lap(Profiler& profiler, std::size_t row, Profiler::Time& begin) : profiler_(&profiler), row_(row), begin_(&begin) {}
+  ~Lap() {
+    const Profiler::Time end = std::chrono::steady_clock::now();
+    profiler_->record(row_, *begin_, end);
+    *begin_ = end;
+  }
+  Lap(const Lap&) = delete;
+  Lap& operator=(const Lap&) = delete;
 
  private:
   Profiler* profiler_;
   std::size_t row_;
-  Profiler::Time begin_;
+  Profiler::Time* begin_;
 };
 
 }  // namespace minamo

@@ -160,7 +160,7 @@ std::vector<std::string> unset_constants(std::span<const System> systems, const 
 struct Schedule::Impl {
   Impl(std::vector<System> list, World& world_of_run, Profiler* profiler_of_run, Execution execution);
 
-  void run();
+  void run(std::size_t count);
 
  private:
   using Message = tbb::flow::continue_msg;
@@ -174,11 +174,16 @@ struct Schedule::Impl {
     std::deque<Task> tasks;
   };
 
+  /// When the next system began: where one follows the other, the clock is read once for the end and the begin.
+  using Time = Profiler::Time;
+
   void build_graph();
-  void run_graph();
-  void run_system(std::size_t place);
-  void run_timed(const System& system, std::size_t row);
-  void run_loop(std::size_t place);
+  void run_graph(std::size_t count);
+  void run_list(std::size_t count);
+  Time now() const { return profiler_ ? std::chrono::steady_clock::now() : Time{}; }
+  void run_system(std::size_t place, Time& begin);
+  void run_timed(const System& system, std::size_t row, Time& begin);
+  void run_loop(std::size_t place, Time& begin);
   void run_in_graph(std::size_t place);
   void note_failure(std::size_t place);
 
@@ -227,44 +232,50 @@ void Schedule::Impl::build_graph() {
   }
 }
 
-void Schedule::Impl::run() {
+void Schedule::Impl::run(std::size_t count) {
   if (graph_) {
-    run_graph();
+    run_graph(count);
   } else {
-    for (std::size_t place = 0; place < systems.size(); ++place) run_system(place);
+    // Isolated, so that a thread waiting in a system does not run what its caller has to do.
+    tbb::this_task_arena::isolate([this, count] { run_list(count); });
   }
 }
 
-void Schedule::Impl::run_graph() {
-  end_ = systems.size();
+void Schedule::Impl::run_list(std::size_t count) {
+  Time begin = now();
+  for (std::size_t place = 0; place < count; ++place) run_system(place, begin);
+}
+
+void Schedule::Impl::run_graph(std::size_t count) {
+  end_ = count;
   graph_->graph.reset();  // also moves the graph into the task arena of the caller
   graph_->start.try_put(Message{});
   graph_->graph.wait_for_all();
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-void Schedule::Impl::run_system(std::size_t place) {
-  // Isolated, so that a thread waiting here does not run another system inside this one's time.
-  tbb::this_task_arena::isolate([this, place] {
-    if (systems[place].again) {
-      run_loop(place);
-    } else {
-      run_timed(systems[place], profiler_ ? rows_[place] : 0);
-    }
-  });
+/// What is recorded next begins when the system ends.
+void Schedule::Impl::run_system(std::size_t place, Time& begin) {
+  if (systems[place].again) {
+    run_loop(place, begin);
+  } else {
+    run_timed(systems[place], profiler_ ? rows_[place] : 0, begin);
+  }
 }
 
-void Schedule::Impl::run_timed(const System& system, std::size_t row) {
-  std::optional<ScopedTimer> timer;
-  if (profiler_) timer.emplace(*profiler_, row);
+void Schedule::Impl::run_timed(const System& system, std::size_t row, Time& begin) {
+  if (!profiler_) return system.run(*world_);
+  const Lap lap(*profiler_, row, begin);
   system.run(*world_);
 }
 
 /// Only the rows of the body take its time, so that shares add up.
-void Schedule::Impl::run_loop(std::size_t place) {
+void Schedule::Impl::run_loop(std::size_t place, Time& begin) {
   const System& loop = systems[place];
   for (int pass = 0; loop.again(*world_, pass); ++pass) {
-    for (std::size_t k = 0; k < loop.body.size(); ++k) run_timed(loop.body[k], profiler_ ? rows_[place] + 1 + k : 0);
+    for (std::size_t k = 0; k < loop.body.size(); ++k) {
+      run_timed(loop.body[k], profiler_ ? rows_[place] + 1 + k : 0, begin);
+    }
   }
 }
 
@@ -272,7 +283,11 @@ void Schedule::Impl::run_in_graph(std::size_t place) {
   // Systems before the failed one still run: the list would have run them, and one of them may be the first to fail.
   if (place >= end_) return;
   try {
-    run_system(place);
+    // Isolated, so that a thread waiting here does not run another system inside this one's time.
+    tbb::this_task_arena::isolate([this, place] {
+      Time begin = now();
+      run_system(place, begin);
+    });
   } catch (...) {
     // Not passed on to the graph, which would cancel the parallel loops of other systems halfway.
     note_failure(place);
@@ -293,7 +308,9 @@ Schedule::~Schedule() = default;
 Schedule::Schedule(Schedule&&) noexcept = default;
 Schedule& Schedule::operator=(Schedule&&) noexcept = default;
 
-void Schedule::run() { impl_->run(); }
+void Schedule::run() { impl_->run(impl_->systems.size()); }
+
+void Schedule::run_first(std::size_t count) { impl_->run(count); }
 
 std::span<const System> Schedule::systems() const { return impl_->systems; }
 

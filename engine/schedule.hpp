@@ -71,6 +71,9 @@ class Schedule {
   /// \pre This schedule is not running already.
   void run();
 
+  /// The same as if the list ended after so many systems.
+  void run_first(std::size_t count);
+
   std::span<const System> systems() const;
 
  private:

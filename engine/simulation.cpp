@@ -141,7 +141,7 @@ class Loop {
       stepper_.plan(next_frame);
       world_.mark();
       try {
-        step_.run();
+        run_step();
         stepper_.accept();
         return;
       } catch (const StepRejected& rejected) {
@@ -152,6 +152,20 @@ class Loop {
         throw;
       }
     }
+  }
+
+  void run_step() {
+    if (is_recorded()) {
+      step_.run();
+    } else {
+      step_.run_first(plan_.unrecorded);
+    }
+  }
+
+  /// Of the attempt that the clock is at.
+  bool is_recorded() const {
+    const Clock after{.time = clock_.end_of_step, .step = clock_.step, .end_of_step = 0, .index = clock_.index + 1};
+    return after.index % plan_.record_every == 0 || minamo::is_over(plan_, after);
   }
 
   void retry(const StepRejected& rejected) {

@@ -21,6 +21,8 @@ struct TimePlan {
   double frame_every = 0;                     ///< [s]
   std::optional<double> checkpoint_every;     ///< [s]
   std::optional<std::int64_t> max_steps;      ///< of the whole run
+  std::int64_t record_every = 1;              ///< steps that run their whole list; the last of a run does, too
+  std::size_t unrecorded = 0;                 ///< so many systems, the first of the list, run in all others
 };
 
 /// Whether nothing is left to do at that time.

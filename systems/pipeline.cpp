@@ -1,6 +1,7 @@
 #include "systems/pipeline.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace minamo {
 
@@ -19,9 +20,14 @@ std::vector<System> in_slot(const Recipe& recipe, std::string_view slot, When li
   return systems;
 }
 
-std::vector<System> make_step(const Scene& scene) {
+std::vector<Slot>::const_iterator slot_named(std::string_view name) {
+  return std::find_if(slots().begin(), slots().end(), [&](const Slot& slot) { return slot.name == name; });
+}
+
+/// Of slots one after the other.
+std::vector<System> make_step(const Scene& scene, std::span<const Slot> of) {
   std::vector<System> step;
-  for (const Slot& slot : slots()) {
+  for (const Slot& slot : of) {
     append(step, in_slot(scene.recipe, slot.name, When::step));
     for (const ExtraSystem& extra : scene.systems) {
       if (extra.after == slot.name) step.push_back(extra.system);
@@ -32,11 +38,9 @@ std::vector<System> make_step(const Scene& scene) {
 
 /// The slots `first` to `last`, as a standing step has them.
 std::vector<System> standing_slots(const Recipe& recipe, std::string_view first, std::string_view last) {
-  const auto is = [](std::string_view name) { return [name](const Slot& slot) { return slot.name == name; }; };
-  const auto begin = std::find_if(slots().begin(), slots().end(), is(first));
-  const auto end = std::find_if(begin, slots().end(), is(last)) + 1;
+  const auto end = slot_named(last) + 1;
   std::vector<System> systems;
-  for (auto slot = begin; slot != end; ++slot) append(systems, in_slot(recipe, slot->name, When::standing));
+  for (auto slot = slot_named(first); slot != end; ++slot) append(systems, in_slot(recipe, slot->name, When::standing));
   return systems;
 }
 
@@ -49,14 +53,16 @@ std::vector<System> make_start(const Recipe& recipe) {
   };
   for (const Recipe::StandingStep& step : recipe.standing_steps()) stand(step.configure, step.after);
   // The pressure that the first frame shows.
-  stand(recipe.make("place_quadrature_step_ahead"), standing_slots(recipe, "measure", "record"));
+  stand(recipe.make("place_quadrature_step_ahead"), standing_slots(recipe, "accept", "record"));
   return start;
 }
 
 }  // namespace
 
 Pipeline make_pipeline(const Scene& scene) {
-  return {make_start(scene.recipe), make_step(scene), scene.recipe.output()};
+  // No slot of a step without a row comes after one that it leaves out, so it has nothing to miss.
+  const std::vector<System> always = make_step(scene, {slots().begin(), slot_named(record_slots)});
+  return {make_start(scene.recipe), make_step(scene, slots()), always.size(), scene.recipe.output()};
 }
 
 }  // namespace minamo

@@ -9,6 +9,7 @@ namespace minamo {
 struct Pipeline {
   std::vector<System> start;   ///< once, before the first step
   std::vector<System> step;    ///< every step
+  std::size_t unrecorded = 0;  ///< so many systems, the first of them, in a step that the history has no row of
   std::vector<System> output;  ///< at every output time
 };
 

@@ -21,7 +21,11 @@ fs::path output_folder(const RunOptions& options) {
   return options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : fs::path(options.out);
 }
 
-int report(const RunResult& result, const fs::path& folder, bool quiet) {
+std::string rows_text(std::int64_t every) {
+  return every == 1 ? "a row per step" : fmt::format("a row per {} steps", every);
+}
+
+int report(const RunResult& result, const Scene& scene, const fs::path& folder, bool quiet) {
   const fs::path checkpoint = folder / "checkpoint.h5";
   if (result.outcome.ending == Ending::failed) {
     std::cerr << result.outcome.message << '\n';
@@ -39,7 +43,8 @@ int report(const RunResult& result, const fs::path& folder, bool quiet) {
                  result.clock.index, checkpoint.string());
   }
   if (!quiet) {
-    spdlog::info("results in {}: open fields.xdmf in ParaView, history.csv has a row per step", folder.string());
+    spdlog::info("results in {}: open fields.xdmf in ParaView, history.csv has {}", folder.string(),
+                 rows_text(scene.output.history));
   }
   return interrupted ? exit_interrupted : exit_done;
 }
@@ -64,7 +69,7 @@ int run_scene(const RunOptions& options, const SystemRegistry& registry) {
     std::cout << profiler.table(result.loop_seconds);
     profiler.write_trace(options.trace.empty() ? (folder / "trace.json").string() : options.trace);
   }
-  return report(result, folder, options.quiet);
+  return report(result, file.scene, folder, options.quiet);
 }
 
 }  // namespace minamo

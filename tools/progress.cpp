@@ -33,8 +33,9 @@ double Progress::done(const Clock& clock) const {
 
 void Progress::show(const Clock& clock, const SolveReport& solve) {
   constexpr double seconds_between = 0.1;
+  if (!active_) return;
   const double now = stopwatch_.wall_seconds();
-  if (!active_ || now < last_shown_ + seconds_between) return;
+  if (now < last_shown_ + seconds_between) return;
   last_shown_ = now;
   const double share = done(clock);
   const double remaining = share > done_before_ ? now * (1 - share) / (share - done_before_) : 0;

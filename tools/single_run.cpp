@@ -74,7 +74,7 @@ void warn_of_energy(const Json& summary, World& world) {
   if (rise <= 0.01) return;
   spdlog::warn("energy rose by {:.3g} % though nothing does work, most of all until t = {:.6g} s; a shorter step or "
                "another method may keep it",
-               100 * rise, world.resource<RunTotals>().energy.time);
+               100 * rise, totals_of_all_rows(world).energy.time);
 }
 
 /// The rows that count, and nothing after them, whatever became of the last.
@@ -82,7 +82,7 @@ void close_history(const fs::path& folder, World& world) {
   world.resource<HistoryFile>().file.close();
   std::error_code ignored;
   if (fs::exists(folder / "history.csv", ignored)) {
-    cut_history((folder / "history.csv").string(), world.resource<RunTotals>().rows);
+    cut_history((folder / "history.csv").string(), totals_of_all_rows(world).rows);
   }
 }
 
@@ -90,6 +90,7 @@ void close_history(const fs::path& folder, World& world) {
 void take_back_row(const fs::path& folder, World& world) {
   HistoryFile& history = world.resource<HistoryFile>();
   const std::int64_t rows = world.resource<RunTotals>().rows;
+  history.extra.reset();
   if (history.rows <= rows) return;
   history.file.close();
   cut_history((folder / "history.csv").string(), rows);
@@ -126,9 +127,11 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
   World world;
   seed(scene, plan.scene, world);
   Pipeline pipeline = make_pipeline(scene);
-  Schedule start(std::move(pipeline.start), world);
-  Schedule step(std::move(pipeline.step), world, &profiler);
-  Schedule frame(std::move(pipeline.output), world, &profiler);
+  // One thread has nobody to share a graph with.
+  const Execution execution = plan.threads == 1 ? Execution::list : Execution::graph;
+  Schedule start(std::move(pipeline.start), world, nullptr, execution);
+  Schedule step(std::move(pipeline.step), world, &profiler, execution);
+  Schedule frame(std::move(pipeline.output), world, &profiler, execution);
   TimePlan times = make_time_plan(scene);
   times.max_steps = plan.steps;
   RunResult result;

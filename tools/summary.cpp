@@ -5,6 +5,7 @@
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/step_control.hpp"
+#include "systems/measure/acceptance.hpp"
 #include "systems/output/history.hpp"
 #include "tools/version.hpp"
 
@@ -76,7 +77,7 @@ double energy_rise(double mass, World& world) {
   const double h = in_plane ? world.resource<Grid<2>>().spacing : world.resource<Grid<3>>().spacing;
   const double slow = 1e-6 * h / world.resource<Clock>().step;
   const double fall = 0.01 * h * constant_force(world.resource<BodyForce>());
-  return world.resource<RunTotals>().energy.share(mass * (slow * slow + fall));
+  return totals_of_all_rows(world).energy.share(mass * (slow * slow + fall));
 }
 
 }  // namespace
@@ -84,7 +85,8 @@ double energy_rise(double mass, World& world) {
 Json make_summary(const std::string& scene, const Outcome& outcome, int threads, const Stopwatch& stopwatch,
                   const Profiler& profiler, World& world) {
   const Clock& clock = world.resource<Clock>();
-  const RunTotals& totals = world.resource<RunTotals>();
+  const RunTotals& totals = totals_of_all_rows(world);
+  const StepTotals& steps = world.resource<StepTotals>();
   const double wall = stopwatch.wall_seconds();
   Json summary{{"scene", scene}, {"status", status(outcome.ending)}};
   if (!outcome.message.empty()) summary["message"] = outcome.message;
@@ -99,8 +101,8 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
                   {"build", build_facts()},
                   {"particles", world.rows<Particles>()},
                   {"clamped", world.resource<Clamped>().count},
-                  {"active_nodes_max", totals.active_nodes_max},
-                  {"unknowns_max", totals.unknowns_max},
+                  {"active_nodes_max", steps.active_nodes_max},
+                  {"unknowns_max", steps.unknowns_max},
                   {"peak_memory_bytes", peak_memory()},
                   {"systems", system_rows(profiler, wall)}});
   double mass = 0;
@@ -108,7 +110,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   const bool in_plane = world.has<Grid<2>>();
   Json conservation{{"mass", mass}};
   conservation.update(conserved(totals.last, in_plane));
-  conservation["overlap_max"] = totals.overlap_max;
+  conservation["overlap_max"] = steps.overlap_max;
   conservation["energy_rise"] = energy_rise(mass, world);
   conservation["initial"] = conserved(totals.first, in_plane);
   summary["conservation"] = conservation;

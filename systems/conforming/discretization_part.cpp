@@ -1,6 +1,7 @@
 #include "systems/conforming/balances.hpp"
 #include "systems/conforming/fill.hpp"
 #include "systems/conforming/friction.hpp"
+#include "systems/conforming/limit_gradient.hpp"
 #include "systems/conforming/measures.hpp"
 #include "systems/conforming/number_sites.hpp"
 #include "systems/conforming/pressure.hpp"
@@ -51,6 +52,7 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<G2PFaceAccelerationPic>("g2p_face_acceleration_pic");
   registry.add<G2PFaceAccelerationTpic>("g2p_face_acceleration_tpic");
   registry.add<G2PFaceAccelerationApic>("g2p_face_acceleration_apic");
+  registry.add<LimitGradient>("limit_gradient");
   registry.add<AdvectByFaces>("advect_by_faces");
   registry.add<P2GMultipliers>("p2g_multipliers");
   registry.add<FindFill>("find_fill");
@@ -71,6 +73,7 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<FillFaceVolumeSource>("face_volume_source");
   registry.add<FindCellViscosity>("find_cell_viscosity");
   registry.add<RubFaces>("rub_faces");
+  registry.add<PrepareMultipliers>("prepare_multipliers");
   registry.add<SolveMultipliers>("solve_multipliers");
   registry.add<ProjectFaces>("project_faces");
   registry.add<SolveFriction>("solve_friction");

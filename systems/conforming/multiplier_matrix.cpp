@@ -1,18 +1,11 @@
 #include "systems/conforming/multiplier_matrix.hpp"
 
-#include "engine/parallel.hpp"
-
-#include <algorithm>
-
 namespace minamo {
 
 namespace {
 
-/// Up to this many operations factors are cheaper than as many cycles of multigrid as a step has solves.
-constexpr double most_direct_work = 1e8;
-/// Of a projection: directions without divergence need not be more exact than the velocity that they add up to.
+/// Of a projection. With 1e-6 friction takes a tenth more iterations, and what of the divergence is left adds up.
 constexpr double projection_tolerance = 1e-10;
-constexpr std::int64_t most_cycles = 100;
 
 }  // namespace
 
@@ -35,26 +28,16 @@ void MultiplierMatrix<Dim>::prepare(const Splines<Dim>& splines, const Incidence
       conductance_[l][d] = has_upper ? per_width * incidence.per_width(up, d) * per_d[Dim * up + d] : 0;
     }
   });
-  matrix_ = {graph.site, graph.neighbour, conductance_, diagonal_, splines.sites(), {}};
-  for (std::size_t d = 0; d < Dim; ++d) matrix_.periodic[d] = splines.axis[d].periodic();
+  matrix_ = laplacian_of<Dim>(splines, graph.site, graph.neighbour, conductance_, diagonal_);
   null_vector_ = graph.null_vector;
-  if (n == 0) return;
-  closed_.find(matrix_, null_vector_);
-  is_direct_ = direct_.analyse(matrix_) <= most_direct_work && direct_.factorize(matrix_, closed_.grounded());
-  if (!is_direct_) multigrid_.prepare(matrix_, null_vector_, closed_);
+  solver_.prepare(matrix_, null_vector_);
 }
 
 template <int Dim>
 void MultiplierMatrix<Dim>::solve(std::span<const double> b, std::span<double> x) {
-  if (b.empty()) return;
-  for (std::size_t l = 0; l < b.size(); ++l) b_[l][0] = b[l];
-  closed_.remove_null_part(null_vector_, b_);
-  if (is_direct_) {
-    direct_.solve(b_, x_);
-  } else {
-    multigrid_.solve({matrix_, null_vector_, b_, 1, projection_tolerance}, x_, most_cycles);
-  }
-  for (std::size_t l = 0; l < b.size(); ++l) x[l] = x_[l][0];
+  for_each_row(b.size(), [&](std::size_t l) { b_[l][0] = b[l]; });
+  solver_.solve(matrix_, null_vector_, projection_tolerance, b_, x_);
+  for_each_row(x.size(), [&](std::size_t l) { x[l] = x_[l][0]; });
 }
 
 template class MultiplierMatrix<2>;

@@ -3,9 +3,8 @@
 /// B D^-1 B^T between the active multipliers for a diagonal D of the faces, and its inverse: what projects onto
 /// velocities without divergence.
 
-#include "components/staggered.hpp"
 #include "systems/conforming/incidence.hpp"
-#include "systems/conforming/multigrid.hpp"
+#include "systems/conforming/solve.hpp"
 
 namespace minamo {
 
@@ -21,8 +20,10 @@ class MultiplierMatrix {
   };
 
   /// \param per_d  D^-1 by face, number Dim i + d; 0 at faces that walls hold
+  /// \throws StepRejected if the matrix is not positive definite.
   void prepare(const Splines<Dim>& splines, const Incidence<Dim>& incidence, const Graph& graph,
                std::span<const double> per_d);
+  /// x = (B D^-1 B^T)^-1 b, up to the null vectors of closed boxes.
   /// \pre what prepare() has seen is still there
   void solve(std::span<const double> b, std::span<double> x);
 
@@ -31,10 +32,7 @@ class MultiplierMatrix {
   std::span<const double> null_vector_;
   std::vector<double> diagonal_;
   std::vector<typename StaggeredLaplacian<Dim>::Conductances> conductance_;
-  ClosedComponents closed_;
-  bool is_direct_ = true;
-  DirectSolver<Dim> direct_;
-  MultigridSolver<Dim> multigrid_;
+  MultiplierSolver<Dim> solver_;
   std::vector<Sources> b_, x_;
 };
 

@@ -1,22 +1,66 @@
 #pragma once
 /// \file
-/// Solves for the multipliers of a step.
+/// Solves for the multipliers of a step: by a factorization where that is cheap, as it is in the plane, else by
+/// conjugate gradients with multigrid.
 
 #include "components/staggered.hpp"
 #include "components/step.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
+#include "systems/conforming/closed_components.hpp"
+#include "systems/conforming/direct_solver.hpp"
+#include "systems/conforming/multigrid.hpp"
 #include "systems/conforming/splines.hpp"
 
 namespace minamo {
+
+/// S^-1 of a step, for as many right-hand sides as come.
+template <int Dim>
+class MultiplierSolver {
+ public:
+  static constexpr ComponentInfo info{"solve.multipliers", "S^-1", "", Lifetime::scratch};
+  using rows_of = Unknowns;
+
+  /// \throws StepRejected if S is not positive definite.
+  void prepare(const StaggeredLaplacian<Dim>& matrix, std::span<const double> null_vector);
+  /// x = S^-1 b up to null vectors; b loses its part along them.
+  /// \param tolerance  |b - S x| / |b| of every right-hand side [1]
+  /// \return unknowns, iterations and the largest residual
+  SolveReport solve(const StaggeredLaplacian<Dim>& matrix, std::span<const double> null_vector, double tolerance,
+                    std::span<const Sources> b, std::span<Sources> x);
+
+ private:
+  bool is_direct_ = true;
+  ClosedComponents closed_;
+  DirectSolver<Dim> direct_;
+  MultigridSolver<Dim> multigrid_;
+  std::vector<Sources> b_;
+};
+
+/// The matrix of a step as its solvers see it.
+template <int Dim>
+StaggeredLaplacian<Dim> laplacian_of(const Splines<Dim>& splines, std::span<const Index<Dim>> site,
+                                     std::span<const typename StaggeredLaplacian<Dim>::Neighbours> neighbour,
+                                     std::span<const typename StaggeredLaplacian<Dim>::Conductances> conductance,
+                                     std::span<const double> diagonal);
+
+template <int Dim>
+struct PrepareMultipliers {
+  static constexpr std::string_view doc = "factors or grids of S";
+  void operator()(Read<Splines<Dim>> splines, Read<unknown::Site<Dim>> site, Read<unknown::Neighbour<Dim>> neighbour,
+                  Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
+                  Read<unknown::NullVector> null_vector, Write<MultiplierSolver<Dim>> solver) const;
+};
 
 /// S x = source for the three sources of a step at once.
 template <int Dim>
 struct SolveMultipliers {
   static constexpr std::string_view doc = "S x = B v* and the other sources";
-  void operator()(Read<SolverTolerance> tolerance, Read<unknown::Neighbour<Dim>> neighbour,
-                  Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
-                  Read<unknown::Source> source, Write<unknown::Solution> solution, Write<SolveReport> report) const;
+  void operator()(Read<Splines<Dim>> splines, Read<SolverTolerance> tolerance, Read<unknown::Site<Dim>> site,
+                  Read<unknown::Neighbour<Dim>> neighbour, Read<unknown::Conductance<Dim>> conductance,
+                  Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
+                  Update<MultiplierSolver<Dim>> solver, Write<unknown::Solution> solution,
+                  Write<SolveReport> report) const;
 };
 
 }  // namespace minamo

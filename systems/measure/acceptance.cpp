@@ -7,7 +7,9 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace minamo {
@@ -30,12 +32,17 @@ double length(const Vec<Dim>& u) {
   return u.allFinite() ? u.norm() : std::numeric_limits<double>::infinity();
 }
 
-template <int Dim>
+void require_solved(const SolveReport& solve, const SolverTolerance& tolerance) {
+  const double residual = std::max(largest_residual, tolerance.relative);
+  if (solve.residual <= residual) return;
+  throw StepRejected(fmt::format("solve: |r|/|b| = {:.3g} after {} iterations, more than {:.3g} ({} unknowns)",
+                                 solve.residual, solve.iterations, residual, solve.unknowns));
+}
+
+/// \param move  how far a row moves, of those that count [m]
+template <int Dim, class Move>
 void require_moderate(const Grid<Dim>& grid, double cells, std::span<const Index<Dim>> site,
-                      std::span<const double> m_i, std::span<const Vec<Dim>> u_i) {
-  // A node below the mass threshold moves particles by next to nothing, however far it moves itself.
-  const double threshold = mass_threshold(m_i);
-  const auto move = [&](std::size_t i) { return m_i[i] <= threshold && u_i[i].allFinite() ? 0 : length<Dim>(u_i[i]); };
+                      std::span<const Vec<Dim>> u_i, const Move& move) {
   const double largest = reduce_rows(u_i.size(), 0.0, move, [](double x, double y) { return std::max(x, y); });
   if (largest <= cells * grid.spacing) return;
   std::size_t worst = 0;
@@ -45,20 +52,39 @@ void require_moderate(const Grid<Dim>& grid, double cells, std::span<const Index
                                  text<Vec<Dim>>(u_i[worst] / grid.spacing), cells));
 }
 
+/// Whether all numbers are finite, and so small that their squares are. Without its sign a number is in the order of
+/// its bits, and what is not finite above all others; differences of integers are taken several at a time.
+bool are_finite(std::span<const double> numbers) {
+  constexpr auto most = std::bit_cast<std::int64_t>(1e150);
+  const auto room = [&](std::size_t k) {
+    return most - (std::bit_cast<std::int64_t>(numbers[k]) & std::numeric_limits<std::int64_t>::max());
+  };
+  return reduce_rows(numbers.size(), std::int64_t{0}, room, std::bit_or<>()) >= 0;  // none has the sign bit
+}
+
+void require_apart(double overlap, double before) {
+  if (overlap <= before + largest_growth_of_overlap) return;
+  throw StepRejected(
+      fmt::format("advect: the overlap grows from {:.3g} to {:.3g} of the liquid in one step", before, overlap));
+}
+
+template <class Matrix>
+std::span<const double> numbers_of(std::span<const Matrix> values) {
+  return {reinterpret_cast<const double*>(values.data()), values.size() * Matrix::SizeAtCompileTime};
+}
+
 template <int Dim>
-void require_finite(const measure::Energy& energy, const measure::Momentum<Dim>& momentum,
-                    std::span<const std::int64_t> id, std::span<const Vec<Dim>> x_p, std::span<const Vec<Dim>> v_p) {
-  // Sums over all particles: one that is not finite makes them so.
-  if (std::isfinite(energy.kinetic) && std::isfinite(energy.potential.value_or(0)) && momentum.linear.allFinite() &&
-      momentum.angular.allFinite()) {
-    return;
-  }
-  for (std::size_t p = 0; p < x_p.size(); ++p) {
-    if (x_p[p].allFinite() && std::isfinite(v_p[p].squaredNorm())) continue;
-    throw StepRejected(fmt::format("g2p: particle {} at {} m has velocity {} m/s", id[p], text<Vec<Dim>>(x_p[p]),
-                                   text<Vec<Dim>>(v_p[p])));
-  }
-  throw StepRejected("measure: energy or momentum is not finite");
+void require_finite(std::span<const std::int64_t> id, std::span<const Vec<Dim>> x_p, std::span<const Vec<Dim>> v_p,
+                    std::span<const Mat<Dim>> grad_v_p) {
+  if (are_finite(numbers_of(x_p)) && are_finite(numbers_of(v_p)) && are_finite(numbers_of(grad_v_p))) return;
+  const auto is_finite = [](const auto& value) {
+    return are_finite({value.data(), static_cast<std::size_t>(value.size())});
+  };
+  std::size_t p = 0;
+  while (is_finite(x_p[p]) && is_finite(v_p[p]) && (grad_v_p.empty() || is_finite(grad_v_p[p]))) ++p;
+  const bool only_gradient = is_finite(x_p[p]) && is_finite(v_p[p]);
+  throw StepRejected(fmt::format("g2p: particle {} at {} m has velocity {} m/s{}", id[p], text<Vec<Dim>>(x_p[p]),
+                                 text<Vec<Dim>>(v_p[p]), only_gradient ? " and a gradient that is not finite" : ""));
 }
 
 }  // namespace
@@ -68,22 +94,50 @@ void AcceptStep<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest
                                  Read<SolveReport> solve, Read<node::Site<Dim>> site, Read<node::Mass> m_i,
                                  Read<node::Displacement<Dim>> u_i, Read<particle::Id> id,
                                  Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                                 Read<measure::Energy> energy, Read<measure::Momentum<Dim>> momentum,
-                                 Read<measure::Overlap> overlap, Read<RunTotals> so_far) const {
-  const double residual = std::max(largest_residual, tolerance->relative);
-  if (!(solve->residual <= residual)) {
-    throw StepRejected(fmt::format("solve: |r|/|b| = {:.3g} after {} iterations, more than {:.3g} ({} unknowns)",
-                                   solve->residual, solve->iterations, residual, solve->unknowns));
-  }
-  require_moderate<Dim>(*grid, largest->cells, site.span(), m_i.span(), u_i.span());
-  require_finite<Dim>(*energy, *momentum, id.span(), x_p.span(), v_p.span());
-  if (!(overlap->value <= so_far->overlap + largest_growth_of_overlap)) {
-    throw StepRejected(fmt::format("advect: the overlap grows from {:.3g} to {:.3g} of the liquid in one step",
-                                   so_far->overlap, overlap->value));
-  }
+                                 Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                                 Read<measure::Overlap> overlap, Read<StepTotals> so_far) const {
+  require_solved(*solve, *tolerance);
+  // A node below the mass threshold moves particles by next to nothing, however far it moves itself.
+  const double threshold = mass_threshold(m_i.span());
+  require_moderate<Dim>(*grid, largest->cells, site.span(), u_i.span(), [&](std::size_t i) {
+    return m_i[i] <= threshold && u_i[i].allFinite() ? 0 : length<Dim>(u_i[i]);
+  });
+  require_finite<Dim>(id.span(), x_p.span(), v_p.span(), grad_v_p.span());
+  require_apart(overlap->value, so_far->overlap);
+}
+
+template <int Dim>
+void AcceptStepOnFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest,
+                                        Read<SolverTolerance> tolerance, Read<SolveReport> solve,
+                                        Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
+                                        Read<face::Displacement<Dim>> u_f, Read<particle::Id> id,
+                                        Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                                        Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                                        Read<measure::Overlap> overlap, Read<StepTotals> so_far) const {
+  require_solved(*solve, *tolerance);
+  const double threshold = mass_threshold(numbers_of(m_f.span()));
+  require_moderate<Dim>(*grid, largest->cells, site.span(), u_f.span(), [&](std::size_t i) {
+    if (!u_f[i].allFinite()) return std::numeric_limits<double>::infinity();
+    return (m_f[i].array() > threshold).select(u_f[i], Vec<Dim>(Vec<Dim>::Zero())).norm();
+  });
+  require_finite<Dim>(id.span(), x_p.span(), v_p.span(), grad_v_p.span());
+  require_apart(overlap->value, so_far->overlap);
+}
+
+template <int Dim>
+void NoteStep<Dim>::operator()(Read<measure::Overlap> overlap, Read<SolveReport> solve,
+                               Update<StepTotals> totals) const {
+  totals->overlap = overlap->value;
+  totals->overlap_max = std::max(totals->overlap_max, overlap->value);
+  totals->active_nodes_max = std::max(totals->active_nodes_max, solve->active);
+  totals->unknowns_max = std::max(totals->unknowns_max, solve->unknowns);
 }
 
 template struct AcceptStep<2>;
 template struct AcceptStep<3>;
+template struct AcceptStepOnFaces<2>;
+template struct AcceptStepOnFaces<3>;
+template struct NoteStep<2>;
+template struct NoteStep<3>;
 
 }  // namespace minamo

@@ -6,15 +6,24 @@
 #include "components/measure.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
+#include "components/staggered.hpp"
 #include "components/step.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
-#include "systems/output/history.hpp"
 
 namespace minamo {
 
+/// Of all accepted steps.
+struct StepTotals {
+  double overlap = 0;  ///< after the last [1]
+  double overlap_max = 0;
+  std::int64_t active_nodes_max = 0;
+  std::int64_t unknowns_max = 0;
+  static constexpr ComponentInfo info{"step.totals", "", "", Lifetime::state};
+};
+
 /// (E58)  Accepts a step if |r| <= 1e-6 |b| (or the solver's tolerance, where that is more), all u_I are finite and
-/// those of nodes above the mass threshold (E7) at most LargestMove, energy and momenta are finite, and the overlap
+/// those of nodes above the mass threshold (E7) at most LargestMove, what particles carry is finite, and the overlap
 /// (E32) has not grown by more than a fifth of the liquid.
 template <int Dim>
 struct AcceptStep {
@@ -23,8 +32,27 @@ struct AcceptStep {
   void operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance,
                   Read<SolveReport> solve, Read<node::Site<Dim>> site, Read<node::Mass> m_i,
                   Read<node::Displacement<Dim>> u_i, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<measure::Energy> energy,
-                  Read<measure::Momentum<Dim>> momentum, Read<measure::Overlap> overlap, Read<RunTotals> so_far) const;
+                  Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                  Read<measure::Overlap> overlap, Read<StepTotals> so_far) const;
+};
+
+/// (E58) of the conforming discretization, whose overlap is that at y_p.
+template <int Dim>
+struct AcceptStepOnFaces {
+  static constexpr std::string_view doc = "(E58) reject the step if it cannot be trusted";
+  /// \throws StepRejected naming the bound and the worst face or particle, where it is and its value.
+  void operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance,
+                  Read<SolveReport> solve, Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
+                  Read<face::Displacement<Dim>> u_f, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                  Read<measure::Overlap> overlap, Read<StepTotals> so_far) const;
+};
+
+/// The start counts.
+template <int Dim>
+struct NoteStep {
+  static constexpr std::string_view doc = "what counts of every step, whether or not the history has a row of it";
+  void operator()(Read<measure::Overlap> overlap, Read<SolveReport> solve, Update<StepTotals> totals) const;
 };
 
 }  // namespace minamo

@@ -13,11 +13,15 @@ void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureOverlap>("measure_overlap");
   registry.add(
       Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
-             return adds_systems("measure",
-                                 {{"measure_energy", "measure_momentum", "measure_max_speed", "measure_divergence",
-                                   "gather_node_volume", "find_advected_capacity", "measure_overlap"},
-                                  {"measure_energy", "measure_momentum", "measure_max_speed", "measure_face_divergence",
-                                   "measure_multiplier_overlap"}});
+             return [](const Scene& of, Recipe& recipe) {
+               add_systems(of, recipe, "accept",
+                           {{"gather_node_volume", "find_advected_capacity", "measure_overlap"},
+                            {"measure_multiplier_overlap"}});
+               for (const char* system : {"measure_energy", "measure_momentum", "measure_max_speed"}) {
+                 recipe.add("measure", system);
+               }
+               add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});
+             };
            }});
 }
 

@@ -40,6 +40,34 @@ void keep_measured(const measure::Columns& columns, std::string_view name, doubl
   if (value != nullptr && !std::isnan(*value)) last = *value;
 }
 
+/// The totals with one more row.
+template <int Dim>
+RunTotals added(RunTotals totals, const Clock& clock, const measure::Energy& energy,
+                const measure::Momentum<Dim>& momentum, const measure::Columns& further) {
+  const bool is_start = totals.rows == 0;
+  totals.last = values<Dim>(energy, momentum);
+  if (is_start) totals.first = totals.last;
+  if (is_start) totals.columns = static_cast<std::int64_t>(further.columns.size());
+  require_known(further, totals.columns);
+  if (energy.potential) watch(is_start, clock, energy.kinetic, *energy.potential, totals.energy);
+  keep_measured(further, "error_velocity", totals.error_velocity);
+  keep_measured(further, "error_pressure", totals.error_pressure);
+  ++totals.rows;
+  return totals;
+}
+
+/// What was not measured is an empty cell.
+void append_cells(const std::vector<measure::Columns::Column>& columns, fmt::memory_buffer& row) {
+  for (const auto& column : columns) {
+    row.push_back(',');
+    if (!std::isnan(column.value)) fmt::format_to(std::back_inserter(row), "{}", column.value);
+  }
+}
+
+void require_written(const std::ostream& file) {
+  if (!file) throw std::runtime_error("history.csv: cannot be written");
+}
+
 }  // namespace
 
 template <int Dim>
@@ -53,49 +81,50 @@ std::string history_header(const measure::Columns& further) {
   return names;
 }
 
+const RunTotals& totals_of_all_rows(World& world) {
+  const auto& extra = world.resource<HistoryFile>().extra;
+  const bool has_extra = extra && extra->step == world.resource<Clock>().index;
+  return has_extra ? extra->totals : world.resource<RunTotals>();
+}
+
 template <int Dim>
 void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> energy,
                                    Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
                                    Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap,
-                                   Read<SolveReport> solve, Read<measure::Columns> further, Update<RunTotals> totals,
-                                   Update<HistoryFile> history) const {
+                                   Read<SolveReport> solve, Read<measure::Columns> further, Read<HistoryInterval> every,
+                                   Update<RunTotals> totals, Update<HistoryFile> history) const {
   // The row of the start has no step behind it.
   const bool is_start = totals->rows == 0;
-  totals->last = values<Dim>(*energy, *momentum);
-  if (is_start) totals->first = totals->last;
-  if (is_start) totals->columns = static_cast<std::int64_t>(further->columns.size());
-  require_known(*further, totals->columns);
-  if (energy->potential) watch(is_start, *clock, energy->kinetic, *energy->potential, totals->energy);
-  totals->overlap = overlap->value;
-  totals->overlap_max = std::max(totals->overlap_max, overlap->value);
-  totals->active_nodes_max = std::max(totals->active_nodes_max, solve->active);
-  totals->unknowns_max = std::max(totals->unknowns_max, solve->unknowns);
-  keep_measured(*further, "error_velocity", totals->error_velocity);
-  keep_measured(*further, "error_pressure", totals->error_pressure);
-  ++totals->rows;
+  const std::int64_t step = is_start ? 0 : clock->index + 1;
+  const RunTotals with_row = added<Dim>(*totals, *clock, *energy, *momentum, *further);
+  history->extra.reset();
+  if (step % every->steps == 0) {
+    *totals = with_row;
+  } else {
+    history->extra = {step, with_row};
+  }
   if (!history->file.is_open()) return;
 
   if (is_start) history->file << history_header<Dim>(*further) << '\n';
   fmt::memory_buffer row;
   const auto out = std::back_inserter(row);
-  fmt::format_to(out, "{},{},{},{},", is_start ? 0 : clock->index + 1, is_start ? clock->time : clock->end_of_step,
-                 is_start ? 0 : clock->step, energy->kinetic);
+  fmt::format_to(out, "{},{},{},{},", step, is_start ? clock->time : clock->end_of_step, is_start ? 0 : clock->step,
+                 energy->kinetic);
   if (energy->potential) fmt::format_to(out, "{}", *energy->potential);
   for (int d = 0; d < Dim; ++d) fmt::format_to(out, ",{}", momentum->linear[d]);
   for (int d = 0; d < rotations<Dim>; ++d) fmt::format_to(out, ",{}", momentum->angular[d]);
   fmt::format_to(out, ",{},{},{},{},{},{}", speed->value, divergence->value, overlap->value, solve->active,
                  solve->iterations, solve->residual);
-  for (const auto& column : further->columns) {
-    if (std::isnan(column.value)) {
-      row.push_back(',');
-    } else {
-      fmt::format_to(out, ",{}", column.value);
-    }
-  }
+  append_cells(further->columns, row);
   row.push_back('\n');
   history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
-  history->rows = totals->rows;
-  if (!history->file) throw std::runtime_error("history.csv: cannot be written");
+  history->rows = with_row.rows;
+  require_written(history->file);
+}
+
+template <int Dim>
+void FlushHistory<Dim>::operator()(Update<HistoryFile> history) const {
+  if (history->file.is_open()) require_written(history->file.flush());
 }
 
 std::int64_t cut_history(const std::string& path, std::int64_t rows) {
@@ -112,5 +141,7 @@ template std::string history_header<2>(const measure::Columns&);
 template std::string history_header<3>(const measure::Columns&);
 template struct WriteHistory<2>;
 template struct WriteHistory<3>;
+template struct FlushHistory<2>;
+template struct FlushHistory<3>;
 
 }  // namespace minamo

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// history.csv: a row per step.
+/// history.csv: a row of the start, of every n-th step and of the last one.
 
 #include "components/fluid.hpp"
 #include "components/matrix.hpp"
@@ -12,17 +12,16 @@
 
 #include <fstream>
 #include <limits>
+#include <optional>
 
 namespace minamo {
 
-/// Where the history goes; nothing is written while it is closed.
-struct HistoryFile {
-  std::ofstream file;
-  std::int64_t rows = 0;  ///< written, among them that of a step which is taken back
-  static constexpr ComponentInfo info{"history.file", "", "", Lifetime::cache};
+struct HistoryInterval {
+  std::int64_t steps = 1;
+  static constexpr ComponentInfo info{"history.interval", "", "1", Lifetime::constant};
 };
 
-/// What a summary says of a whole run.
+/// What the rows of a run add up to.
 struct RunTotals {
   struct Values {
     double energy = 0;                         ///< kinetic, and potential where it exists [J]
@@ -32,10 +31,6 @@ struct RunTotals {
   Values first;
   Values last;
   EnergyWatch energy;  ///< of constant body forces
-  double overlap = 0;  ///< of the last row
-  double overlap_max = 0;
-  std::int64_t active_nodes_max = 0;
-  std::int64_t unknowns_max = 0;
   std::int64_t rows = 0;
   std::int64_t columns = 0;  ///< of measure::Columns
   // The last that were measured; NaN: none was.
@@ -43,6 +38,23 @@ struct RunTotals {
   double error_pressure = std::numeric_limits<double>::quiet_NaN();
   static constexpr ComponentInfo info{"history.totals", "", "", Lifetime::state};
 };
+
+/// Where the history goes; nothing is written while it is closed.
+struct HistoryFile {
+  /// The row of a step whose turn it is not, the last of a run. A run that goes on from there does not have it: no
+  /// state knows of it.
+  struct ExtraRow {
+    std::int64_t step = 0;
+    RunTotals totals;  ///< with it
+  };
+  std::ofstream file;
+  std::int64_t rows = 0;  ///< written, among them that of a step which is taken back
+  std::optional<ExtraRow> extra;
+  static constexpr ComponentInfo info{"history.file", "", "", Lifetime::cache};
+};
+
+/// With the row of the last step, whether or not it was its turn.
+const RunTotals& totals_of_all_rows(World& world);
 
 /// The first line of history.csv, without its end.
 template <int Dim>
@@ -61,7 +73,15 @@ struct WriteHistory {
   void operator()(Read<Clock> clock, Read<measure::Energy> energy, Read<measure::Momentum<Dim>> momentum,
                   Read<measure::MaxSpeed> speed, Read<measure::MaxDivergence> divergence,
                   Read<measure::Overlap> overlap, Read<SolveReport> solve, Read<measure::Columns> further,
-                  Update<RunTotals> totals, Update<HistoryFile> history) const;
+                  Read<HistoryInterval> every, Update<RunTotals> totals, Update<HistoryFile> history) const;
+};
+
+/// So that the rows on the disk reach as far as the frames.
+template <int Dim>
+struct FlushHistory {
+  static constexpr std::string_view doc = "the rows of history.csv so far, on the disk";
+  /// \throws std::runtime_error if writing fails.
+  void operator()(Update<HistoryFile> history) const;
 };
 
 }  // namespace minamo

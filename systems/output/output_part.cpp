@@ -20,6 +20,9 @@ OutputScene read_times(Input& input, double end) {
   output.checkpoint = input.optional_number(
       "checkpoint",
       {.unit = "s", .doc = "simulated time between checkpoints; by default at start and end alone", .above = 0});
+  output.history = input.integer(
+      "history",
+      {.doc = "steps from one row of history.csv to the next; the last has one, too", .fallback = 1, .at_least = 1});
   return output;
 }
 
@@ -27,8 +30,11 @@ Contribution read_output(Input& input, Scene& scene) {
   input.object("output", "what is written when", Input::Presence::optional,
                [&](Input& in) { scene.output = read_times(in, scene.time.end); });
   return [](const Scene& of, Recipe& recipe) {
-    add_systems(of, recipe, "record", {{"accept_step"}, {}}, When::step);
+    add_systems(of, recipe, "accept", {{"accept_step"}, {"accept_step_on_faces"}}, When::step);
+    recipe.add("accept", "note_step");
     recipe.add("record", "write_history");
+    recipe.constant(HistoryInterval{of.output.history});
+    recipe.add_output("flush_history");
     recipe.add_output(is_conforming(of) ? "recover_pressure" : "sample_pressure");
     for (const char* system : {"write_frame", "write_xdmf"}) recipe.add_output(system);
   };
@@ -38,7 +44,10 @@ Contribution read_output(Input& input, Scene& scene) {
 
 void add_output(SystemRegistry& registry) {
   registry.add<AcceptStep>("accept_step");
+  registry.add<AcceptStepOnFaces>("accept_step_on_faces");
+  registry.add<NoteStep>("note_step");
   registry.add<WriteHistory>("write_history");
+  registry.add<FlushHistory>("flush_history");
   registry.add<SamplePressure>("sample_pressure");
   registry.add<WriteFrame>("write_frame");
   registry.add<WriteXdmf>("write_xdmf");

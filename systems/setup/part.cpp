@@ -23,8 +23,9 @@ const std::vector<Slot>& slots() {
       {"g2p", "grid to particles: velocity"},
       {"advect", "particles move"},
       {"volume", "particles are kept apart"},
-      {"measure", "what goes into the history"},
-      {"record", "the step is accepted or rejected, and written down"},
+      {"accept", "the step is accepted or rejected"},
+      {record_slots, "what goes into the history"},
+      {"record", "the history"},
   };
   return all;
 }

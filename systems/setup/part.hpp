@@ -38,6 +38,8 @@ struct Slot {
   std::string_view doc;
 };
 const std::vector<Slot>& slots();
+/// The first of the slots whose systems run only in steps that the history has a row of.
+inline constexpr std::string_view record_slots = "measure";
 
 /// What a run is made of.
 class Recipe {

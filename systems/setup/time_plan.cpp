@@ -3,6 +3,7 @@
 #include "components/fluid.hpp"
 #include "components/instant.hpp"
 #include "components/particle.hpp"
+#include "systems/pipeline.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
@@ -69,7 +70,9 @@ TimePlan make_time_plan(const Scene& scene) {
                 .choose_step = {},
                 .frame_every = scene.output.every,
                 .checkpoint_every = scene.output.checkpoint,
-                .max_steps = {}};
+                .max_steps = {},
+                .record_every = scene.output.history,
+                .unrecorded = make_pipeline(scene).unrecorded};
   if (plan.step) return plan;
   plan.choose_step = [scene](World& world) {
     const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);

@@ -52,6 +52,7 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
   const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
   return [solver, options](const Scene& of, Recipe& recipe) {
     if (is_conforming(of)) {
+      recipe.add("solve", "prepare_multipliers");
       recipe.add("solve", "solve_multipliers");
       recipe.add("solve", "project_faces");
       if (friction_of(of) == Friction::in_balances) recipe.add("solve", "solve_friction");

@@ -65,6 +65,7 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
     }
     for (const System& system : p2g) recipe.add("p2g", system);
     for (const System& system : g2p) recipe.add("g2p", system, When::step);
+    if (scheme.carries_gradient) add_systems(of, recipe, "g2p", {{}, {"limit_gradient"}}, When::step);
     if (corrected) is_conforming(of) ? correct_face_inertia(integrator, recipe) : correct_inertia(integrator, recipe);
     add_systems(of, recipe, "advect", {{"advect"}, {"advect_by_faces"}}, When::step);
   };

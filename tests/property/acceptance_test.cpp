@@ -55,8 +55,19 @@ TEST_CASE("a step that cannot be trusted is rejected with its place and value", 
   }
   SECTION("a particle whose velocity is not finite") {
     world.column<particle::Velocity<2>>()[5] = {1, std::numeric_limits<double>::infinity()};
-    world.resource<measure::Energy>().kinetic = std::numeric_limits<double>::infinity();
     message = "particle " + std::to_string(world.column<particle::Id>()[5]) + " at ";
+  }
+  SECTION("a particle whose velocity has no square") {
+    world.column<particle::Velocity<2>>()[5] = {-1e200, 0};
+    message = "particle " + std::to_string(world.column<particle::Id>()[5]) + " at ";
+  }
+  SECTION("the last particle, whose place is not a number") {
+    world.column<particle::Position<2>>().back() = {-not_a_number, 0};
+    message = "particle " + std::to_string(world.column<particle::Id>().back()) + " at (-nan, 0)";
+  }
+  SECTION("a particle whose velocity gradient is not finite") {
+    world.column<particle::VelocityGradient<2>>()[5](1, 0) = -std::numeric_limits<double>::infinity();
+    message = " and a gradient that is not finite";
   }
   SECTION("an overlap that grows by more than a fifth") {
     world.resource<measure::Overlap>().value += 0.21;

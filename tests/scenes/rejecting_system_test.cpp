@@ -24,13 +24,15 @@ struct RefuseSixth {
   }
 };
 
-std::string history_with(const std::string& after, const std::string& threads, const Folder& folder) {
+std::string history_with(const std::string& after, const std::string& threads, const Folder& folder,
+                         const std::string& steps = "12", const std::string& every = "1") {
   const std::string scene = MINAMO_SOURCE_DIR "/scenes/paper/dam_break_tpic.json";
   const std::string out = folder / ("out_" + after + threads);
   const std::string systems = R"(/systems=[{"use": "refuse_sixth", "after": ")" + after + "\"}]";
-  const std::vector<const char*> arguments{"minamo", "run",       scene.c_str(), "--steps",
-                                           "12",     "--quiet",   "--set",       systems.c_str(),
-                                           "--out",  out.c_str(), "--threads",   threads.c_str()};
+  const std::string interval = "/output/history=" + every;
+  const std::vector<const char*> arguments{"minamo",  "run",       scene.c_str(),   "--steps",      steps.c_str(),
+                                           "--quiet", "--set",     systems.c_str(), "--set",        interval.c_str(),
+                                           "--out",   out.c_str(), "--threads",     threads.c_str()};
   const auto add = [](SystemRegistry& registry) { registry.add<RefuseSixth>("refuse_sixth"); };
   spdlog::drop("minamo");  // the program makes it, once per process
   REQUIRE(run(static_cast<int>(arguments.size()), arguments.data(), add) == 0);
@@ -46,4 +48,13 @@ TEST_CASE("a step that a system rejects after the history leaves no row", "[scen
   CHECK(history_with("record", "1", folder) == expected);
   CHECK(history_with("measure", "2", folder) == expected);
   CHECK(history_with("g2p", "2", folder) == expected);
+}
+
+TEST_CASE("a last step that a system rejects after the history leaves no row out of turn", "[scene]") {
+  const Folder folder;
+  const std::string expected = history_with("sort", "1", folder, "6", "4");
+  CHECK(std::count(expected.begin(), expected.end(), '\n') == 2 + 2);
+  CHECK_THAT(expected, Catch::Contains("\n6,"));
+  CHECK(history_with("record", "1", folder, "6", "4") == expected);
+  CHECK(history_with("record", "2", folder, "6", "4") == expected);
 }

@@ -47,6 +47,9 @@ const std::vector<Case> cases{
     coarse_dam_break({R"(/time={"end": 5, "cfl": 0.5})", R"(/integrator={"scheme": "midpoint"})"}),
     coarse_dam_break({R"(/stabilization={"scheme": "oss"})", R"(/transfer={"scheme": "tpic2"})"}),
     coarse_dam_break({R"(/stabilization={"scheme": "vms"})", R"(/transfer={"scheme": "xpic", "order": 3})"}),
+    // The first part ends with a row that has its turn, the second and the whole with one that has not.
+    coarse_dam_break({"/output/history=5"}),
+    coarse_dam_break({"/output/history=5", "/time/step=0.1", R"(/integrator={"scheme": "midpoint"})"}),
     coarse_dam_break({"/fluid/viscosity=5", R"(/volume={"scheme": "delta"})", R"(/integrator={"scheme": "midpoint"})"}),
     // Steps are rejected on both sides of the checkpoint.
     coarse_dam_break({"/time/step=0.1", R"(/integrator={"scheme": "midpoint"})"}),

@@ -74,12 +74,14 @@ TEST_CASE("different rows may be recorded at the same time", "[unit]") {
   CHECK(profiler.rows()[right].calls == 1000);
 }
 
-TEST_CASE("a scoped timer records one call", "[unit]") {
+TEST_CASE("a lap records one call and ends where the next begins", "[unit]") {
   Profiler profiler;
   const std::size_t row = profiler.add_row("solve");
-  { const ScopedTimer timer(profiler, row); }
+  Profiler::Time begin = std::chrono::steady_clock::now();
+  const Profiler::Time first = begin;
+  { const Lap lap(profiler, row, begin); }
   CHECK(profiler.rows()[row].calls == 1);
-  CHECK(profiler.rows()[row].seconds >= 0);
+  CHECK(profiler.rows()[row].seconds == std::chrono::duration<double>(begin - first).count());
 }
 
 TEST_CASE("the table shows the largest row first and the sum last", "[unit]") {

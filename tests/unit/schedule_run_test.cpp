@@ -70,6 +70,27 @@ TEST_CASE("a schedule creates the components of its systems", "[unit]") {
   CHECK(world.has<Right>());
 }
 
+TEST_CASE("a run of the first systems leaves out the others, and the next run has them again", "[unit]") {
+  World world;
+  Schedule schedule({make_system<AddLeft>("add"), make_system<CopyLeft>("copy"), make_system("more", AddLeft{10})},
+                    world, nullptr, any_execution());
+  schedule.run_first(1);
+  CHECK(world.resource<Left>().value == 1);
+  CHECK(world.resource<Right>().value == 0);
+  schedule.run_first(2);
+  CHECK(world.resource<Left>().value == 2);
+  CHECK(world.resource<Right>().value == 2);
+  schedule.run();
+  CHECK(world.resource<Left>().value == 13);
+}
+
+TEST_CASE("a failure of the first systems comes out", "[unit]") {
+  World world;
+  Schedule schedule({running("fails", fails), running("other", nothing)}, world, nullptr, any_execution());
+  CHECK_THROWS_WITH(schedule.run_first(1), "no");
+  CHECK_NOTHROW(schedule.run_first(0));
+}
+
 TEST_CASE("every run runs every system once", "[unit]") {
   World world;
   Schedule schedule({make_system<AddLeft>("add"), make_system<CopyLeft>("copy"), make_system("more", AddLeft{10})},

@@ -42,12 +42,22 @@ struct Start {
   void operator()(Update<Log> log) const { ++log->starts; }
 };
 
+struct Recorded {
+  std::vector<double> ends;  ///< of steps [s]
+  static constexpr ComponentInfo info{"recorded", "", "1", Lifetime::state};
+};
+struct Record {
+  void operator()(Read<Clock> clock, Read<Log>, Update<Recorded> recorded) const {
+    recorded->ends.push_back(clock->end_of_step);
+  }
+};
+
 /// A run of nothing but its clock.
 struct Run {
   World world;
   Faults& set_faults = world.resource<Faults>();  // constants are set before schedules are made
   Schedule start{{make_system<Start>("start")}, world};
-  Schedule step{{make_system<Step>("step")}, world};
+  Schedule step{{make_system<Step>("step"), make_system<Record>("record")}, world};
   Schedule frame{{make_system<Frame>("frame")}, world};
   std::vector<double> checkpoints;  ///< times
   std::vector<std::string> rejections;
@@ -64,6 +74,12 @@ struct Run {
   const StepControl& control() { return world.resource<StepControl>(); }
   Faults& faults() { return set_faults; }
   Log& log() { return world.resource<Log>(); }
+  /// Whole numbers of steps of a tenth.
+  std::vector<long> recorded() {
+    std::vector<long> tenths;
+    for (const double end : world.resource<Recorded>().ends) tenths.push_back(std::lround(10 * end));
+    return tenths;
+  }
 };
 
 TimePlan fixed(double end, double step, double every) {
@@ -77,6 +93,12 @@ TimePlan chosen(double end, double step, double every) {
           .checkpoint_every = {},
           .max_steps = {}};
 }
+TimePlan tenths(double end, std::int64_t record_every) {
+  TimePlan plan = fixed(end, 0.1, 1);
+  plan.record_every = record_every;
+  plan.unrecorded = 1;
+  return plan;
+}
 
 }  // namespace
 
@@ -85,6 +107,38 @@ TEST_CASE("a run with a fixed step ends exactly at its end", "[unit]") {
   run(fixed(5.0, 1e-3, 1));
   CHECK(run.clock().time == 5.0);
   CHECK(run.clock().index == 5000);
+}
+
+TEST_CASE("every n-th step is recorded, and the last", "[unit]") {
+  Run run;
+  SECTION("at the end") {
+    run(tenths(1.0, 4));
+    CHECK(run.recorded() == std::vector<long>{4, 8, 10});
+  }
+  SECTION("once, where its turn is at the end") {
+    run(tenths(1.0, 5));
+    CHECK(run.recorded() == std::vector<long>{5, 10});
+  }
+  SECTION("after the largest number of steps") {
+    TimePlan plan = tenths(1.0, 4);
+    plan.max_steps = 6;
+    run(plan);
+    CHECK(run.recorded() == std::vector<long>{4, 6});
+  }
+  SECTION("not where the run is interrupted") {
+    run.stop = true;
+    run(tenths(1.0, 4));
+    CHECK(run.recorded().empty());
+  }
+  CHECK(run.log().steps.size() == static_cast<std::size_t>(run.clock().index));
+}
+
+TEST_CASE("the last attempt counts, not the first, for the last step to be recorded", "[unit]") {
+  Run run;
+  run.faults() = {.longest = 0.06, .between = {0.9, 1}};
+  run(tenths(1.0, 100));
+  CHECK(run.clock().index == 11);
+  CHECK(run.recorded() == std::vector<long>{10});
 }
 
 TEST_CASE("a fixed step that does not divide the end is shortened once", "[unit]") {
