@@ -41,30 +41,37 @@ struct FrictionSystem {
     });
     work.multipliers.solve(work.divergence, work.y);
     add_scaled(1, work.y, work.sum_of_y);
+    subtract_gradient(work.y, work.r);
+    for_each_row(work.r.size(), [&](std::size_t f) { work.z[f] = work.per_g[f] * work.r[f]; });
+    return dot(work.r, work.z);
+  }
+  /// r -= B^T y; nothing at faces that walls hold.
+  void subtract_gradient(const Values& y, Values& r) const {
     const auto at = [&](std::size_t i) {
-      return row[i] == staggered::none ? 0.0 : work.y[static_cast<std::size_t>(row[i])];
+      return row[i] == staggered::none ? 0.0 : y[static_cast<std::size_t>(row[i])];
     };
     for_each_row(row.size(), [&](std::size_t i) {
       for (std::size_t d = 0; d < Dim; ++d) {
-        const std::size_t f = Dim * i + d;
-        if (work.per_g[f] == 0) continue;
-        work.r[f] -= incidence.gradient(i, d, at);
-        work.z[f] = work.per_g[f] * work.r[f];
+        if (work.per_g[Dim * i + d] != 0) r[Dim * i + d] -= incidence.gradient(i, d, at);
       }
     });
-    return dot(work.r, work.z);
   }
-  /// Improves v, B v = 0, until |f - A v + B^T lambda| <= target in the norm of G^-1.
-  std::pair<std::int64_t, double> solve(double target) const {
+  /// |f - A v + B^T lambda| in the norm of G^-1, of what was found and not of the iteration.
+  double residual() const {
     apply(work.v, work.product);
     for_each_row(work.f.size(), [&](std::size_t f) { work.r[f] = work.f[f] - work.product[f]; });
-    std::fill(work.z.begin(), work.z.end(), 0.0);
+    subtract_gradient(work.sum_of_y, work.r);
+    return std::sqrt(weighted_square(work.per_g, work.r));
+  }
+  /// Improves v, B v = 0, until |f - A v + B^T lambda| <= target in the norm of G^-1. \return iterations
+  std::int64_t solve(double target) const {
+    apply(work.v, work.product);
+    for_each_row(work.f.size(), [&](std::size_t f) { work.r[f] = work.f[f] - work.product[f]; });
     std::fill(work.sum_of_y.begin(), work.sum_of_y.end(), 0.0);
     double left = project();
     work.direction = work.z;
     for (std::int64_t k = 0;; ++k) {
-      const double residual = std::sqrt(std::max(left, 0.0));
-      if (residual <= target || k == most_iterations || !std::isfinite(residual)) return {k, residual};
+      if (left <= target * target || k == most_iterations || !std::isfinite(left)) return k;
       apply(work.direction, work.product);
       const double step = left / dot(work.direction, work.product);
       add_scaled(step, work.direction, work.v);
@@ -124,13 +131,12 @@ void SolveFriction<Dim>::operator()(
                             {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span()},
                             work->per_g);
   const double size = std::sqrt(weighted_square(work->per_g, work->f));
-  const auto [iterations, residual] = system.solve(tolerance->relative * size);
+  report->iterations = system.solve(tolerance->relative * size);
+  if (size > 0) report->residual = std::max(report->residual, system.residual() / size);
   for_each_row(v_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) v_f[i][static_cast<Eigen::Index>(d)] = work->v[Dim * i + d];
     lambda[i] = row[i] == staggered::none ? 0 : -work->sum_of_y[static_cast<std::size_t>(row[i])];
   });
-  report->iterations = iterations;
-  if (size > 0) report->residual = std::max(report->residual, residual / size);
 }
 
 template struct SolveFriction<2>;
