@@ -47,9 +47,10 @@ void FindCellViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
 
 template <int Dim>
 void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> matrices,
-                               Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
-                               Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
-                               Write<face::Friction<Dim>> friction, Update<face::Predictor<Dim>> predictor) const {
+                               Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                               Read<face::Mobility<Dim>> mobility, Update<cell::Viscosity> mu_c,
+                               Write<face::FrictionBound<Dim>> bound, Write<face::Friction<Dim>> friction,
+                               Update<face::Predictor<Dim>> predictor) const {
   const double tau = rates->velocity / rates->acceleration;
   const FrictionOf<Dim> of{*splines, *matrices, *cells, *sites, mu_c.span()};
   for_each_row(bound.size(), [&](std::size_t i) {
@@ -71,8 +72,7 @@ void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Re
     });
   });
   apply_friction<Dim>(of, numbers<Dim>(std::span<const Vec<Dim>>(predictor.span())), numbers<Dim>(friction.span()));
-  for_each_row(predictor.size(),
-               [&](std::size_t i) { predictor[i] -= tau * mobility[i].cwiseProduct(friction[i]); });
+  for_each_row(predictor.size(), [&](std::size_t i) { predictor[i] -= tau * mobility[i].cwiseProduct(friction[i]); });
 }
 
 template struct FindCellViscosity<2>;

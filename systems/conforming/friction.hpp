@@ -22,9 +22,9 @@ struct FindCellViscosity {
 };
 
 /// v*_f -= tau (K v°)_f/m_f, K = sum_c theta_c mu_c K^_c, theta_c = min(1, m_f/(2 tau D_f)) over the faces of the cell,
-/// D_f = sum_c mu_c sum_g |K^_fg|. Then 2 tau K <= m, and 1 - 2 tau m^-1 K of the midpoint rule lies between 0 and 1 for
-/// every viscosity and every mass: energy never rises. theta_c is 1 but in cells with faces that next to no particles
-/// touch. By cells, so that momentum and angular momentum stay.
+/// D_f = sum_c mu_c sum_g |K^_fg|. Then 2 tau K <= m, and 1 - 2 tau m^-1 K of the midpoint rule lies between 0 and 1
+/// for every viscosity and every mass: energy never rises. theta_c is 1 but in cells with faces that next to no
+/// particles touch. By cells, so that momentum and angular momentum stay.
 template <int Dim>
 struct RubFaces {
   static constexpr std::string_view doc = "friction at the start of the step, of liquids that flow easily";

@@ -95,15 +95,17 @@ void resize(FrictionWork<Dim>& work, std::size_t faces, std::size_t unknowns) {
 }  // namespace
 
 template <int Dim>
-void SolveFriction<Dim>::operator()(
-    Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-    Read<FrictionMatrices<Dim>> matrices, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
-    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
-    Read<cell::Viscosity> mu_c, Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
-    Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
-    Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::NullVector> null_vector, Read<multiplier::Row> row,
-    Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda,
-    Update<SolveReport> report) const {
+void SolveFriction<Dim>::operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid,
+                                    Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> matrices,
+                                    Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                    Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c,
+                                    Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
+                                    Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
+                                    Read<unknown::Neighbour<Dim>> unknown_neighbour,
+                                    Read<unknown::NullVector> null_vector, Read<multiplier::Row> row,
+                                    Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
+                                    Update<multiplier::Force> lambda, Update<SolveReport> report) const {
   const double per_tau = rates->acceleration / rates->velocity;
   resize(*work, Dim * v_f.size(), of_unknown.size());
   const FrictionSystem<Dim> system{{*splines, *matrices, *cells, *sites, mu_c.span()},

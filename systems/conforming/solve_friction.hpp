@@ -37,12 +37,12 @@ struct SolveFriction {
   void operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                   Read<FrictionMatrices<Dim>> matrices, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c,
-                  Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
-                  Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
-                  Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::NullVector> null_vector,
-                  Read<multiplier::Row> row, Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
-                  Update<multiplier::Force> lambda, Update<SolveReport> report) const;
+                  Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c, Read<face::Predictor<Dim>> predictor,
+                  Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
+                  Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
+                  Read<unknown::NullVector> null_vector, Read<multiplier::Row> row, Update<FrictionWork<Dim>> work,
+                  Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda,
+                  Update<SolveReport> report) const;
 };
 
 }  // namespace minamo

@@ -18,6 +18,8 @@
 using namespace minamo;
 using namespace minamo::scene_run;
 
+// Compiled together with other tests, whose helpers have the same names.
+namespace friction_test {
 namespace {
 
 /// A box of 6 cells of 0.3 m per axis, periodic along y.
@@ -108,8 +110,8 @@ Eigen::MatrixXd by_quadrature(const CellFrame<Dim>& frame) {
     });
     for (Eigen::Index f = 0; f < n; ++f) {
       for (Eigen::Index g = 0; g < n; ++g) {
-        sum(f, g) += 2 * w *
-                     strain[static_cast<std::size_t>(f)].cwiseProduct(strain[static_cast<std::size_t>(g)]).sum();
+        sum(f, g) +=
+            2 * w * strain[static_cast<std::size_t>(f)].cwiseProduct(strain[static_cast<std::size_t>(g)]).sum();
       }
     }
   }
@@ -385,8 +387,8 @@ std::pair<double, double> energies_of_faces(World& world) {
   for (std::size_t i = 0; i < world.rows<Staggered>(); ++i) {
     const Vec<Dim> m = world.column<face::Mobility<Dim>>()[i].unaryExpr([](double a) { return a > 0 ? 1 / a : 0; });
     const Vec<Dim> old = world.column<face::Velocity<Dim>>()[i] + world.column<face::Damping<Dim>>()[i];
-    const Vec<Dim> work = world.column<face::InertiaCorrection<Dim>>()[i].cwiseProduct(
-        world.column<face::BalanceVelocity<Dim>>()[i]);
+    const Vec<Dim> work =
+        world.column<face::InertiaCorrection<Dim>>()[i].cwiseProduct(world.column<face::BalanceVelocity<Dim>>()[i]);
     before += m.dot(0.5 * old.cwiseAbs2() + world.resource<Clock>().step * work);
     now += 0.5 * m.dot(world.column<face::NewVelocity<Dim>>()[i].cwiseAbs2());
   }
@@ -521,3 +523,5 @@ TEST_CASE("a shear wave decays with exp(-nu k^2 t)", "[verification]") {
   const double rate = std::log(before / kinetic(run.world(), 2)) / (2 * k * k * steps * step);
   CHECK(rate == Approx(1).epsilon(0.02));
 }
+
+}  // namespace friction_test
