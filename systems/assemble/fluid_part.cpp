@@ -1,12 +1,28 @@
 #include "components/fluid.hpp"
 #include "systems/assemble/material.hpp"
 #include "systems/assemble/right_hand_side.hpp"
+#include "systems/conforming/friction_choice.hpp"
+#include "systems/conforming/friction_matrices.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 
 namespace minamo {
 
 namespace {
+
+/// The matrices of friction, when there are the splines.
+template <int Dim>
+void seed_friction(const Scene&, World& world, SeedProblems&) {
+  world.resource<FrictionMatrices<Dim>>() = {world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>()};
+}
+
+void add_friction(const Scene& scene, Recipe& recipe) {
+  const Friction friction = friction_of(scene);
+  if (friction == Friction::none) return;
+  recipe.add("material", "find_cell_viscosity");
+  if (friction == Friction::at_start) recipe.add("assemble", "rub_faces");
+  recipe.seed(scene.dimension == 2 ? Seed(seed_friction<2>) : Seed(seed_friction<3>));
+}
 
 Contribution read_fluid(Input& input, Scene& scene) {
   Fluid fluid;
@@ -21,6 +37,7 @@ Contribution read_fluid(Input& input, Scene& scene) {
     add_systems(of, recipe, "material", {{"set_material"}, {"find_fill"}});
     add_systems(of, recipe, "assemble", {{}, {"assemble_multipliers"}});
     add_systems(of, recipe, "right_hand_side", {{"right_hand_side"}, {"face_source"}});
+    add_friction(of, recipe);
     recipe.constant(fluid);
   };
 }

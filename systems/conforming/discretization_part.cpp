@@ -1,12 +1,14 @@
 #include "systems/conforming/balances.hpp"
 #include "systems/conforming/fill.hpp"
 #include "systems/conforming/filters.hpp"
+#include "systems/conforming/friction.hpp"
 #include "systems/conforming/limit_gradient.hpp"
 #include "systems/conforming/measures.hpp"
 #include "systems/conforming/number_sites.hpp"
 #include "systems/conforming/pressure.hpp"
 #include "systems/conforming/second_order.hpp"
 #include "systems/conforming/solve.hpp"
+#include "systems/conforming/solve_friction.hpp"
 #include "systems/conforming/transfer.hpp"
 #include "systems/conforming/volume.hpp"
 #include "systems/grid/bin.hpp"
@@ -77,9 +79,12 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<FillFaceSource>("face_source");
   registry.add<DampFaceDivergence>("damp_face_divergence");
   registry.add<FillFaceVolumeSource>("face_volume_source");
+  registry.add<FindCellViscosity>("find_cell_viscosity");
+  registry.add<RubFaces>("rub_faces");
   registry.add<PrepareMultipliers>("prepare_multipliers");
   registry.add<SolveMultipliers>("solve_multipliers");
   registry.add<ProjectFaces>("project_faces");
+  registry.add<SolveFriction>("solve_friction");
   registry.add<CorrectFacesMidpoint>("correct_faces_midpoint");
   registry.add<CorrectFacesNewmark>("correct_faces_newmark");
   registry.add<CorrectFacesBackwardEuler>("correct_faces_backward_euler");

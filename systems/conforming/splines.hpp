@@ -50,11 +50,14 @@ class SplineAxis {
   int multipliers() const { return periodic_ ? cells_ : cells_ + degree_ - 1; }
   int wrapped(int site) const { return periodic_ && site >= cells_ ? site - cells_ : site; }
 
-  const CellSplines& of_cell(int cell) const {
-    if (periodic_) return kinds_[0];
+  const CellSplines& of_cell(int cell) const { return kinds_[kind_of(cell)]; }
+  /// Cells of one kind have the same splines.
+  std::size_t kinds() const { return kinds_.size(); }
+  std::size_t kind_of(int cell) const {
+    if (periodic_) return 0;
     const int from_low = cell < degree_ ? cell : degree_ - 1;
     const int from_high = cells_ - 1 - cell < degree_ ? cells_ - 1 - cell : degree_ - 1;
-    return kinds_[static_cast<std::size_t>(from_low * degree_ + from_high)];
+    return static_cast<std::size_t>(from_low * degree_ + from_high);
   }
   /// w_j, which is also the integral of the spline j of degree K - 1, in units of h.
   double width(int j) const { return static_cast<double>(support(j, degree_ - 1)) / degree_; }

@@ -1,4 +1,5 @@
 #include "components/step.hpp"
+#include "systems/conforming/friction_choice.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/memory.hpp"
@@ -54,6 +55,7 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
       recipe.add("solve", "prepare_multipliers");
       recipe.add("solve", "solve_multipliers");
       recipe.add("solve", "project_faces");
+      if (friction_of(of) == Friction::in_balances) recipe.add("solve", "solve_friction");
     } else {
       for (const auto* systems : {&solver.prepare, &solver.solve}) {
         for (const std::string& system : *systems) recipe.add("solve", system);

@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// How friction of the conforming discretization enters the balances of a scene.
+
+#include "components/fluid.hpp"
+#include "systems/setup/discretization.hpp"
+#include "systems/setup/time_plan.hpp"
+
+namespace minamo {
+
+enum class Friction { none, at_start, in_balances };
+
+/// Up to nu dt/h^2 = 1e-2 friction at the start of the step is exact enough, and costs next to nothing.
+inline Friction friction_of(const Scene& scene) {
+  constexpr double largest_at_start = 1e-2;
+  const Fluid& fluid = scene.facts.get<Fluid>();
+  if (!is_conforming(scene) || fluid.viscosity == 0) return Friction::none;
+  const double h = scene.grid.spacing;
+  const double number = fluid.viscosity * longest_step(scene) / (fluid.density * h * h);
+  return number <= largest_at_start ? Friction::at_start : Friction::in_balances;
+}
+
+}  // namespace minamo

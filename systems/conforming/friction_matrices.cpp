@@ -1,0 +1,123 @@
+#include "systems/conforming/friction_matrices.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+using Polynomial = CellSplines::Polynomial;
+
+Polynomial slope(const Polynomial& p) {
+  Polynomial q{};
+  for (std::size_t k = 1; k < p.size(); ++k) q[k - 1] = static_cast<double>(k) * p[k];
+  return q;
+}
+
+/// Integral of the product over the cell, in units of its width.
+double integral(const Polynomial& p, const Polynomial& q) {
+  double sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    for (std::size_t j = 0; j < q.size(); ++j) sum += p[i] * q[j] / static_cast<double>(i + j + 1);
+  }
+  return sum;
+}
+
+/// The function of a face as a product of polynomials, one per axis.
+template <int Dim>
+struct Product {
+  int direction;
+  std::array<Polynomial, static_cast<std::size_t>(Dim)> factor;
+};
+
+/// Integral of d_i f d_j g.
+template <int Dim>
+double slopes(const Product<Dim>& f, int i, const Product<Dim>& g, int j) {
+  double product = 1;
+  for (int e = 0; e < Dim; ++e) {
+    const Polynomial& p = f.factor[static_cast<std::size_t>(e)];
+    const Polynomial& q = g.factor[static_cast<std::size_t>(e)];
+    product *= integral(e == i ? slope(p) : p, e == j ? slope(q) : q);
+  }
+  return product;
+}
+
+/// 2 D(N_f):D(N_g) = delta_de grad N_f . grad N_g + d_e N_f d_d N_g for faces of directions d and e.
+template <int Dim>
+double friction(const Product<Dim>& f, const Product<Dim>& g) {
+  double sum = slopes<Dim>(f, g.direction, g, f.direction);
+  if (f.direction != g.direction) return sum;
+  for (int i = 0; i < Dim; ++i) sum += slopes<Dim>(f, i, g, i);
+  return sum;
+}
+
+/// Kinds of the cells of an axis, each once.
+std::vector<std::pair<std::size_t, const CellSplines*>> kinds_of(const SplineAxis& axis) {
+  std::vector<std::pair<std::size_t, const CellSplines*>> kinds;
+  for (int cell = 0; cell < axis.cells(); ++cell) {
+    const std::size_t kind = axis.kind_of(cell);
+    const auto is_same = [&](const auto& other) { return other.first == kind; };
+    if (std::none_of(kinds.begin(), kinds.end(), is_same)) kinds.emplace_back(kind, &axis.of_cell(cell));
+  }
+  return kinds;
+}
+
+}  // namespace
+
+template <int Dim>
+template <int K>
+void FrictionMatrices<Dim>::add(double scale,
+                                const std::array<const CellSplines*, static_cast<std::size_t>(Dim)>& cell) {
+  std::vector<Product<Dim>> faces;
+  for_each_direction<Dim>([&](auto d) {
+    constexpr int D = d();
+    for_each_face<Dim, K, D>([&](std::size_t, const Index<Dim>& offset) {
+      Product<Dim> face{D, {}};
+      for (std::size_t e = 0; e < Dim; ++e) {
+        const auto a = static_cast<std::size_t>(offset[e]);
+        face.factor[e] = e == D ? cell[e]->along[a] : cell[e]->across[a];
+      }
+      faces.push_back(face);
+    });
+  });
+  faces_ = faces.size();
+  for (const Product<Dim>& f : faces) {
+    double bound = 0;
+    for (const Product<Dim>& g : faces) {
+      // In one order, so that the matrix is symmetric to the last digit.
+      const double entry = scale * (&f < &g ? friction<Dim>(f, g) : friction<Dim>(g, f));
+      entries_.push_back(entry);
+      bound += std::abs(entry);
+    }
+    bounds_.push_back(bound);
+  }
+}
+
+template <int Dim>
+FrictionMatrices<Dim>::FrictionMatrices(const Grid<Dim>& grid, const Splines<Dim>& splines) {
+  const double scale = std::pow(grid.spacing, Dim - 2);
+  std::size_t count = 1;
+  for (const SplineAxis& axis : splines.axis) count *= axis.kinds();
+  place_.assign(count, 0);
+  std::array<const CellSplines*, static_cast<std::size_t>(Dim)> cell{};
+  std::size_t next = 0;
+  const auto add_all = [&](auto&& self, std::size_t d, std::size_t number) -> void {
+    for (const auto& [kind, of_axis] : kinds_of(splines.axis[d])) {
+      cell[d] = of_axis;
+      const std::size_t within = number * splines.axis[d].kinds() + kind;
+      if (d > 0) {
+        self(self, d - 1, within);
+        continue;
+      }
+      place_[within] = next++;
+      with_degree(splines.degree, [&](auto degree) { this->template add<degree()>(scale, cell); });
+    }
+  };
+  add_all(add_all, Dim - 1, 0);
+}
+
+template class FrictionMatrices<2>;
+template class FrictionMatrices<3>;
+
+}  // namespace minamo

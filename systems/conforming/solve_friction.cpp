@@ -1,0 +1,147 @@
+#include "systems/conforming/solve_friction.hpp"
+
+#include "systems/conforming/friction_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace minamo {
+
+namespace {
+
+constexpr std::int64_t most_iterations = 2000;
+
+/// The matrices of a solve.
+template <int Dim>
+struct FrictionSystem {
+  FrictionOf<Dim> friction;
+  Incidence<Dim> incidence;
+  std::span<const std::uint32_t> of_unknown;
+  std::span<const std::int32_t> row;
+  FrictionWork<Dim>& work;
+
+  /// out = (m/tau + K) v; nothing at faces that walls hold.
+  void apply(const Values& v, Values& out) const {
+    std::fill(out.begin(), out.end(), 0.0);
+    apply_friction<Dim>(friction, v.data(), out.data());
+    for_each_row(v.size(), [&](std::size_t f) { out[f] = work.mass[f] == 0 ? 0 : out[f] + work.mass[f] * v[f]; });
+  }
+  /// G z = r - B^T y with B z = 0; r becomes r - B^T y. \return r . z
+  double project() const {
+    for_each_row(of_unknown.size(), [&](std::size_t l) {
+      const std::size_t i = of_unknown[l];
+      double sum = 0;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const std::size_t low = Dim * i + d;
+        const std::size_t high = Dim * incidence.above(i, d) + d;
+        sum += incidence.per_width(i, d) * (work.per_g[high] * work.r[high] - work.per_g[low] * work.r[low]);
+      }
+      work.divergence[l] = sum;
+    });
+    work.multipliers.solve(work.divergence, work.y);
+    add_scaled(1, work.y, work.sum_of_y);
+    subtract_gradient(work.y, work.r);
+    for_each_row(work.r.size(), [&](std::size_t f) { work.z[f] = work.per_g[f] * work.r[f]; });
+    return dot(work.r, work.z);
+  }
+  /// r -= B^T y; nothing at faces that walls hold.
+  void subtract_gradient(const Values& y, Values& r) const {
+    const auto at = [&](std::size_t i) {
+      return row[i] == staggered::none ? 0.0 : y[static_cast<std::size_t>(row[i])];
+    };
+    for_each_row(row.size(), [&](std::size_t i) {
+      for (std::size_t d = 0; d < Dim; ++d) {
+        if (work.per_g[Dim * i + d] != 0) r[Dim * i + d] -= incidence.gradient(i, d, at);
+      }
+    });
+  }
+  /// |f - A v + B^T lambda| in the norm of G^-1, of what was found and not of the iteration.
+  double residual() const {
+    apply(work.v, work.product);
+    for_each_row(work.f.size(), [&](std::size_t f) { work.r[f] = work.f[f] - work.product[f]; });
+    subtract_gradient(work.sum_of_y, work.r);
+    return std::sqrt(weighted_square(work.per_g, work.r));
+  }
+  /// Improves v, B v = 0, until |f - A v + B^T lambda| <= target in the norm of G^-1. \return iterations
+  std::int64_t solve(double target) const {
+    apply(work.v, work.product);
+    for_each_row(work.f.size(), [&](std::size_t f) { work.r[f] = work.f[f] - work.product[f]; });
+    std::fill(work.sum_of_y.begin(), work.sum_of_y.end(), 0.0);
+    double left = project();
+    work.direction = work.z;
+    for (std::int64_t k = 0;; ++k) {
+      if (left <= target * target || k == most_iterations || !std::isfinite(left)) return k;
+      apply(work.direction, work.product);
+      const double step = left / dot(work.direction, work.product);
+      add_scaled(step, work.direction, work.v);
+      add_scaled(-step, work.product, work.r);
+      const double before = std::exchange(left, project());
+      for_each_row(work.z.size(),
+                   [&](std::size_t f) { work.direction[f] = work.z[f] + left / before * work.direction[f]; });
+    }
+  }
+};
+
+template <int Dim>
+void resize(FrictionWork<Dim>& work, std::size_t faces, std::size_t unknowns) {
+  for (Values* of_face :
+       {&work.mass, &work.per_g, &work.f, &work.v, &work.r, &work.z, &work.direction, &work.product}) {
+    of_face->resize(faces);
+  }
+  for (Values* of_unknown : {&work.divergence, &work.y, &work.sum_of_y}) of_unknown->resize(unknowns);
+}
+
+}  // namespace
+
+template <int Dim>
+void SolveFriction<Dim>::operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid,
+                                    Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> matrices,
+                                    Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                    Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c,
+                                    Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
+                                    Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
+                                    Read<unknown::Neighbour<Dim>> unknown_neighbour,
+                                    Read<unknown::NullVector> null_vector, Read<multiplier::Row> row,
+                                    Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
+                                    Update<multiplier::Force> lambda, Update<SolveReport> report) const {
+  const double per_tau = rates->acceleration / rates->velocity;
+  resize(*work, Dim * v_f.size(), of_unknown.size());
+  const FrictionSystem<Dim> system{{*splines, *matrices, *cells, *sites, mu_c.span()},
+                                   {*grid, *splines, site.span(), neighbour.span()},
+                                   of_unknown.span(),
+                                   row.span(),
+                                   *work};
+  std::fill(work->per_g.begin(), work->per_g.end(), 0.0);
+  add_friction_diagonal<Dim>(system.friction, work->per_g.data(),
+                             [&](const Index<Dim>& cell, std::size_t f, std::size_t faces) {
+                               return matrices->of(*splines, cell)[f * (faces + 1)];
+                             });
+  for_each_row(v_f.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const std::size_t f = Dim * i + d;
+      const bool is_held = mobility[i][axis] == 0;
+      work->mass[f] = is_held ? 0 : per_tau / mobility[i][axis];
+      work->per_g[f] = is_held ? 0 : 1 / (work->mass[f] + work->per_g[f]);
+      work->f[f] = work->mass[f] * (predictor[i][axis] + damping[i][axis]);
+      work->v[f] = is_held ? 0 : v_f[i][axis];
+    }
+  });
+  work->multipliers.prepare(*splines, system.incidence,
+                            {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span()},
+                            work->per_g);
+  const double size = std::sqrt(weighted_square(work->per_g, work->f));
+  report->iterations = system.solve(tolerance->relative * size);
+  if (size > 0) report->residual = std::max(report->residual, system.residual() / size);
+  for_each_row(v_f.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) v_f[i][static_cast<Eigen::Index>(d)] = work->v[Dim * i + d];
+    lambda[i] = row[i] == staggered::none ? 0 : -work->sum_of_y[static_cast<std::size_t>(row[i])];
+  });
+}
+
+template struct SolveFriction<2>;
+template struct SolveFriction<3>;
+
+}  // namespace minamo
