@@ -35,7 +35,14 @@ struct OccupiedCells {
   static constexpr ComponentInfo info{"cells", "c", "1", Lifetime::scratch};
 };
 
-/// The same cells as a table: row c is cells[c].
+/// The same for the cells of the grid, between its nodes, which the conforming discretization sorts particles by.
+/// `Cell::node` is the low corner, and there are no rows of nodes.
+template <int Dim>
+struct GridCells : OccupiedCells<Dim> {
+  static constexpr ComponentInfo info{"grid_cells", "c", "1", Lifetime::scratch};
+};
+
+/// The occupied cells, of whichever kind, as a table: row c is cells[c].
 struct Cells {
   static constexpr std::string_view name = "cell";
 };

@@ -81,7 +81,7 @@ void UniformFaceForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Opt
 }
 
 template <int Dim>
-void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p,
                                    Read<face::Mass<Dim>> m_f, Read<face::Held> held,
@@ -93,7 +93,7 @@ void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
 
 template <int Dim>
 void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Read<Rates> rates, Read<Grid<Dim>> grid,
-                                     Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                     Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                      Read<cell::LiquidIndicator> w_c, Read<particle::QuadraturePosition<Dim>> y_p,
                                      Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p,
                                      Read<face::Mass<Dim>> m_f, Read<face::Held> held,
@@ -101,11 +101,12 @@ void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Re
                                      Update<face::Predictor<Dim>> predictor) const {
   const double share = std::min(1.0, step->seconds / clock->step);
   const Vec<Dim> nothing = Vec<Dim>::Zero();
-  scatter_mean_by_cell<Dim>(
-      {*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), c_f.span(),
-      [&](std::size_t c, const auto&, auto) {
-        return [&, w = share * w_c[c]](std::size_t p) { return series::Linear<Dim>{nothing, w * grad_f_p[p]}; };
-      });
+  scatter_mean_by_cell<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), c_f.span(),
+                            [&](std::size_t c, const auto&, auto) {
+                              return [&, w = share * w_c[c]](std::size_t p) {
+                                return series::Linear<Dim>{nothing, w * grad_f_p[p]};
+                              };
+                            });
   const double tau = rates->velocity / rates->acceleration;
   for_each_row(c_f.size(), [&](std::size_t i) {
     hold<Dim>(held[i], c_f[i]);
@@ -189,7 +190,11 @@ void ProjectFaces<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read
       const auto axis = static_cast<Eigen::Index>(d);
       const double m = mobility[i][axis];
       unknown::Sources change{};
-      if (m > 0) change = incidence.gradient(i, d, -m, of);
+      if (m > 0) {
+        incidence.for_each_multiplier(i, d, [&](std::size_t l, double weight) {
+          for (std::size_t s = 0; s < change.size(); ++s) change[s] -= m * weight * of(l)[s];
+        });
+      }
       damping[i][axis] = change[unknown::damping];
       v_f[i][axis] = predictor[i][axis] + change[unknown::damping] + change[unknown::balance];
       shift[i][axis] = change[unknown::volume];
@@ -239,7 +244,7 @@ void CorrectFacesBackwardEuler<Dim>::operator()(Read<Clock> clock, Read<face::Ve
 
 template <int Dim>
 void G2PFaceForceGradient<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                           Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                           Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                            Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_old,
                                            Read<face::NewVelocity<Dim>> v_new, Read<face::InertiaCorrection<Dim>> c_f,
                                            Write<particle::ForceGradient<Dim>> grad_f_p, Write<ForceStep> step) const {

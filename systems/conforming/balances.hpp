@@ -66,8 +66,8 @@ struct UniformFaceForce {
 template <int Dim>
 struct P2GFaceForce {
   static constexpr std::string_view doc = "(E14) b_f, from the particles";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::BodyForce<Dim>> b_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
                   Write<face::BodyForce<Dim>> b_f) const;
 };
@@ -77,7 +77,7 @@ template <int Dim>
 struct AddFaceInertia {
   static constexpr std::string_view doc = "(E53) first moment that lumping the mass leaves out";
   void operator()(Read<Clock> clock, Read<ForceStep> step, Read<Rates> rates, Read<Grid<Dim>> grid,
-                  Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                  Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<cell::LiquidIndicator> w_c, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p, Read<face::Mass<Dim>> m_f,
                   Read<face::Held> held, Write<face::InertiaCorrection<Dim>> c_f,
@@ -156,7 +156,7 @@ struct CorrectFacesBackwardEuler {
 template <int Dim>
 struct G2PFaceForceGradient {
   static constexpr std::string_view doc = "(E54) grad f_p";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_old,
                   Read<face::NewVelocity<Dim>> v_new, Read<face::InertiaCorrection<Dim>> c_f,
                   Write<particle::ForceGradient<Dim>> grad_f_p, Write<ForceStep> step) const;

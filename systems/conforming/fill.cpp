@@ -56,7 +56,7 @@ void invert_masses(double full_cell, const Splines<Dim>& splines, std::span<cons
 
 template <int Dim>
 void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                     Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                     Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                                      Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                      Write<multiplier::Volume> v_l, Write<multiplier::Curvature> curvature) const {
@@ -79,8 +79,8 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
         V = of_lane >= static_cast<double>(group.count) ? Four{} : V;
         Four divergence{};
         if (liquid > 0) {
-          divergence = of_group(
-              group, [&](std::size_t p) { return divergence_ahead<Dim>(half_step, liquid, gradient[p]); });
+          divergence =
+              of_group(group, [&](std::size_t p) { return divergence_ahead<Dim>(half_step, liquid, gradient[p]); });
         }
         std::size_t m = 0;
         for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
@@ -116,7 +116,7 @@ void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<
 }
 
 template <int Dim>
-void FindLiquidCellsByMultipliers<Dim>::operator()(Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void FindLiquidCellsByMultipliers<Dim>::operator()(Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                                    Read<CellSites> sites, Read<multiplier::FillFraction> phi,
                                                    Write<cell::LiquidIndicator> w_c,
                                                    Write<cell::BulkIndicator> b_c) const {

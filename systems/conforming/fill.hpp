@@ -16,7 +16,7 @@ namespace minamo {
 template <int Dim>
 struct P2GMultipliers {
   static constexpr std::string_view doc = "(E35) (E63) volume and divergence of the middle around multipliers";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Write<multiplier::Volume> v_l,
                   Write<multiplier::Curvature> curvature) const;
@@ -36,7 +36,7 @@ struct FindFill {
 template <int Dim>
 struct FindLiquidCellsByMultipliers {
   static constexpr std::string_view doc = "(E61) w_c, b_c: liquid, spray or bulk";
-  void operator()(Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+  void operator()(Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<multiplier::FillFraction> phi, Write<cell::LiquidIndicator> w_c,
                   Write<cell::BulkIndicator> b_c) const;
 };

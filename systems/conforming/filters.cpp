@@ -49,7 +49,7 @@ void filter_faces(const FaceSource<Dim>& source, std::span<const Vec<Dim>> m_f, 
 }  // namespace
 
 template <int Dim>
-void FilterFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void FilterFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                       Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
                                       Read<face::Velocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
@@ -60,7 +60,7 @@ void FilterFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
 }
 
 template <int Dim>
-void G2PFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void G2PFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Read<face::FilteredVelocity<Dim>> v_filtered, Read<face::Velocity<Dim>> v_old,
                                    Read<face::NewVelocity<Dim>> v_new, Write<particle::Velocity<Dim>> v_p) const {
@@ -70,7 +70,7 @@ void G2PFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
 }
 
 template <int Dim>
-void FilterFacesFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void FilterFacesFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                       Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
                                       Read<face::NewVelocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
@@ -81,7 +81,7 @@ void FilterFacesFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
 }
 
 template <int Dim>
-void G2PFacesFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void G2PFacesFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Read<face::FilteredVelocity<Dim>> v_filtered,
                                    Write<particle::Velocity<Dim>> v_p) const {

@@ -22,21 +22,20 @@ struct FilterFacesXpic {
   FilterFacesXpic() = default;
   explicit FilterFacesXpic(int order_of_filter) : order(order_of_filter) {}
   explicit FilterFacesXpic(Input& input) : order(filter_order(input)) {}
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<face::Mass<Dim>> m_f, Read<face::Held> held, Read<face::Velocity<Dim>> v_f,
-                  Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
-                  Write<face::FilteredVelocity<Dim>> v_filtered) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f,
+                  Read<face::Held> held, Read<face::Velocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
+                  Write<face::Smoothed<Dim>> smoothed, Write<face::FilteredVelocity<Dim>> v_filtered) const;
 };
 
 /// (E47) on faces: v_p = sum_f N_f (v*_f + v_f^{n+1} - v_f^n).
 template <int Dim>
 struct G2PFacesXpic {
   static constexpr std::string_view doc = "(E47) v_p, XPIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::FilteredVelocity<Dim>> v_filtered, Read<face::Velocity<Dim>> v_old,
-                  Read<face::NewVelocity<Dim>> v_new, Write<particle::Velocity<Dim>> v_p) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::FilteredVelocity<Dim>> v_filtered,
+                  Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
+                  Write<particle::Velocity<Dim>> v_p) const;
 };
 
 /// (E66) on faces: v*_f = sum_{l<k} (1 - S^+ S)^l v_f^{n+1}, zero where walls hold.
@@ -48,20 +47,19 @@ struct FilterFacesFmpm {
   FilterFacesFmpm() = default;
   explicit FilterFacesFmpm(int order_of_filter) : order(order_of_filter) {}
   explicit FilterFacesFmpm(Input& input) : order(filter_order(input)) {}
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<face::Mass<Dim>> m_f, Read<face::Held> held, Read<face::NewVelocity<Dim>> v_f,
-                  Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
-                  Write<face::FilteredVelocity<Dim>> v_filtered) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f,
+                  Read<face::Held> held, Read<face::NewVelocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
+                  Write<face::Smoothed<Dim>> smoothed, Write<face::FilteredVelocity<Dim>> v_filtered) const;
 };
 
 /// (E66) on faces: v_p = sum_f N_f v*_f.
 template <int Dim>
 struct G2PFacesFmpm {
   static constexpr std::string_view doc = "(E66) v_p, FMPM";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::FilteredVelocity<Dim>> v_filtered, Write<particle::Velocity<Dim>> v_p) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::FilteredVelocity<Dim>> v_filtered,
+                  Write<particle::Velocity<Dim>> v_p) const;
 };
 
 }  // namespace minamo

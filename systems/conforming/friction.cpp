@@ -27,9 +27,8 @@ const double* numbers(std::span<const Vec<Dim>> of_faces) {
 
 template <int Dim>
 void FindCellViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                                        Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
-                                        Read<particle::Volume> V_p, Read<multiplier::FillFraction> phi,
-                                        Write<cell::Viscosity> mu_c) const {
+                                        Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Volume> V_p,
+                                        Read<multiplier::FillFraction> phi, Write<cell::Viscosity> mu_c) const {
   const double per_cell = std::pow(grid->spacing, -Dim);
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
@@ -47,10 +46,9 @@ void FindCellViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
 
 template <int Dim>
 void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> matrices,
-                               Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
-                               Read<face::Mobility<Dim>> mobility, Update<cell::Viscosity> mu_c,
-                               Write<face::FrictionBound<Dim>> bound, Write<face::Friction<Dim>> friction,
-                               Update<face::Predictor<Dim>> predictor) const {
+                               Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
+                               Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
+                               Write<face::Friction<Dim>> friction, Update<face::Predictor<Dim>> predictor) const {
   const double tau = rates->velocity / rates->acceleration;
   const FrictionOf<Dim> of{*splines, *matrices, *cells, *sites, mu_c.span()};
   for_each_row(bound.size(), [&](std::size_t i) {

@@ -12,24 +12,24 @@
 
 namespace minamo {
 
-/// mu_c = mu sum_p V_p/h^d over the particles of a cell; mu where all around is full of liquid.
+/// (E80)  mu_c = mu sum_p V_p/h^d over the particles of a cell; mu where all around is full of liquid.
 template <int Dim>
 struct FindCellViscosity {
-  static constexpr std::string_view doc = "mu_c, what of a cell is liquid";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<OccupiedCells<Dim>> cells,
+  static constexpr std::string_view doc = "(E80) mu_c, what of a cell is liquid";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::Volume> V_p, Read<multiplier::FillFraction> phi,
                   Write<cell::Viscosity> mu_c) const;
 };
 
-/// v*_f -= tau (K v°)_f/m_f, K = sum_c theta_c mu_c K^_c, theta_c = min(1, m_f/(2 tau D_f)) over the faces of the cell,
-/// D_f = sum_c mu_c sum_g |K^_fg|. Then 2 tau K <= m, and 1 - 2 tau m^-1 K of the midpoint rule lies between 0 and 1
-/// for every viscosity and every mass: energy never rises. theta_c is 1 but in cells with faces that next to no
+/// (E81)  v*_f -= tau (K v°)_f/m_f, K = sum_c theta_c mu_c K^_c, theta_c = min(1, m_f/(2 tau D_f)) over the faces of
+/// the cell, D_f = sum_c mu_c sum_g |K^_fg|. Then 2 tau K <= m, and 1 - 2 tau m^-1 K of the midpoint rule lies between
+/// 0 and 1 for every viscosity and every mass: energy never rises. theta_c is 1 but in cells with faces that next to no
 /// particles touch. By cells, so that momentum and angular momentum stay.
 template <int Dim>
 struct RubFaces {
-  static constexpr std::string_view doc = "friction at the start of the step, of liquids that flow easily";
+  static constexpr std::string_view doc = "(E81) friction at the start of the step, of liquids that flow easily";
   void operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> matrices,
-                  Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
+                  Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
                   Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
                   Write<face::Friction<Dim>> friction, Update<face::Predictor<Dim>> predictor) const;
 };

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Friction of the faces of a cell full of liquid of unit viscosity: the exact integrals K^_fg of 2 D(N_f):D(N_g) over
-/// the cell, D the symmetric gradient. Cells of one kind have the same matrix. It takes translations and rotations to
-/// zero, and no other velocity.
+/// (E80) Friction of the faces of a cell full of liquid of unit viscosity: the exact integrals K^_fg of 2 D(N_f):D(N_g)
+/// over the cell, D the symmetric gradient. Cells of one kind have the same matrix. It takes translations and rotations
+/// to zero, and no other velocity.
 
 #include "systems/conforming/support.hpp"
 

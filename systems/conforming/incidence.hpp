@@ -27,19 +27,21 @@ class Incidence {
     }
     return sum;
   }
-  /// scale (B^T q)_f for the face of direction d of a row, of all sources at once; `at` is q by row of the multiplier,
-  /// zero where there is none.
-  template <class AtMultiplier>
-  unknown::Sources gradient(std::size_t row, std::size_t d, double scale, const AtMultiplier& at) const {
-    unknown::Sources sum{};
-    const auto add = [&](std::size_t of, double sign) {
-      if (!splines_.has_multiplier(site_[of])) return;
-      const double weight = sign * scale * per_width(of, d);
-      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += weight * at(of)[s];
-    };
-    add(row, -1);
+  /// Calls use(row of the multiplier, its weight) for the one or two of (B^T q)_f = sum_l weight_l q_l, f the face of
+  /// direction d of a row. [1/m]
+  template <class Use>
+  void for_each_multiplier(std::size_t row, std::size_t d, const Use& use) const {
+    if (splines_.has_multiplier(site_[row])) use(row, -per_width(row, d));
     const std::int32_t below = neighbour_[row][2 * d];
-    if (below != staggered::none) add(static_cast<std::size_t>(below), 1);
+    if (below == staggered::none) return;
+    const auto low = static_cast<std::size_t>(below);
+    if (splines_.has_multiplier(site_[low])) use(low, per_width(low, d));
+  }
+  /// (B^T q)_f; `at` is q by row of the multiplier, zero where there is none.
+  template <class AtMultiplier>
+  double gradient(std::size_t row, std::size_t d, const AtMultiplier& at) const {
+    double sum = 0;
+    for_each_multiplier(row, d, [&](std::size_t l, double weight) { sum += weight * at(l); });
     return sum;
   }
   /// 1/w_d of a multiplier. [1/m]

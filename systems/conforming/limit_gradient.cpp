@@ -15,7 +15,7 @@ constexpr double most_in_spray = 0.1;
 }  // namespace
 
 template <int Dim>
-void LimitGradient<Dim>::operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
+void LimitGradient<Dim>::operator()(Read<Clock> clock, Read<GridCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
                                     Update<particle::VelocityGradient<Dim>> grad_v_p) const {
   for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const double most = (most_in_spray + (most_in_liquid - most_in_spray) * w_c[c]) / clock->step;

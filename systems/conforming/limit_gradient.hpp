@@ -15,7 +15,7 @@ namespace minamo {
 template <int Dim>
 struct LimitGradient {
   static constexpr std::string_view doc = "(E73) velocity gradients, where the grid does not resolve them";
-  void operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
+  void operator()(Read<Clock> clock, Read<GridCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
                   Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 

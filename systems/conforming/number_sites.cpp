@@ -75,7 +75,7 @@ void find_site_neighbours(const OccupiedCells<Dim>& cells, const CellSites& site
 
 template <int Dim>
 void NumberSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
-                                  Read<OccupiedCells<Dim>> cells, Resize<Staggered> table, Write<CellSites> sites,
+                                  Read<GridCells<Dim>> cells, Resize<Staggered> table, Write<CellSites> sites,
                                   Update<StaggeredIndex<Dim>> rows, Update<staggered::Site<Dim>> site,
                                   Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
                                   Write<multiplier::Capacity> capacity, Update<NumberingBuffer> buffer) const {

@@ -15,10 +15,9 @@ namespace minamo {
 template <int Dim>
 struct NumberSites {
   static constexpr std::string_view doc = "number the staggered sites of occupied cells";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
-                  Read<OccupiedCells<Dim>> cells, Resize<Staggered> table, Write<CellSites> sites,
-                  Update<StaggeredIndex<Dim>> rows, Update<staggered::Site<Dim>> site,
-                  Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls, Read<GridCells<Dim>> cells,
+                  Resize<Staggered> table, Write<CellSites> sites, Update<StaggeredIndex<Dim>> rows,
+                  Update<staggered::Site<Dim>> site, Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
                   Write<multiplier::Capacity> capacity, Update<NumberingBuffer> buffer) const;
 };
 

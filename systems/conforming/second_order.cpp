@@ -7,7 +7,7 @@
 namespace minamo {
 
 template <int Dim>
-void P2GFacesTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void P2GFacesTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                     Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                     Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                                     Read<particle::VelocityGradient<Dim>> grad_v_p,
@@ -23,7 +23,7 @@ template <int Dim>
 G2PFacesTpic2<Dim>::G2PFacesTpic2(Input& in) : share(curvature_share(in)) {}
 
 template <int Dim>
-void G2PFacesTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void G2PFacesTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                     Read<CellSites> sites, Read<cell::BulkIndicator> b_c,
                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
                                     Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p,

@@ -1,12 +1,11 @@
 #pragma once
 /// \file
-/// Friction in the balances: m (v - v*)/tau + K v = B^T lambda, B v = 0, for liquids that are too thick to be rubbed at
-/// the start of the step (friction.hpp). Conjugate gradients among the velocities without divergence, preconditioned
-/// with the diagonal G of m/tau + K: every direction is projected, G z = r - B^T y with B z = 0, so that every iterate
-/// has no divergence and the multipliers come as the sum of the y. In thin liquids it ends at once, since G is the
-/// matrix.
-/// N. I. M. Gould, M. E. Hribar, J. Nocedal, SIAM J. Sci. Comput. 23 (2001) 1376, algorithm 6.2 with the residual
-/// update of section 6: preconditioned projected conjugate gradients.
+/// (E82) Friction in the balances: m (v - v*)/tau + K v = B^T lambda, B v = 0, for liquids that are too thick to be
+/// rubbed at the start of the step (friction.hpp). Conjugate gradients among the velocities without divergence,
+/// preconditioned with the diagonal G of m/tau + K: every direction is projected, G z = r - B^T y with B z = 0, so that
+/// every iterate has no divergence and the multipliers come as the sum of the y. In thin liquids it ends at once, since
+/// G is the matrix. N. I. M. Gould, M. E. Hribar, J. Nocedal, SIAM J. Sci. Comput. 23 (2001) 1376, algorithm 6.2 with
+/// the residual update of section 6: preconditioned projected conjugate gradients.
 
 #include "components/friction.hpp"
 #include "components/grid.hpp"
@@ -35,7 +34,7 @@ template <int Dim>
 struct SolveFriction {
   static constexpr std::string_view doc = "v_f and lambda_l with friction";
   void operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<FrictionMatrices<Dim>> matrices, Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                  Read<FrictionMatrices<Dim>> matrices, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c, Read<face::Predictor<Dim>> predictor,
                   Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,

@@ -69,6 +69,11 @@ CellSplines make_cell(int degree, const Knots& knots) {
     cell.across_place[static_cast<std::size_t>(a)] = greville(knots, a - degree + 1, degree - 1);
     cell.across_spread[static_cast<std::size_t>(a)] = spread(knots, a - degree + 1, degree - 1);
   }
+  for (std::size_t a = 0; a < static_cast<std::size_t>(degree); ++a) {
+    const double square = cell.across_place[a] * cell.across_place[a];
+    for (std::size_t k = 0; k < CellSplines::most; ++k) cell.across_moment[k] += square * cell.across[a][k];
+  }
+  cell.across_moment[2] -= 1;
   return cell;
 }
 

@@ -29,6 +29,8 @@ struct CellSplines {
   /// Greville points from the low end of the cell, in units of h: sum_i N_i g_i = xi.
   std::array<double, most> along_place{};
   std::array<double, most> across_place{};
+  /// sum_a N_a (g_a - xi)^2 = sum_a N_a g_a^2 - xi^2 of the splines of degree K - 1: D of (E30) in units of h^2.
+  Polynomial across_moment{};
   /// Spread of the inner knots of a spline around its Greville point, s_i, in units of h^2: sum_i N_i (g_i^2 - s_i) =
   /// xi^2.
   std::array<double, most> along_spread{};

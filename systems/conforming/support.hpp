@@ -78,17 +78,6 @@ inline AxisPlace axis_place(const SplineAxis& axis, double r) {
   return {cell, std::clamp(r - cell, 0.0, 1.0)};
 }
 
-/// sum_a N_a (x_a - y)^2 over the splines across of a cell, in units of h^2.
-inline double spread_across(const CellSplines& of, int degree, double xi) {
-  double spread = 0;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(degree); ++a) {
-    double weight = 0;
-    for (std::size_t k = static_cast<std::size_t>(degree); k-- > 0;) weight = weight * xi + of.across[a][k];
-    spread += weight * (of.across_place[a] - xi) * (of.across_place[a] - xi);
-  }
-  return spread;
-}
-
 template <int Dim>
 Index<Dim> cell_around(const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) {
   Index<Dim> cell;

@@ -10,7 +10,7 @@
 namespace minamo {
 
 template <int Dim>
-void P2GFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void P2GFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                                   Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
@@ -19,7 +19,7 @@ void P2GFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splin
 }
 
 template <int Dim>
-void P2GFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void P2GFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                                    Read<particle::VelocityGradient<Dim>> grad_v_p, Write<face::Mass<Dim>> m_f,
@@ -31,7 +31,7 @@ void P2GFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
 }
 
 template <int Dim>
-void G2PFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void G2PFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                   Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p) const {
   gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(v_f.span()),
@@ -44,7 +44,7 @@ G2PFacesFlip<Dim>::G2PFacesFlip(Input& input)
                          {.doc = "share of FLIP, the rest is PIC", .fallback = 0.99, .at_least = 0, .at_most = 1})) {}
 
 template <int Dim>
-void G2PFacesFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void G2PFacesFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
                                    Update<particle::Velocity<Dim>> v_p) const {
@@ -62,7 +62,7 @@ G2PFacesTpic<Dim>::G2PFacesTpic(Input& in)
                                "conserved") == "conserved") {}
 
 template <int Dim>
-void G2PFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void G2PFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
                                    Write<particle::VelocityGradient<Dim>> grad_v_p) const {
@@ -82,7 +82,7 @@ void G2PFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
 }
 
 template <int Dim>
-void G2PFacesApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void G2PFacesApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
                                    Write<particle::VelocityGradient<Dim>> c_p) const {
@@ -95,7 +95,7 @@ void G2PFacesApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
 
 template <int Dim>
 void P2GFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                             Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                             Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                              Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                              Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f,
                                              Write<face::Acceleration<Dim>> a_f) const {
@@ -105,7 +105,7 @@ void P2GFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<
 
 template <int Dim>
 void P2GFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                              Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                              Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                               Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                               Read<particle::Acceleration<Dim>> a_p,
                                               Read<particle::AccelerationGradient<Dim>> grad_a_p,
@@ -118,7 +118,7 @@ void P2GFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
 
 template <int Dim>
 void G2PFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                             Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                             Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                              Read<particle::QuadraturePosition<Dim>> y_p,
                                              Read<face::NewAcceleration<Dim>> a_f,
                                              Write<particle::Acceleration<Dim>> a_p) const {
@@ -128,7 +128,7 @@ void G2PFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<
 
 template <int Dim>
 void G2PFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                              Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                              Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                               Read<particle::QuadraturePosition<Dim>> y_p,
                                               Read<face::NewAcceleration<Dim>> a_f,
                                               Write<particle::Acceleration<Dim>> a_p,
@@ -142,7 +142,7 @@ void G2PFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
 
 template <int Dim>
 void G2PFaceAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                              Read<OccupiedCells<Dim>> cells, Read<CellSites> sites,
+                                              Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                               Read<particle::QuadraturePosition<Dim>> y_p,
                                               Read<face::NewAcceleration<Dim>> a_f,
                                               Write<particle::Acceleration<Dim>> a_p,
@@ -155,7 +155,7 @@ void G2PFaceAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
 }
 
 template <int Dim>
-void AdvectByFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void AdvectByFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                     Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                     Read<face::Displacement<Dim>> u_f, Update<particle::Position<Dim>> x_p,
                                     Update<Clamped> clamped) const {

@@ -17,8 +17,8 @@ namespace minamo {
 template <int Dim>
 struct P2GFacesPic {
   static constexpr std::string_view doc = "(E3) (E4) m_f and v_f^n, PIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const;
 };
 
@@ -26,8 +26,8 @@ struct P2GFacesPic {
 template <int Dim>
 struct P2GFacesTpic {
   static constexpr std::string_view doc = "(E3) (E5) m_f and v_f^n, TPIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> grad_v_p,
                   Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const;
 };
@@ -36,8 +36,8 @@ struct P2GFacesTpic {
 template <int Dim>
 struct G2PFacesPic {
   static constexpr std::string_view doc = "(E17) v_p, PIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p) const;
 };
 
@@ -49,8 +49,8 @@ struct G2PFacesFlip {
 
   G2PFacesFlip() = default;
   explicit G2PFacesFlip(Input& input);
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_old,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_old,
                   Read<face::NewVelocity<Dim>> v_new, Update<particle::Velocity<Dim>> v_p) const;
 };
 
@@ -62,8 +62,8 @@ struct G2PFacesTpic {
 
   G2PFacesTpic() = default;
   explicit G2PFacesTpic(Input& input);
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 
@@ -71,8 +71,8 @@ struct G2PFacesTpic {
 template <int Dim>
 struct G2PFacesApic {
   static constexpr std::string_view doc = "(E17) (E45) v_p and C_p, APIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> c_p) const;
 };
 
@@ -80,8 +80,8 @@ struct G2PFacesApic {
 template <int Dim>
 struct P2GFaceAccelerationPic {
   static constexpr std::string_view doc = "(E4) a_f^n, newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f,
                   Write<face::Acceleration<Dim>> a_f) const;
 };
@@ -90,8 +90,8 @@ struct P2GFaceAccelerationPic {
 template <int Dim>
 struct P2GFaceAccelerationTpic {
   static constexpr std::string_view doc = "(E5) a_f^n, TPIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Acceleration<Dim>> a_p, Read<particle::AccelerationGradient<Dim>> grad_a_p,
                   Read<face::Mass<Dim>> m_f, Write<face::Acceleration<Dim>> a_f) const;
 };
@@ -100,37 +100,35 @@ struct P2GFaceAccelerationTpic {
 template <int Dim>
 struct G2PFaceAccelerationPic {
   static constexpr std::string_view doc = "(E17) a_p, newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f,
+                  Write<particle::Acceleration<Dim>> a_p) const;
 };
 
 /// (E17), (E18) on faces for the acceleration.
 template <int Dim>
 struct G2PFaceAccelerationTpic {
   static constexpr std::string_view doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p,
-                  Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f,
+                  Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
 };
 
 /// (E17), (E45) on faces for the acceleration.
 template <int Dim>
 struct G2PFaceAccelerationApic {
   static constexpr std::string_view doc = "(E17) (E45) a_p and its affine part, APIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::NewAcceleration<Dim>> a_f, Write<particle::Acceleration<Dim>> a_p,
-                  Write<particle::AccelerationGradient<Dim>> c_p) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f,
+                  Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> c_p) const;
 };
 
 /// (E11) on faces: x_p^{n+1} = x_p^n + sum_f N_f u_f.
 template <int Dim>
 struct AdvectByFaces {
   static constexpr std::string_view doc = "(E11) x_p; clamped at walls, counted";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Displacement<Dim>> u_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Displacement<Dim>> u_f,
                   Update<particle::Position<Dim>> x_p, Update<Clamped> clamped) const;
 };
 

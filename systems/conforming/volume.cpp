@@ -93,7 +93,7 @@ std::array<PartWeights, static_cast<std::size_t>(Dim)> part_weights(const Spline
 }  // namespace
 
 template <int Dim>
-void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                 Read<CellSites> sites, Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
                                 Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                                 Write<PartFill> parts) const {
@@ -119,7 +119,7 @@ void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines
 
 template <int Dim>
 void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                    Read<OccupiedCells<Dim>> cells, Read<CellSites> sites, Read<StirGrid> stir,
+                                    Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<StirGrid> stir,
                                     Read<PartFill> parts, Read<staggered::Neighbour<Dim>> neighbour,
                                     Read<multiplier::FillFraction> phi, Read<face::NewVelocity<Dim>> v_f,
                                     Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::Stir<Dim>> s_p) const {
@@ -161,7 +161,7 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
 }
 
 template <int Dim>
-void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                       Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<face::Shift<Dim>> d_f, Write<particle::Shift<Dim>> d_p) const {
   gather_faces<Dim>(

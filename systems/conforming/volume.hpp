@@ -48,8 +48,8 @@ struct PartFill {
 template <int Dim>
 struct FillParts {
   static constexpr std::string_view doc = "(E74) fill fraction of the parts of cells";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p, Write<PartFill> parts) const;
 };
 
@@ -59,7 +59,7 @@ struct FillParts {
 template <int Dim>
 struct StirParticles {
   static constexpr std::string_view doc = "(E74) s_p, away from where particles lie close";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<StirGrid> stir, Read<PartFill> parts,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
                   Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
@@ -70,8 +70,8 @@ struct StirParticles {
 template <int Dim>
 struct GatherFaceShift {
   static constexpr std::string_view doc = "(E38) d_p";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Shift<Dim>> d_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Shift<Dim>> d_f,
                   Write<particle::Shift<Dim>> d_p) const;
 };
 

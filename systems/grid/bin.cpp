@@ -163,7 +163,7 @@ void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::QuadraturePositio
 template <int Dim>
 void BinByCell<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                 Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
-                                Write<OccupiedCells<Dim>> cells, Resize<Cells> rows, Update<BinBuffer> buffer) const {
+                                Write<GridCells<Dim>> cells, Resize<Cells> rows, Update<BinBuffer> buffer) const {
   const auto cell_of = [&](const Vec<Dim>& y) { return cell_around<Dim>(*grid, *splines, y); };
   sort_particles<Dim>(*grid, grid->cells, cell_of, y_p.span(), particles, *cells, rows, *buffer);
 }

@@ -23,7 +23,7 @@ template <int Dim>
 struct BinByCell {
   static constexpr std::string_view doc = "sort particles by cell, colour the blocks of cells";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Resize<Particles> particles, Write<OccupiedCells<Dim>> cells, Resize<Cells> rows,
+                  Resize<Particles> particles, Write<GridCells<Dim>> cells, Resize<Cells> rows,
                   Update<BinBuffer> buffer) const;
 };
 

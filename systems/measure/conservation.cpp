@@ -55,7 +55,7 @@ Vec<Dim> face_spread(const Grid<Dim>& grid, const Splines<Dim>& splines, const V
   for (int d = 0; d < Dim; ++d) {
     const SplineAxis& axis = splines.axis[static_cast<std::size_t>(d)];
     const AxisPlace at = axis_place(axis, (x[d] - grid.low[d]) / grid.spacing);
-    spread[d] = grid.spacing * grid.spacing * spread_across(axis.of_cell(at.cell), splines.degree, at.xi);
+    spread[d] = grid.spacing * grid.spacing * polynomial<3>(axis.of_cell(at.cell).across_moment, at.xi);
   }
   return spread;
 }

@@ -227,7 +227,7 @@ TEMPLATE_TEST_CASE_SIG("differences of face velocities are the divergence at eve
   set_faces<face::NewVelocity<Dim>, Dim>(world, 33);
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   const Splines<Dim>& splines = world.resource<Splines<Dim>>();
-  const auto& cells = world.resource<OccupiedCells<Dim>>();
+  const auto& cells = world.resource<GridCells<Dim>>();
   const auto& sites = world.resource<CellSites>();
   const std::span<const Vec<Dim>> v_f = world.column<face::NewVelocity<Dim>>();
   const std::span<const Vec<Dim>> y_p = world.column<particle::QuadraturePosition<Dim>>();
@@ -264,7 +264,7 @@ TEMPLATE_TEST_CASE_SIG("divergence and gradient of the staggered grid are adjoin
   Random random(35);
   std::vector<double> q(site.size(), 0.0);
   const auto& sites = world.resource<CellSites>();
-  for (std::size_t c = 0; c < world.resource<OccupiedCells<Dim>>().cells.size(); ++c) {
+  for (std::size_t c = 0; c < world.resource<GridCells<Dim>>().cells.size(); ++c) {
     with_degree(kind.degree, [&](auto degree) {
       for_each_multiplier<Dim, degree()>([&](std::size_t k, const Index<Dim>&) { q[sites.of(c)[k]] = random(-1, 1); });
     });

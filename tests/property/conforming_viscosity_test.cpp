@@ -184,7 +184,7 @@ struct Dense {
 
   template <int K>
   void add_friction(World& world) {
-    const auto& cells = world.resource<OccupiedCells<Dim>>().cells;
+    const auto& cells = world.resource<GridCells<Dim>>().cells;
     const auto& splines = world.resource<Splines<Dim>>();
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const std::uint32_t* rows = world.resource<CellSites>().of(c);

@@ -17,7 +17,7 @@ namespace {
 
 /// A matrix of the kind and all that belongs to it.
 template <int Dim>
-struct Staggered {
+struct StaggeredSystem {
   static constexpr auto axes = static_cast<std::size_t>(Dim);
   std::vector<Index<Dim>> site;
   std::vector<typename StaggeredLaplacian<Dim>::Neighbours> neighbour;
@@ -68,8 +68,8 @@ std::vector<Index<Dim>> wet_sites(const Liquid<Dim>& liquid) {
 
 /// Faces to dry sites lead to the surface, those of the box are walls.
 template <int Dim>
-Staggered<Dim> assemble(const Liquid<Dim>& liquid) {
-  Staggered<Dim> s;
+StaggeredSystem<Dim> assemble(const Liquid<Dim>& liquid) {
+  StaggeredSystem<Dim> s;
   s.counts = liquid.counts;
   s.periodic = liquid.periodic;
   s.site = wet_sites(liquid);
@@ -81,7 +81,7 @@ Staggered<Dim> assemble(const Liquid<Dim>& liquid) {
   s.diagonal.assign(n, 0);
   for (std::size_t l = 0; l < n; ++l) s.null_vector.push_back(liquid.weight());
   for (std::size_t l = 0; l < n; ++l) {
-    for (std::size_t side = 0; side < 2 * Staggered<Dim>::axes; ++side) {
+    for (std::size_t side = 0; side < 2 * StaggeredSystem<Dim>::axes; ++side) {
       const auto beyond = across(liquid, s.site[l], side);
       const auto found = beyond ? row.find(*beyond) : row.end();
       const bool is_wet = found != row.end();
@@ -101,14 +101,14 @@ Staggered<Dim> assemble(const Liquid<Dim>& liquid) {
 
 /// Written down once more, from sites alone.
 template <int Dim>
-Eigen::MatrixXd dense_matrix(const Staggered<Dim>& s) {
+Eigen::MatrixXd dense_matrix(const StaggeredSystem<Dim>& s) {
   Eigen::MatrixXd matrix =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(s.site.size()), static_cast<Eigen::Index>(s.site.size()));
   std::map<Index<Dim>, Eigen::Index> row;
   for (const auto& site : s.site) row.emplace(site, static_cast<Eigen::Index>(row.size()));
   for (const auto& [site, l] : row) {
     matrix(l, l) += s.diagonal[static_cast<std::size_t>(l)];
-    for (std::size_t d = 0; d < Staggered<Dim>::axes; ++d) {
+    for (std::size_t d = 0; d < StaggeredSystem<Dim>::axes; ++d) {
       Index<Dim> high = site;
       ++high[d];
       if (s.periodic[d]) high[d] %= s.counts[d];
@@ -152,7 +152,7 @@ Liquid<Dim> irregular(double decades, bool is_periodic, kernels::Random& random)
 }
 
 template <int Dim>
-std::vector<Sources> solve_directly(const Staggered<Dim>& s, const std::vector<Sources>& b) {
+std::vector<Sources> solve_directly(const StaggeredSystem<Dim>& s, const std::vector<Sources>& b) {
   ClosedComponents closed;
   closed.find(s.view(), s.null_vector);
   DirectSolver<Dim> solver;
@@ -169,7 +169,7 @@ struct Solved {
 };
 
 template <int Dim>
-Solved solve_by_multigrid(const Staggered<Dim>& s, const std::vector<Sources>& b, double tolerance,
+Solved solve_by_multigrid(const StaggeredSystem<Dim>& s, const std::vector<Sources>& b, double tolerance,
                           std::size_t sources = 3) {
   ClosedComponents closed;
   closed.find(s.view(), s.null_vector);
@@ -221,7 +221,7 @@ Liquid<Dim> rooms(kernels::Random& random) {
 
 /// Takes faces to the air off the rooms that are below it.
 template <int Dim>
-void close_rooms(Staggered<Dim>& s) {
+void close_rooms(StaggeredSystem<Dim>& s) {
   constexpr std::size_t up = static_cast<std::size_t>(Dim) - 1;
   for (std::size_t l = 0; l < s.site.size(); ++l) {
     if (s.site[l][up] > 12) continue;
@@ -238,7 +238,7 @@ TEMPLATE_TEST_CASE_SIG("the staggered matrix: the direct solver solves it", "[pr
   const bool is_periodic = GENERATE(false, true);
   CAPTURE(decades, is_periodic);
   kernels::Random random(1);
-  const Staggered<Dim> s = assemble(irregular<Dim>(decades, is_periodic, random));
+  const StaggeredSystem<Dim> s = assemble(irregular<Dim>(decades, is_periodic, random));
   const std::vector<Sources> b = random_sources(s.site.size());
   const Eigen::MatrixXd exact = dense_matrix(s).llt().solve(as_matrix(b));
   // Conductances 1e6 apart, and distances to the surface, make conditions beyond 1e7; times rounding.
@@ -250,7 +250,7 @@ TEMPLATE_TEST_CASE_SIG("the staggered matrix: multigrid solves it", "[property]"
   const bool is_periodic = GENERATE(false, true);
   CAPTURE(decades, is_periodic);
   kernels::Random random(1);
-  const Staggered<Dim> s = assemble(irregular<Dim>(decades, is_periodic, random));
+  const StaggeredSystem<Dim> s = assemble(irregular<Dim>(decades, is_periodic, random));
   const std::vector<Sources> b = random_sources(s.site.size());
   const auto [x, report] = solve_by_multigrid(s, b, 1e-10);
   CAPTURE(report.iterations);
@@ -267,7 +267,7 @@ TEST_CASE("the staggered matrix: an axis of two sites may be periodic", "[proper
   liquid.counts = {2, 150};
   liquid.periodic = {true, true};
   liquid.is_wet = [](const Index<2>& site) { return site[1] != 40 || site[0] == 0; };
-  const Staggered<2> s = assemble(liquid);
+  const StaggeredSystem<2> s = assemble(liquid);
   const std::vector<Sources> b = random_sources(s.site.size());
   const Eigen::MatrixXd exact = dense_matrix(s).llt().solve(as_matrix(b));
   // A condition of 1e5 times rounding, and times the tolerance.
@@ -277,7 +277,7 @@ TEST_CASE("the staggered matrix: an axis of two sites may be periodic", "[proper
 
 TEST_CASE("the staggered matrix: a row alone is solved", "[property]") {
   Liquid<3> liquid = box(1, 1);
-  const Staggered<3> s = assemble(liquid);
+  const StaggeredSystem<3> s = assemble(liquid);
   const std::vector<Sources> b{{2, 0, -1}};
   CHECK(solve_directly(s, b)[0] == Sources{2, 0, -1});
   CHECK(solve_by_multigrid(s, b, 1e-12).x[0] == Sources{2, 0, -1});
@@ -286,7 +286,7 @@ TEST_CASE("the staggered matrix: a row alone is solved", "[property]") {
 TEMPLATE_TEST_CASE_SIG("the staggered matrix: closed components have the solution without null part", "[property]",
                        ((int Dim), Dim), 2, 3) {
   kernels::Random random(3);
-  Staggered<Dim> s = assemble(rooms<Dim>(random));
+  StaggeredSystem<Dim> s = assemble(rooms<Dim>(random));
   close_rooms(s);
   ClosedComponents closed;
   closed.find(s.view(), s.null_vector);
@@ -311,7 +311,7 @@ TEMPLATE_TEST_CASE_SIG("the staggered matrix: closed components have the solutio
 
 TEST_CASE("the staggered matrix: multigrid leaves a zero right-hand side at zero", "[property]") {
   kernels::Random random(1);
-  const Staggered<3> s = assemble(irregular<3>(0, false, random));
+  const StaggeredSystem<3> s = assemble(irregular<3>(0, false, random));
   std::vector<Sources> b = random_sources(s.site.size());
   for (Sources& of_row : b) of_row[1] = 0;
   const auto [x, report] = solve_by_multigrid(s, b, 1e-8);
@@ -324,7 +324,7 @@ TEST_CASE("the staggered matrix: multigrid leaves a zero right-hand side at zero
 
 TEST_CASE("the staggered matrix: multigrid solves for each right-hand side as for it alone", "[property]") {
   kernels::Random random(1);
-  const Staggered<2> s = assemble(irregular<2>(1, false, random));
+  const StaggeredSystem<2> s = assemble(irregular<2>(1, false, random));
   const std::vector<Sources> b = random_sources(s.site.size());
   const std::vector<Sources> together = solve_by_multigrid(s, b, 1e-8).x;
   const std::size_t sources = GENERATE(1, 2);
@@ -340,7 +340,7 @@ TEST_CASE("the staggered matrix: multigrid has the same bits on any number of th
   Liquid<3> liquid = box(27, 0);
   liquid.periodic = {true, true, false};
   liquid.is_wet = [](const Index<3>& site) { return site[2] < 20; };
-  const Staggered<3> s = assemble(liquid);
+  const StaggeredSystem<3> s = assemble(liquid);
   const std::vector<Sources> b = random_sources(s.site.size());
   const auto on_threads = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -352,7 +352,7 @@ TEST_CASE("the staggered matrix: multigrid has the same bits on any number of th
 TEST_CASE("the staggered matrix: multigrid takes as many iterations on any grid", "[property]") {
   const int count = GENERATE(16, 32, 64);
   CAPTURE(count);
-  const Staggered<3> s = assemble(box(count, 1));
+  const StaggeredSystem<3> s = assemble(box(count, 1));
   const MultigridReport report = solve_by_multigrid(s, random_sources(s.site.size()), 1e-8).report;
   CHECK(report.residual <= 1.01e-8);
   CHECK(report.iterations <= 20);
@@ -365,7 +365,7 @@ TEST_CASE("the staggered matrix: multigrid copes with a splash", "[property]") {
   kernels::Random random(5);
   Liquid<3> liquid = splash(40, random);
   liquid.conductance = [&random, decades] { return std::pow(10, random(0, decades)); };
-  const Staggered<3> s = assemble(liquid);
+  const StaggeredSystem<3> s = assemble(liquid);
   const MultigridReport report = solve_by_multigrid(s, random_sources(s.site.size()), 1e-8).report;
   CHECK(report.residual <= 1.01e-8);
   CHECK(report.iterations <= 60);

@@ -51,20 +51,8 @@ bool runs(const Scene& scene) {
   return true;
 }
 
-}  // namespace
-
-TEST_CASE("every system in every slot of every kind of step is refused or runs", "[property]") {
-  const auto [dimension, method] = GENERATE(table<int, std::string>({
-      {2, "/solver/scheme=\"block\""},
-      {2, "/solver/scheme=\"umfpack\""},
-      {2, "/integrator/scheme=\"newmark\""},
-      {2, "/stabilization/scheme=\"vms\""},
-      {2, "/stabilization/scheme=\"oss\""},
-      {2, "/volume/scheme=\"delta\""},
-      {2, "/volume/scheme=\"none\""},
-      {2, "/fluid/viscosity=0"},
-      {3, "/solver/scheme=\"block\""},
-  }));
+/// Every registered system after every slot of the step.
+void try_all_places(int dimension, const std::string& method) {
   CAPTURE(dimension, method);
   Scene scene = read(with(drop(dimension), {method}));
   std::size_t refused = 0;
@@ -78,4 +66,24 @@ TEST_CASE("every system in every slot of every kind of step is refused or runs",
   }
   CHECK(refused > 100);
   CHECK(run > 100);
+}
+
+}  // namespace
+
+TEST_CASE("every system in every slot is refused or runs, whatever the solver and the integrator", "[property]") {
+  try_all_places(2,
+                 GENERATE("/solver/scheme=\"block\"", "/solver/scheme=\"umfpack\"", "/integrator/scheme=\"newmark\""));
+}
+
+TEST_CASE("every system in every slot is refused or runs, whatever the stabilization", "[property]") {
+  try_all_places(2, GENERATE("/stabilization/scheme=\"vms\"", "/stabilization/scheme=\"oss\"", "/fluid/viscosity=0"));
+}
+
+TEST_CASE("every system in every slot is refused or runs, whatever the volume correction, and in space", "[property]") {
+  try_all_places(2, GENERATE("/volume/scheme=\"delta\"", "/volume/scheme=\"none\""));
+  try_all_places(3, "/solver/scheme=\"block\"");
+}
+
+TEST_CASE("every system in every slot of a conforming step is refused or runs", "[property]") {
+  try_all_places(GENERATE(2, 3), R"(/discretization={"scheme": "conforming"})");
 }

@@ -77,8 +77,8 @@ template <int Dim>
 struct ScatterToFaces {
   static constexpr const char* doc = "m_f and v_f, RPIC";
 
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> G_p,
                   Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
     const FaceSource<Dim> source{*grid, *splines, *cells, *sites, y_p.span(), m_p.span()};
@@ -95,8 +95,8 @@ struct GatherFromFaces {
   GatherFromFaces() = default;
   explicit GatherFromFaces(Input& in) : kept(in) {}
 
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OccupiedCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> G_p) const {
     const FaceTarget<Dim> target{*grid, *splines, *cells, *sites, y_p.span()};
     gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f.span()), [&](std::size_t p, const Jet<Dim>& v) {
