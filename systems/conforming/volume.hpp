@@ -11,7 +11,7 @@
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
-#include "systems/conforming/splines.hpp"
+#include "systems/conforming/part_window.hpp"
 
 namespace minamo {
 
@@ -35,13 +35,6 @@ struct Stir : Column<Particles, Vec<Dim>> {
 struct StirGrid {
   int parts = 2;
   static constexpr ComponentInfo info{"stir.grid", "h/d", "1", Lifetime::constant};
-};
-
-/// How full the parts of every occupied cell are, parts^d of them, x fastest. [1]
-struct PartFill {
-  std::vector<double> fill;
-  std::vector<std::int32_t> cell_of_site;  ///< by row of the lowest site of the cell; -1: none
-  static constexpr ComponentInfo info{"stir.fill", "C", "1", Lifetime::scratch};
 };
 
 /// (E74)  C = sum_p S V_p/d^Dim on the parts of cells, S quadratic B-splines of spacing d.
