@@ -4,7 +4,6 @@
 #include "tools/machine.hpp"
 #include "tools/single_run.hpp"
 
-#include <oneapi/tbb/global_control.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
@@ -54,7 +53,6 @@ int report(const RunResult& result, const Scene& scene, const fs::path& folder, 
 int run_scene(const RunOptions& options, const SystemRegistry& registry) {
   const SceneFile file = load_scene(options.scene, options.overrides, registry);
   const int threads = prepare_threads(options.threads);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const fs::path folder = output_folder(options);
   Profiler profiler(options.profile);
   const RunPlan plan{.scene = options.scene,

@@ -7,7 +7,6 @@
 #include "tools/study_table.hpp"
 #include "tools/study_variant.hpp"
 
-#include <oneapi/tbb/global_control.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
@@ -112,7 +111,6 @@ int run_study(const StudyOptions& options, const SystemRegistry& registry) {
   const fs::path folder = output_folder(options);
   open_output(folder);
   const int threads = prepare_threads(options.threads);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const RunPlan plan{
       .scene = study.scene, .folder = folder, .threads = threads, .steps = {}, .quiet = options.quiet, .at_end = {}};
   const std::atomic<bool>& stop = stop_on_signal();

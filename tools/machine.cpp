@@ -1,5 +1,7 @@
 #include "tools/machine.hpp"
 
+#include <oneapi/tbb/global_control.h>
+
 #include <algorithm>
 #include <fstream>
 #include <thread>
@@ -34,7 +36,12 @@ int prepare_threads(int wanted) {
   mallopt(M_MMAP_THRESHOLD, gigabyte);
   mallopt(M_TRIM_THRESHOLD, gigabyte);
   mallopt(M_TOP_PAD, 64 << 20);
-  return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  // Never lifted: at the end of a run that has run out of memory TBB would start a thread, could not, and would abort.
+  static tbb::global_control* limit = nullptr;
+  delete limit;
+  limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  return threads;
 }
 
 std::string cpu_model() {

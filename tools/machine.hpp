@@ -17,8 +17,8 @@ constexpr std::size_t blas_work_space = 160 << 20;
 /// \return whether it got it; what it took is no longer in available_memory().
 bool prepare_blas();
 
-/// Settles the number of threads (0: one per processor) and keeps the allocator from working against it: freed memory
-/// is kept, since a sparse solver maps and unmaps its work arrays at every call.
+/// Settles the number of threads of the program (0: one per processor) and keeps the allocator from working against it:
+/// freed memory is kept, since a sparse solver maps and unmaps its work arrays at every call.
 int prepare_threads(int wanted);
 
 std::string cpu_model();
