@@ -96,6 +96,7 @@ struct BinBuffer {
   BlockNumbers blocks;                        ///< those with particles
   std::vector<std::uint32_t> first_of_block;  ///< number of the first cell of every block with particles
   std::vector<std::uint32_t> number;          ///< of the cell of every particle, among the cells of such blocks
+  std::vector<std::uint16_t> within;          ///< the same within its block
   std::vector<std::uint32_t> first;           ///< particle of every such cell
   std::vector<std::uint32_t> place;           ///< which particle comes here
   static constexpr ComponentInfo info{"cells.bin_buffer", "", "1", Lifetime::cache};

@@ -80,10 +80,11 @@ inline AxisPlace axis_place(const SplineAxis& axis, double r) {
 
 template <int Dim>
 Index<Dim> cell_around(const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) {
+  const double per_spacing = 1 / grid.spacing;
   Index<Dim> cell;
   for (int d = 0; d < Dim; ++d) {
     const auto axis = static_cast<std::size_t>(d);
-    cell[axis] = axis_place(splines.axis[axis], (x[d] - grid.low[d]) / grid.spacing).cell;
+    cell[axis] = axis_place(splines.axis[axis], (x[d] - grid.low[d]) * per_spacing).cell;
   }
   return cell;
 }

@@ -95,7 +95,12 @@ std::size_t number_cells(const Blocks<Dim>& blocks, std::span<const Vec<Dim>> y_
                          BinBuffer& buffer) {
   auto& number = buffer.number;
   number.resize(y_p.size());
-  for_each_row(y_p.size(), [&](std::size_t p) { number[p] = blocks.block_of(cell_of(y_p[p])); });
+  buffer.within.resize(y_p.size());
+  for_each_row(y_p.size(), [&](std::size_t p) {
+    const Index<Dim> cell = cell_of(y_p[p]);
+    number[p] = blocks.block_of(cell);
+    buffer.within[p] = static_cast<std::uint16_t>(blocks.within(cell));
+  });
   buffer.blocks.start(blocks.count());
   for (const std::uint32_t block : number) buffer.blocks.number(block);
   buffer.blocks.sort();
@@ -106,7 +111,7 @@ std::size_t number_cells(const Blocks<Dim>& blocks, std::span<const Vec<Dim>> y_
     cells += blocks.cells_in(block);
   }
   for_each_row(y_p.size(), [&](std::size_t p) {
-    number[p] = buffer.first_of_block[*buffer.blocks.find(number[p])] + blocks.within(cell_of(y_p[p]));
+    number[p] = buffer.first_of_block[*buffer.blocks.find(number[p])] + buffer.within[p];
   });
   return cells;
 }
@@ -134,7 +139,7 @@ void sort_particles(const Grid<Dim>& grid, const Index<Dim>& cell_counts, const 
                     Resize<Cells> rows, BinBuffer& buffer) {
   const Blocks<Dim> blocks(grid, cell_counts);
   const std::size_t cell_count = number_cells<Dim>(blocks, y_p, cell_of, buffer);
-  auto& [used, first_of_block, number, first, place] = buffer;
+  auto& [used, first_of_block, number, within, first, place] = buffer;
 
   // Counting sort: first[c] becomes the place of the first particle of cell c.
   first.assign(cell_count + 1, 0);
