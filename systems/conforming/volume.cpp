@@ -141,6 +141,7 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
       const double strain = (jet.gradient + jet.gradient.transpose()).norm() / std::sqrt(2.0);
       const double per_gradient = -stir_strength * clock->step * strain * spacing;  // slopes are per part
       const auto around = cells_around<Dim>(rows[0], *parts, neighbour.span());
+      Vec<Dim> mean = Vec<Dim>::Zero();
       for (std::size_t p = cell.begin; p < cell.end; ++p) {
         const auto axis = part_weights<Dim>(*splines, cell.node, frame.local(y_p[p]), stir->parts);
         Vec<Dim> gradient = Vec<Dim>::Zero();
@@ -155,7 +156,10 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
           }
         });
         s_p[p] = per_gradient * gradient;
+        mean += s_p[p];
       }
+      mean /= static_cast<double>(cell.end - cell.begin);
+      for (std::size_t p = cell.begin; p < cell.end; ++p) s_p[p] -= mean;
     });
   });
 }
