@@ -153,17 +153,15 @@ void FillFaceVolumeSource<Dim>::operator()(Read<VolumeRate> rate, Read<Splines<D
                                            Read<multiplier::FillFraction> phi, Read<unknown::Staggered> of_unknown,
                                            Update<unknown::Source> source) const {
   const auto half_full = [&](std::size_t i) { return phi[i] > 0.5 || !splines->has_multiplier(site[i]); };
-  // Deep inside: all within two neighbours are at least half full.
-  const auto all_around = [&](std::size_t i, const auto& holds) {
+  // With the neighbours of neighbours too, holes at the surface that the flow tears would not close.
+  const auto is_deep = [&](std::size_t i) {
+    if (!half_full(i)) return false;
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
       const std::int32_t j = neighbour[i][side];
-      if (j == staggered::none || !holds(static_cast<std::size_t>(j))) return false;
+      if (j == staggered::none || !half_full(static_cast<std::size_t>(j))) return false;
     }
     return true;
-  };
-  const auto is_deep = [&](std::size_t i) {
-    return half_full(i) && all_around(i, [&](std::size_t j) { return half_full(j) && all_around(j, half_full); });
   };
   for_each_row(source.size(), [&](std::size_t l) {
     const std::size_t i = of_unknown[l];

@@ -62,9 +62,13 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
       const double per_gradient = -stir_strength * clock->step * strain * spacing;  // slopes are per part
       PartWindow<Dim> window(stir->parts, *splines, cell.node, rows[0], *parts, neighbour.span());
       window.load(parts->fill);
+      Vec<Dim> mean = Vec<Dim>::Zero();
       for (std::size_t p = cell.begin; p < cell.end; ++p) {
         s_p[p] = per_gradient * window.gradient(frame.local(y_p[p]));
+        mean += s_p[p];
       }
+      mean /= static_cast<double>(cell.end - cell.begin);
+      for (std::size_t p = cell.begin; p < cell.end; ++p) s_p[p] -= mean;
     });
   });
 }

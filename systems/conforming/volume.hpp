@@ -46,9 +46,11 @@ struct FillParts {
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p, Write<PartFill> parts) const;
 };
 
-/// (E74)  s_p = -5 dt |D| d^2 grad C, D the rate of strain in the middle of the cell; only where all multipliers of the
-/// cell are more than 60 % full. A velocity without divergence at every point never mixes what it stretches: columns of
-/// particles stay columns, with gaps between them wider than h. Nothing at rest, and Galilean invariant.
+/// (E74)  s_p = q_p - mean of q over the particles of the cell, q = -5 dt |D| d^2 grad C, D the rate of strain in the
+/// middle of the cell; only where all multipliers of the cell are more than 60 % full. A velocity without divergence at
+/// every point never mixes what it stretches: columns of particles stay columns, with gaps between them wider than h.
+/// Nothing at rest, and Galilean invariant. Without the mean, because C falls off towards the surface and stirring
+/// would move it.
 template <int Dim>
 struct StirParticles {
   static constexpr std::string_view doc = "(E74) s_p, away from where particles lie close";
@@ -68,7 +70,8 @@ struct GatherFaceShift {
                   Write<particle::Shift<Dim>> d_p) const;
 };
 
-/// (E69) over all that moves particles without a velocity.
+/// (E69) over all that moves particles without a velocity. Stirring hardly lifts, but where the step has nothing left
+/// to lose it would raise the energy: by 0.26 % instead of 0.1 % in a dam break at 8 ms.
 template <int Dim>
 struct LimitParticleShift {
   static constexpr std::string_view doc = "(E69) shifts lift no more than the step has lost";
