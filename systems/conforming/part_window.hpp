@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The parts of a cell, d^Dim of them, with one more of its neighbours on every side: where the particles of a cell have
-/// weight on the grid of the parts. It is filled or read once per cell, so that a particle finds its 3^Dim parts side
-/// by side.
+/// The parts of a cell, d^Dim of them, with one more of its neighbours on every side: where the particles of a cell
+/// have weight on the grid of the parts. It is filled or read once per cell, so that a particle finds its 3^Dim parts
+/// side by side.
 
 #include "components/staggered.hpp"
 #include "systems/conforming/support.hpp"
@@ -118,7 +118,8 @@ class PartWindow {
         if (c < 0) {
           otherwise(value_[k]);
         } else {
-          use(value_[k], static_cast<std::size_t>(c) * per_cell_ + static_cast<std::size_t>(part * parts_ + part_[0][a]));
+          use(value_[k],
+              static_cast<std::size_t>(c) * per_cell_ + static_cast<std::size_t>(part * parts_ + part_[0][a]));
         }
       }
     };
