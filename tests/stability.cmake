@@ -12,14 +12,19 @@ require_in("${names}" "  drops_cfl_2 ")
 set(method --scheme pic --integrator midpoint --volume none)
 execute_process(COMMAND ${stability} --program ${PROGRAM} lone_particle ${method} ERROR_VARIABLE said
   COMMAND_ERROR_IS_FATAL ANY)
-if(NOT said MATCHES "^lone_particle \\([0-9.]+ s\\)\n$")
+if(NOT said MATCHES "^lone_particle, equal_order \\([0-9.]+ s\\)\nlone_particle, conforming \\([0-9.]+ s\\)\n$")
   message(FATAL_ERROR "a particle in free fall does not keep everything:\n${said}")
 endif()
 
-execute_process(COMMAND ${stability} --program ${SOURCE}/tests/stability/garbage lone_particle ${method}
-  ERROR_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
-foreach(part "gave values that are not finite" "lost particles, 1 particles" "left the parabola" "in silence: pic with")
-  require_in("${said}" "${part}")
+foreach(discretization equal_order conforming)
+  execute_process(COMMAND ${stability} --program ${SOURCE}/tests/stability/garbage lone_particle ${method}
+    --discretization ${discretization} ERROR_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT said MATCHES "^lone_particle, ${discretization} ")
+    message(FATAL_ERROR "not with ${discretization} alone:\n${said}")
+  endif()
+  foreach(part "gave values that are not finite" "lost particles, 1 particles" "left the parabola" "in silence: pic with")
+    require_in("${said}" "${part}")
+  endforeach()
 endforeach()
 
 execute_process(COMMAND ${stability} drop_cfl_2 RESULT_VARIABLE status ERROR_VARIABLE message)
@@ -27,6 +32,13 @@ if(NOT status EQUAL 2)
   message(FATAL_ERROR "an unknown name: status ${status}")
 endif()
 require_in("${message}" "unknown name \"drop_cfl_2\"; nearest: drops_cfl_2")
+
+execute_process(COMMAND ${stability} --discretization conforming --volume delta RESULT_VARIABLE status
+  ERROR_VARIABLE message)
+if(NOT status EQUAL 2)
+  message(FATAL_ERROR "a volume correction that is not with a discretization: status ${status}")
+endif()
+require_in("${message}" "no volume correction \"delta\" with conforming; there are none, projection")
 
 require_written_page(${PYTHON} ${SOURCE}/tools/hard_cases)
 require_no_program(${stability} --program /nowhere/minamo lone_particle)

@@ -14,7 +14,7 @@ namespace {
 template <int Dim>
 constexpr double active_from = Dim == 2 ? 0.05 : 0.1;
 /// Least mass of a face, as a share of that of a full grid: lighter ones only spoil the condition of S.
-constexpr double least_mass = 1e-3;
+constexpr double least_mass = 1e-8;
 /// theta of (E67): fill fractions from which a face counts as full, and as full all the way.
 constexpr double filled_from = 0.9;
 constexpr double filled_to = 0.97;

@@ -102,8 +102,11 @@ class PartWindow {
                          std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour) {
     for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
       auto row = static_cast<std::int32_t>(own);
-      for (std::size_t d = 0; d < Dim && row != staggered::none; ++d) {
-        if (offset[d] != 1) row = neighbour[static_cast<std::size_t>(row)][2 * d + (offset[d] == 2 ? 1 : 0)];
+      // First up: the sites there are the cell's own, and from them down those of the cell around, if it has particles.
+      for (const int side : {2, 0}) {
+        for (std::size_t d = 0; d < Dim && row != staggered::none; ++d) {
+          if (offset[d] == side) row = neighbour[static_cast<std::size_t>(row)][2 * d + (side == 2 ? 1 : 0)];
+        }
       }
       around_[k] = row == staggered::none ? -1 : fill.cell_of_site[static_cast<std::size_t>(row)];
     });

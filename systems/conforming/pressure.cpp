@@ -11,6 +11,9 @@ namespace {
 /// Fill fractions of the multipliers of a cell from which integrals are exact, and all the way.
 constexpr double exact_from = 0.9;
 constexpr double exact_to = 0.97;
+/// Share of the sums of rows on the diagonal where integrals are by particles, which may be fewer than the multipliers
+/// around them: M would be singular, and the force not in its range.
+constexpr double lumped_share = 0.1;
 
 /// M of (E75) on the multipliers that carry a force.
 template <int Dim, int K>
@@ -26,17 +29,18 @@ class PressureMass {
     list_runs(grid, splines, rows, y_p);
     find_weights(grid, splines, y_p);
     find_exact_shares(grid, splines, site);
+    lump(site.size());
     is_free_.resize(lambda.size());
     for (std::size_t i = 0; i < lambda.size(); ++i) is_free_[i] = lambda[i] != 0;
   }
 
   std::vector<double> diagonal() const {
-    std::vector<double> sum(is_free_.size(), 0);
+    std::vector<double> sum = lumped_;
     for (const Run& run : runs_) {
       for (std::size_t k = 0; k < local; ++k) {
         double of_run = run.exact * exact_entry(run, k, k);
         for (std::size_t p = run.begin; p < run.end; ++p)
-          of_run += (1 - run.exact) * V_p_[p] * weights_[p][k] * weights_[p][k];
+          of_run += by_particles(run, p) * weights_[p][k] * weights_[p][k];
         sum[run.rows[k]] += of_run;
       }
     }
@@ -44,7 +48,7 @@ class PressureMass {
   }
   /// out = M x, zero where no force is carried.
   void times(const std::vector<double>& x, std::vector<double>& out) const {
-    std::fill(out.begin(), out.end(), 0);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = lumped_[i] * x[i];
     for (const Run& run : runs_) {
       Local of_run{};
       Local x_of_run;
@@ -53,7 +57,7 @@ class PressureMass {
         for (std::size_t p = run.begin; p < run.end; ++p) {
           double value = 0;
           for (std::size_t k = 0; k < local; ++k) value += weights_[p][k] * x_of_run[k];
-          value *= (1 - run.exact) * V_p_[p];
+          value *= by_particles(run, p);
           for (std::size_t k = 0; k < local; ++k) of_run[k] += weights_[p][k] * value;
         }
       }
@@ -91,6 +95,9 @@ class PressureMass {
     double volume = 0;
     std::array<std::array<std::array<double, K>, K>, static_cast<std::size_t>(Dim)> axis_mass{};
   };
+
+  /// Volume of a particle in the products of weights.
+  double by_particles(const Run& run, std::size_t p) const { return (1 - lumped_share) * (1 - run.exact) * V_p_[p]; }
 
   void list_runs(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
                  std::span<const Vec<Dim>> y_p) {
@@ -144,6 +151,16 @@ class PressureMass {
     for (const Run& run : runs_) runs_at[run.rows[0]] += 1;
     for (Run& run : runs_) run.volume /= runs_at[run.rows[0]];
   }
+  void lump(std::size_t rows) {
+    lumped_.assign(rows, 0);
+    for (const Run& run : runs_) {
+      for (std::size_t p = run.begin; p < run.end; ++p) {
+        for (std::size_t k = 0; k < local; ++k) {
+          lumped_[run.rows[k]] += lumped_share * (1 - run.exact) * V_p_[p] * weights_[p][k];
+        }
+      }
+    }
+  }
   /// Integrals over the cell of products of two splines of degree K - 1, in units of h.
   static std::array<std::array<double, K>, K> axis_mass(const CellSplines& splines) {
     std::array<std::array<double, K>, K> mass{};
@@ -167,6 +184,7 @@ class PressureMass {
   std::span<const double> V_p_;
   std::vector<Run> runs_;
   std::vector<Local> weights_;  ///< of every particle
+  std::vector<double> lumped_;  ///< of every multiplier, on the diagonal
   std::vector<bool> is_free_;
 };
 

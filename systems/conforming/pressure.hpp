@@ -11,7 +11,8 @@
 namespace minamo {
 
 /// (E75)  p_p = sum_l N_l p_l with M p = lambda, M_lk = sum_p V_p N_l N_k, inside the liquid the exact integral: the
-/// multiplier is the pressure tested with N_l. Conjugate gradients, preconditioned by the diagonal.
+/// multiplier is the pressure tested with N_l. A tenth of the sum over particles is lumped. Conjugate gradients,
+/// preconditioned by the diagonal.
 template <int Dim>
 struct RecoverPressure {
   static constexpr std::string_view doc = "(E75) p_p from the multipliers";

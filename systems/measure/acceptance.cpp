@@ -20,6 +20,8 @@ namespace {
 constexpr double largest_residual = 1e-6;
 /// Liquid that falls on liquid overlaps by a hundredth in a step, a collapse by its own volume.
 constexpr double largest_growth_of_overlap = 0.2;
+/// Of a particle, in cells.
+constexpr double least_move_that_squeezes = 0.25;
 
 template <class Vector>
 std::string text(const Vector& values) {
@@ -62,10 +64,26 @@ bool are_finite(std::span<const double> numbers) {
   return reduce_rows(numbers.size(), std::int64_t{0}, room, std::bit_or<>()) >= 0;  // none has the sign bit
 }
 
+bool are_apart(double overlap, double before) { return overlap <= before + largest_growth_of_overlap; }
+
 void require_apart(double overlap, double before) {
-  if (overlap <= before + largest_growth_of_overlap) return;
+  if (are_apart(overlap, before)) return;
   throw StepRejected(
       fmt::format("advect: the overlap grows from {:.3g} to {:.3g} of the liquid in one step", before, overlap));
+}
+
+/// From the middle of the step to its end, across periodic ends the shorter way. [m]
+template <int Dim>
+double largest_half_move(const Grid<Dim>& grid, std::span<const Vec<Dim>> x_p, std::span<const Vec<Dim>> y_p) {
+  const Vec<Dim> box = grid.high - grid.low;
+  return reduce_rows(
+      x_p.size(), 0.0,
+      [&](std::size_t p) {
+        Vec<Dim> move = x_p[p] - y_p[p];
+        for (int d = 0; d < Dim; ++d) move[d] = std::remainder(move[d], box[d]);
+        return move.norm();
+      },
+      [](double x, double y) { return std::max(x, y); });
 }
 
 template <class Matrix>
@@ -111,7 +129,8 @@ void AcceptStepOnFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> 
                                         Read<SolverTolerance> tolerance, Read<SolveReport> solve,
                                         Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
                                         Read<face::Displacement<Dim>> u_f, Read<particle::Id> id,
-                                        Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                                        Read<particle::Position<Dim>> x_p, Read<particle::QuadraturePosition<Dim>> y_p,
+                                        Read<particle::Velocity<Dim>> v_p,
                                         Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                         Read<measure::Overlap> overlap, Read<StepTotals> so_far) const {
   require_solved(*solve, *tolerance);
@@ -121,7 +140,10 @@ void AcceptStepOnFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> 
     return (m_f[i].array() > threshold).select(u_f[i], Vec<Dim>(Vec<Dim>::Zero())).norm();
   });
   require_finite<Dim>(id.span(), x_p.span(), v_p.span(), grad_v_p.span());
-  require_apart(overlap->value, so_far->overlap);
+  if (are_apart(overlap->value, so_far->overlap)) return;
+  if (largest_half_move<Dim>(*grid, x_p.span(), y_p.span()) > 0.5 * least_move_that_squeezes * grid->spacing) {
+    require_apart(overlap->value, so_far->overlap);
+  }
 }
 
 template <int Dim>

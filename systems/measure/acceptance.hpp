@@ -36,7 +36,8 @@ struct AcceptStep {
                   Read<measure::Overlap> overlap, Read<StepTotals> so_far) const;
 };
 
-/// (E58) of the conforming discretization, whose overlap is that at y_p.
+/// (E58) of the conforming discretization, whose overlap is that at y_p: what the second half of a step squeezes is
+/// seen in the next one. If particles move by less than a quarter of a cell there, no shorter step would help.
 template <int Dim>
 struct AcceptStepOnFaces {
   static constexpr std::string_view doc = "(E58) reject the step if it cannot be trusted";
@@ -44,8 +45,9 @@ struct AcceptStepOnFaces {
   void operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance,
                   Read<SolveReport> solve, Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
                   Read<face::Displacement<Dim>> u_f, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                  Read<measure::Overlap> overlap, Read<StepTotals> so_far) const;
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Velocity<Dim>> v_p,
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Read<measure::Overlap> overlap,
+                  Read<StepTotals> so_far) const;
 };
 
 /// The start counts.

@@ -14,7 +14,11 @@ struct Discretization {
   int degree = 2;  ///< of the splines of conforming velocities along themselves
 };
 
-inline bool is_conforming(const Scene& scene) { return scene.facts.get<Discretization>().is_conforming; }
+/// False also where its name is unknown: that problem is noted, and the rest of the scene is still read.
+inline bool is_conforming(const Scene& scene) {
+  const auto* discretization = scene.facts.find<Discretization>();
+  return discretization != nullptr && discretization->is_conforming;
+}
 
 /// Systems of a slot, by discretization.
 struct SystemsOf {

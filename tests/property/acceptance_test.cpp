@@ -92,6 +92,20 @@ TEST_CASE("a velocity that is not finite is found in the step in which it appear
   CHECK_THROWS_AS(run.step(1), StepRejected);
 }
 
+TEST_CASE("on faces only a step that moves liquid is held to have squeezed it", "[property]") {
+  // Their overlap is that of the middle of a step: what a long step leaves behind is found in the next one.
+  const auto after = [](const char* velocity) {
+    SceneRun run(
+        with(scene_of_file("dam_break.json"), {"/grid/cells=[20, 20]", R"(/discretization={"scheme": "conforming"})",
+                                               std::string("/particles/0/velocity=") + velocity}));
+    run.step(3);
+    run.world().resource<measure::Overlap>().value += 0.21;
+    make_system<AcceptStepOnFaces<2>>("accept_step_on_faces").run(run.world());
+  };
+  CHECK_NOTHROW(after("[1, 0]"));
+  CHECK_THROWS_WITH(after("[8, 0]"), Catch::Contains("advect: the overlap grows from"));
+}
+
 TEST_CASE("a run with larger CFL numbers may move farther in a step", "[property]") {
   const Scene scene = read(with(coarse_dam_break(), {R"(/time={"end": 1, "cfl": 8})"}));
   World world;

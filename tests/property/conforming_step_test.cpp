@@ -217,6 +217,54 @@ TEST_CASE("nothing is stirred in liquid that moves as a rigid body", "[property]
   CHECK(stir.value() <= 1e-12);
 }
 
+TEST_CASE("water moves the same way upside down", "[property]") {
+  // Once water spreads along the floor or the ceiling, cells around a corner of its surface have particles in one of
+  // the two cells between them alone.
+  const int degree = GENERATE(2, 3);
+  const Json upright = conforming(Json::parse(R"json({"dimension": 2,
+      "grid": {"low": [0, 0], "high": [1, 1], "cells": [16, 16]}, "fluid": {"density": 1000, "viscosity": 1e-3},
+      "body_force": [0, -9.75], "solver": {"scheme": "block", "tolerance": 1e-12},
+      "particles": [{"shape": {"box": {"low": [0, 0], "high": [0.25, 0.5]}}, "per_cell": 2}],
+      "time": {"end": 1, "step": 0.00390625}})json"),
+                                  degree);
+  SceneRun one(upright);
+  SceneRun other(
+      with(upright, {"/body_force=[0, 9.75]", R"(/particles/0/shape={"box": {"low": [0.75, 0.5], "high": [1, 1]}})"}));
+  one.step(30);
+  other.step(30);
+  const auto x = by_id<particle::Position<2>>(one.world());
+  const auto turned = by_id<particle::Position<2>>(other.world());
+  Largest away;
+  for (std::size_t p = 0; p < x.size(); ++p) away.add((x[p] + turned[x.size() - 1 - p] - Vec<2>::Ones()).norm());
+  CHECK(away.value() <= 1e-10);
+}
+
+TEST_CASE("the pressure of particles has a bound however few they are", "[property]") {
+  const int degree = GENERATE(2, 3);
+  const auto [shape, velocity, per_cell] = GENERATE(table<std::string, std::string, int>({
+      {R"({"box": {"low": [0.3, 0.55], "high": [0.33, 0.57]}})", "[0.5, 0.25]", 1},  // a particle
+      {R"({"box": {"low": [0.25, 0.25], "high": [0.375, 0.375]}})", "[0, -3]", 2},   // a cell of water
+      {R"({"box": {"low": [0, 0], "high": [0.25, 0.5]}})", "[0, 0]", 1},             // spray
+  }));
+  CAPTURE(degree, shape);
+  Json scene = conforming(Json::parse(R"json({"dimension": 2,
+      "grid": {"low": [0, 0], "high": [1, 1], "cells": [8, 8]}, "fluid": {"density": 1000, "viscosity": 1e-3},
+      "body_force": [0, -9.75], "time": {"end": 1, "step": 0.00390625}, "exact": {"pressure": 0}})json"),
+                          degree);
+  scene["particles"] =
+      Json::array({{{"shape", Json::parse(shape)}, {"per_cell", per_cell}, {"velocity", Json::parse(velocity)}}});
+  SceneRun run(scene);
+  run.start();
+  // What stops a column as long as the box within a step.
+  const double bound = 1000 * 4 * 256;
+  Largest pressure;
+  for (int k = 0; k < 100; ++k) {
+    run.step();
+    for (const double p : run.world().column<particle::Pressure>()) pressure.add(std::abs(p));
+  }
+  CHECK(pressure.value() <= bound);
+}
+
 TEST_CASE("every transfer scheme with faces and every integrator takes conforming steps", "[property]") {
   const int degree = GENERATE(2, 3);
   const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm");

@@ -41,6 +41,12 @@ const CommandLine coarse{"/grid/cells=[20, 20]", "/output/every=0.02", "/output/
 
 Case coarse_dam_break(const CommandLine& overrides) { return {"paper/dam_break_tpic.json", with(coarse, overrides)}; }
 
+const std::string conforming = R"(/discretization={"scheme": "conforming"})";
+
+Case coarse_conforming(const CommandLine& overrides) {
+  return {"dam_break.json", with(with(coarse, {conforming}), overrides)};
+}
+
 const std::vector<Case> cases{
     coarse_dam_break({}),
     coarse_dam_break({R"(/transfer={"scheme": "flip"})", R"(/solver={"scheme": "umfpack"})"}),
@@ -53,7 +59,16 @@ const std::vector<Case> cases{
     coarse_dam_break({"/fluid/viscosity=5", R"(/volume={"scheme": "delta"})", R"(/integrator={"scheme": "midpoint"})"}),
     // Steps are rejected on both sides of the checkpoint.
     coarse_dam_break({"/time/step=0.1", R"(/integrator={"scheme": "midpoint"})"}),
+    coarse_conforming({}),
+    coarse_conforming({R"(/discretization/degree=3)", R"(/transfer={"scheme": "tpic2"})",
+                       R"(/integrator={"scheme": "midpoint"})", R"(/volume={"scheme": "projection"})"}),
+    coarse_conforming({R"(/time={"end": 5, "cfl": 0.5})", R"(/integrator={"scheme": "midpoint"})",
+                       R"(/transfer={"scheme": "flip"})"}),
+    coarse_conforming(
+        {"/fluid/viscosity=50", R"(/transfer={"scheme": "apic"})", R"(/volume={"scheme": "projection"})"}),
     {"elliptical_drop.json", {"/grid/cells=[20, 20]", "/output/every=0.02"}},
+    {"elliptical_drop.json", {"/grid/cells=[20, 20]", "/output/every=0.02", conforming}},
+    {"dam_break_3d.json", {"/grid/cells=[14, 7, 14]", "/output/every=0.01", conforming}},
     {"poiseuille.json", {"/output/every=0.1"}},
     {"dam_break_3d.json", {"/grid/cells=[14, 7, 14]", "/output/every=0.01"}},
 };
@@ -77,8 +92,10 @@ TEST_CASE("a run that is killed at any moment goes on to the bytes of one that w
   const char* wanted = std::getenv("MINAMO_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 8;
   const Folder folder;
-  const CommandLine run = run_of("paper/dam_break_tpic.json", {"/grid/cells=[20, 20]", "/output/every=0.002",
-                                                               "/output/checkpoint=0.003", "/time/end=0.15"});
+  const CommandLine coarse_and_short{"/grid/cells=[20, 20]", "/output/every=0.002", "/output/checkpoint=0.003",
+                                     "/time/end=0.15"};
+  const CommandLine run = GENERATE_COPY(run_of("paper/dam_break_tpic.json", coarse_and_short),
+                                        run_of("dam_break.json", with(coarse_and_short, {conforming})));
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(run_program(with(run, {"--out", folder / "whole"})).code == 0);
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;

@@ -3,6 +3,7 @@
 tools/stability                          all cases but the long ones, every method
 tools/stability --long                   the long ones alone, some minutes each
 tools/stability impact drops_cfl_2       sections and cases; the rest of the page stays as it is
+tools/stability --discretization conforming    the numbers of one discretization; those of the other stay as they are
 tools/stability drops_cfl_2 --scheme flip --volume none --keep out/drops    some methods, nothing written but the runs
 """
 
@@ -29,12 +30,13 @@ except ModuleNotFoundError as missing:
 from case import Case
 from catalogue import CASES, SECTIONS
 from judge import Judged, judge, packed, unpacked
-from methods import INTEGRATORS, METHODS, SCHEMES, VOLUMES, Method
-from page import lines_of, page, version
+from methods import DISCRETIZATIONS, INTEGRATORS, METHODS, SCHEMES, VOLUMES, VOLUMES_OF, Method
+from page import Results, lines_of, page, version
 from runs import ROOT, SuiteFailed
 
 RESULTS = ROOT / "tests/stability/RESULTS.md"
-NUMBERS = ROOT / "tests/stability/results.json"
+NUMBERS = {"equal_order": ROOT / "tests/stability/results.json",
+           "conforming": ROOT / "tests/stability/results_conforming.json"}
 
 
 def arguments() -> argparse.Namespace:
@@ -43,6 +45,8 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("names", nargs="*", metavar="NAME", help="cases or sections; default: all")
     for option, choices in (("--scheme", SCHEMES), ("--integrator", INTEGRATORS), ("--volume", VOLUMES)):
         parser.add_argument(option, choices=choices, help="these methods alone; prints and leaves RESULTS.md as it is")
+    parser.add_argument("--discretization", choices=DISCRETIZATIONS,
+                        help="this one alone; the numbers of the others stay as they are")
     parser.add_argument("--long", action="store_true", help="the cases that take minutes, by default left out")
     parser.add_argument("--list", action="store_true", help="names the cases and runs nothing")
     parser.add_argument("--check", action="store_true", help="reads the arguments and runs nothing")
@@ -50,6 +54,9 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--program", type=Path, default=ROOT / "build/minamo", metavar="FILE",
                         help="that runs the scenes; default: build/minamo")
     options = parser.parse_args()
+    if options.discretization and options.volume not in (None, *VOLUMES_OF[options.discretization]):
+        parser.exit(2, f"tools/stability: no volume correction \"{options.volume}\" with {options.discretization}; "
+                       f"there are {', '.join(VOLUMES_OF[options.discretization])}\n")
     known = [*SECTIONS, *(case.name for case in CASES)]
     for name in options.names:
         if name not in known:
@@ -77,29 +84,41 @@ def chosen(options: argparse.Namespace) -> list[Case]:
 def methods(case: Case, options: argparse.Namespace) -> list[Method]:
     return [method for method in METHODS if method in case.methods
             and options.scheme in (None, method.scheme) and options.integrator in (None, method.integrator)
-            and options.volume in (None, method.volume)]
+            and options.volume in (None, method.volume) and options.discretization in (None, method.discretization)]
 
 
-def judge_all(cases: list[Case], options: argparse.Namespace, folder: Path) -> dict[str, Any]:
-    results = {}
+def judge_all(cases: list[Case], options: argparse.Namespace, folder: Path) -> Results:
+    results: Results = {name: {} for name in DISCRETIZATIONS}
     for case in cases:
-        begin = time.monotonic()
-        of_method: dict[str, Judged] = {}
-        for method in methods(case, options):
-            of_method[method.name] = judge(case, method, options.program.resolve(), folder)
-        results[case.name] = {"version": version(options.program), "methods": of_method,
-                              "wall_s": round(time.monotonic() - begin, 1)}
-        print(f"{case.name} ({results[case.name]['wall_s']:.1f} s)", *lines_of(case, of_method), sep="\n  ",
-              file=sys.stderr, flush=True)
+        for discretization in DISCRETIZATIONS:
+            begin = time.monotonic()
+            of_method: dict[str, Judged] = {}
+            for method in methods(case, options):
+                if method.discretization == discretization:
+                    of_method[method.name] = judge(case, method, options.program.resolve(), folder)
+            if not of_method:
+                continue
+            wall_s = round(time.monotonic() - begin, 1)
+            results[discretization][case.name] = {"version": version(options.program), "methods": of_method,
+                                                  "wall_s": wall_s}
+            print(f"{case.name}, {discretization} ({wall_s:.1f} s)", *lines_of(case, of_method), sep="\n  ",
+                  file=sys.stderr, flush=True)
     return results
 
 
-def load(path: Path = NUMBERS) -> dict[str, Any]:
-    """results.json, if there is one."""
-    known = json.loads(path.read_text()) if path.is_file() else {}
-    for result in known.values():
-        result["methods"] = {name: unpacked(entry) for name, entry in result["methods"].items()}
+def load() -> Results:
+    """The numbers of each discretization, if there are any."""
+    known = {name: json.loads(file.read_text()) if file.is_file() else {} for name, file in NUMBERS.items()}
+    for results in known.values():
+        for result in results.values():
+            result["methods"] = {name: unpacked(entry) for name, entry in result["methods"].items()}
     return known
+
+
+def merged(known: Results, results: Results) -> Results:
+    """In the order of the page; a case that has run replaces what was known of it with the same discretization."""
+    return {name: {case.name: (known[name] | results[name])[case.name] for case in CASES
+                   if case.name in known[name] | results[name]} for name in DISCRETIZATIONS}
 
 
 def dump(results: dict[str, Any]) -> str:
@@ -132,9 +151,10 @@ def main() -> None:
         results = judge_all(chosen(options), options, options.keep.resolve() if options.keep else Path(folder))
     if options.scheme or options.integrator or options.volume:
         return
-    known = load(NUMBERS)
-    results = {case.name: (known | results)[case.name] for case in CASES if case.name in known | results}
-    write(NUMBERS, dump(results))
+    results = merged(load(), results)
+    for name, file in NUMBERS.items():
+        if results[name]:
+            write(file, dump(results[name]))
     write(RESULTS, page(results))
     print(RESULTS.relative_to(ROOT))
 
