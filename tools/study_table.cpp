@@ -10,7 +10,7 @@ namespace minamo {
 
 namespace {
 
-using Cells = std::vector<std::string>;
+using RowCells = std::vector<std::string>;
 
 /// Whether two rows differ in nothing but the resolution.
 bool same_line(const StudyTable& table, const StudyRow& a, const StudyRow& b) {
@@ -66,8 +66,8 @@ std::string csv_field(const std::string& text) {
   return quoted + '"';
 }
 
-std::string csv_line(const Cells& cells) {
-  Cells fields;
+std::string csv_line(const RowCells& cells) {
+  RowCells fields;
   for (const std::string& cell : cells) fields.push_back(csv_field(cell));
   return fmt::format("{}\n", fmt::join(fields, ","));
 }
@@ -79,13 +79,13 @@ std::size_t width_of(const std::string& text) {
 }
 
 /// Rows with the columns aligned: words to the left, numbers to the right.
-std::string aligned(const std::vector<Cells>& rows, std::size_t words) {
+std::string aligned(const std::vector<RowCells>& rows, std::size_t words) {
   std::vector<std::size_t> widths(rows.front().size());
-  for (const Cells& cells : rows) {
+  for (const RowCells& cells : rows) {
     for (std::size_t k = 0; k < cells.size(); ++k) widths[k] = std::max(widths[k], width_of(cells[k]));
   }
   std::string text;
-  for (const Cells& cells : rows) {
+  for (const RowCells& cells : rows) {
     std::string line;
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const std::string fill(widths[k] - width_of(cells[k]), ' ');
@@ -108,13 +108,13 @@ std::vector<Standing> standings(const StudyTable& table) {
 }
 
 std::string as_text(const StudyTable& table) {
-  std::vector<Cells> rows{table.heads};
+  std::vector<RowCells> rows{table.heads};
   for (const char* head : {"error [1]", "order", "wall [s]", "steps", "time x error rank", "frontier", "status"})
     rows.front().emplace_back(head);
   const auto all = standings(table);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const StudyRow& row = table.rows[i];
-    Cells cells = row.values;
+    RowCells cells = row.values;
     for (std::string& cell :
          std::vector<std::string>{shown(row.error, "{:.3e}", "-"), shown(all[i].order, "{:.2f}", "-"),
                                   fmt::format("{:.3g}", row.wall_seconds), std::to_string(row.steps),
@@ -126,7 +126,7 @@ std::string as_text(const StudyTable& table) {
 }
 
 std::string as_csv(const StudyTable& table) {
-  Cells heads = table.keys;
+  RowCells heads = table.keys;
   for (const char* head : {"error", "order", "wall_s", "time_step", "steps", "particles", "unknowns_max", "cpu_model",
                            "threads", "status", "rank", "frontier"})
     heads.emplace_back(head);
@@ -134,7 +134,7 @@ std::string as_csv(const StudyTable& table) {
   const auto all = standings(table);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const StudyRow& row = table.rows[i];
-    Cells cells = row.values;
+    RowCells cells = row.values;
     for (std::string& cell : std::vector<std::string>{
              shown(row.error, "{}", ""), shown(all[i].order, "{:.4f}", ""), fmt::format("{:.6g}", row.wall_seconds),
              fmt::format("{}", row.time_step), std::to_string(row.steps), std::to_string(row.particles),

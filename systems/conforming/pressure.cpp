@@ -188,7 +188,7 @@ class PressureMass {
   std::vector<bool> is_free_;
 };
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
+double scalar_product(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
@@ -212,17 +212,17 @@ std::vector<double> solve_mass(const Mass& mass, std::span<const double> b) {
   std::vector<double> z = precondition(r);
   std::vector<double> direction = z;
   std::vector<double> image(b.size());
-  double square = dot(r, z);
+  double square = scalar_product(r, z);
   const double enough = tolerance * tolerance * square;
   for (int k = 0; k < most_iterations && square > enough; ++k) {
     mass.times(direction, image);
-    const double step = square / dot(direction, image);
+    const double step = square / scalar_product(direction, image);
     for (std::size_t i = 0; i < x.size(); ++i) {
       x[i] += step * direction[i];
       r[i] -= step * image[i];
     }
     z = precondition(r);
-    const double next = dot(r, z);
+    const double next = scalar_product(r, z);
     for (std::size_t i = 0; i < x.size(); ++i) direction[i] = z[i] + next / square * direction[i];
     square = next;
   }
