@@ -48,7 +48,7 @@ void gather_faces_with_affine(const FaceTarget<Dim>& target, const AtFace& at_fa
     for_each_cell<Dim>(target.cells, [&](std::size_t c, const auto& cell) {
       const CellFrame<Dim> frame(target.grid, target.splines, cell.node);
       const auto q = coefficients<Dim, K>(target.sites.of(c), at_face);
-      const FacePolynomials<Dim, K> polynomials(frame, target.sites.of(c), at_face);
+      const FacePolynomials<Dim, K> polynomials(frame, q);
       for_each_group(cell, [&](const Group& group) {
         const LanePlace<Dim> xi = local<Dim>(frame, target.y_p, group);
         const LaneJet<Dim> jet(polynomials, xi);

@@ -1,11 +1,12 @@
 #include "systems/conforming/balances.hpp"
 
-#include "engine/step_control.hpp"
 #include "systems/conforming/gather.hpp"
 #include "systems/conforming/incidence.hpp"
 #include "systems/conforming/scatter.hpp"
-
-#include <spdlog/fmt/fmt.h>
+#include "systems/grid/constraint.hpp"
+#include "systems/time/body_force.hpp"
+#include "systems/time/midpoint.hpp"
+#include "systems/time/newmark.hpp"
 
 namespace minamo {
 
@@ -13,14 +14,6 @@ namespace {
 
 /// kappa of (E63).
 constexpr double damped_share = 0.5;
-
-/// Sets to zero what walls hold.
-template <int Dim>
-void hold(std::uint8_t held, Vec<Dim>& q) {
-  for (int d = 0; d < Dim; ++d) {
-    if ((held & (1U << static_cast<unsigned>(d))) != 0) q[d] = 0;
-  }
-}
 
 template <int Dim>
 void predict_from_velocity(std::span<const Vec<Dim>> v_f, std::span<Vec<Dim>> predictor) {
@@ -31,27 +24,27 @@ void predict_from_velocity(std::span<const Vec<Dim>> v_f, std::span<Vec<Dim>> pr
 
 template <int Dim>
 void HoldFaces<Dim>::operator()(Read<face::Held> held, Update<face::Velocity<Dim>> v_f) const {
-  for_each_row(v_f.size(), [&](std::size_t i) { hold<Dim>(held[i], v_f[i]); });
+  const Constraints<Dim> walls{held.span()};
+  for_each_row(v_f.size(), [&](std::size_t i) { hold_at_rest<Dim>(walls, i, v_f[i]); });
 }
 
 template <int Dim>
 void HoldFaceAccelerations<Dim>::operator()(Read<face::Held> held, Update<face::Acceleration<Dim>> a_f) const {
-  for_each_row(a_f.size(), [&](std::size_t i) { hold<Dim>(held[i], a_f[i]); });
+  const Constraints<Dim> walls{held.span()};
+  for_each_row(a_f.size(), [&](std::size_t i) { hold_at_rest<Dim>(walls, i, a_f[i]); });
 }
 
 template <int Dim>
 void PredictFacesMidpoint<Dim>::operator()(Read<Clock> clock, Read<face::Velocity<Dim>> v_f, Write<Rates> rates,
                                            Write<face::Predictor<Dim>> predictor) const {
-  const double dt = clock->step;
-  *rates = {.velocity = 1 / dt, .acceleration = 2 / (dt * dt), .time = clock->time + dt / 2};
+  *rates = midpoint_rates(*clock);
   predict_from_velocity<Dim>(v_f.span(), predictor.span());
 }
 
 template <int Dim>
 void PredictFacesBackwardEuler<Dim>::operator()(Read<Clock> clock, Read<face::Velocity<Dim>> v_f, Write<Rates> rates,
                                                 Write<face::Predictor<Dim>> predictor) const {
-  const double dt = clock->step;
-  *rates = {.velocity = 1 / dt, .acceleration = 1 / (dt * dt), .time = clock->time};
+  *rates = backward_euler_rates(*clock);
   predict_from_velocity<Dim>(v_f.span(), predictor.span());
 }
 
@@ -59,24 +52,19 @@ template <int Dim>
 void PredictFacesNewmark<Dim>::operator()(Read<Clock> clock, Read<NewmarkParameters> newmark,
                                           Read<face::Velocity<Dim>> v_f, Read<face::Acceleration<Dim>> a_f,
                                           Write<Rates> rates, Write<face::Predictor<Dim>> predictor) const {
-  const double dt = clock->step;
-  *rates = {.velocity = newmark->gamma / (newmark->beta * dt),
-            .acceleration = 1 / (newmark->beta * dt * dt),
-            .time = clock->time + dt};
-  const double ahead = (1 - newmark->gamma) * dt;
+  *rates = newmark_rates(*clock, *newmark);
+  const double ahead = (1 - newmark->gamma) * clock->step;
   for_each_row(v_f.size(), [&](std::size_t i) { predictor[i] = v_f[i] + ahead * a_f[i]; });
 }
 
 template <int Dim>
 void UniformFaceForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                                        Read<face::Held> held, Write<face::BodyForce<Dim>> b_f) const {
-  const Instant now = instant_of(ode, rates);
-  Arguments arguments(now);
-  const Vec<Dim> everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
-  if (!everywhere.allFinite()) throw StepRejected(fmt::format("body_force: not finite at t = {:.6g} s", now.time));
+  const Vec<Dim> everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
+  const Constraints<Dim> walls{held.span()};
   for_each_row(b_f.size(), [&](std::size_t i) {
     b_f[i] = everywhere;
-    hold<Dim>(held[i], b_f[i]);
+    hold_at_rest<Dim>(walls, i, b_f[i]);
   });
 }
 
@@ -88,7 +76,8 @@ void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
                                    Write<face::BodyForce<Dim>> b_f) const {
   scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), b_f.span(),
                        [&](std::size_t p) { return series::Constant<Dim>{b_p[p]}; });
-  for_each_row(b_f.size(), [&](std::size_t i) { hold<Dim>(held[i], b_f[i]); });
+  const Constraints<Dim> walls{held.span()};
+  for_each_row(b_f.size(), [&](std::size_t i) { hold_at_rest<Dim>(walls, i, b_f[i]); });
 }
 
 template <int Dim>
@@ -108,8 +97,9 @@ void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Re
                               };
                             });
   const double tau = rates->velocity / rates->acceleration;
+  const Constraints<Dim> walls{held.span()};
   for_each_row(c_f.size(), [&](std::size_t i) {
-    hold<Dim>(held[i], c_f[i]);
+    hold_at_rest<Dim>(walls, i, c_f[i]);
     predictor[i] += tau * c_f[i];
   });
 }
@@ -121,9 +111,10 @@ void FillFaceSource<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Re
                                      Read<unknown::Staggered> of_unknown, Update<face::Predictor<Dim>> predictor,
                                      Write<unknown::Source> source) const {
   const double tau = rates->velocity / rates->acceleration;
+  const Constraints<Dim> walls{held.span()};
   for_each_row(predictor.size(), [&](std::size_t i) {
     predictor[i] += tau * b_f[i];
-    hold<Dim>(held[i], predictor[i]);
+    hold_at_rest<Dim>(walls, i, predictor[i]);
   });
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   for_each_row(source.size(), [&](std::size_t l) {

@@ -23,12 +23,12 @@ namespace {
 struct DiscretizationScheme : Scheme {};
 
 Contribution read_equal_order(Input&, Scene& scene) {
-  scene.facts.set(Discretization{.name = "equal_order"});
+  scene.facts.set(Discretization{});
   return {};
 }
 
 Contribution read_conforming(Input& input, Scene& scene) {
-  Discretization discretization{.name = "conforming", .is_conforming = true};
+  Discretization discretization{.is_conforming = true};
   discretization.degree =
       static_cast<int>(input.integer("degree", {.doc = "of the velocity along itself; across itself it has one less",
                                                 .fallback = discretization.degree,

@@ -2,6 +2,7 @@
 
 #include "systems/conforming/incidence.hpp"
 #include "systems/conforming/lanes.hpp"
+#include "systems/grid/filled_nodes.hpp"
 #include "systems/grid/liquid_cells.hpp"
 
 #include <cmath>
@@ -15,20 +16,15 @@ template <int Dim>
 constexpr double active_from = Dim == 2 ? 0.05 : 0.1;
 /// Least mass of a face, as a share of that of a full grid: lighter ones only spoil the condition of S.
 constexpr double least_mass = 1e-8;
-/// theta of (E67): fill fractions from which a face counts as full, and as full all the way.
-constexpr double filled_from = 0.9;
-constexpr double filled_to = 0.97;
-
 /// |dt/2 grad v| up to which the second term of (E63) counts in full, and from which on not at all.
 constexpr double resolved_to = 0.1;
 constexpr double unresolved_from = 0.2;
 
-double clamped_ramp(double from, double to, double x) { return std::clamp((x - from) / (to - from), 0.0, 1.0); }
-
 /// dt/2 w f tr(grad v grad v), the divergence that a velocity without divergence now has half a step on, (E63).
 template <int Dim>
 double divergence_ahead(double half_step, double liquid, const Mat<Dim>& gradient) {
-  const double resolved = 1 - clamped_ramp(resolved_to, unresolved_from, half_step * gradient.norm());
+  const double strain = half_step * gradient.norm();
+  const double resolved = std::clamp((unresolved_from - strain) / (unresolved_from - resolved_to), 0.0, 1.0);
   return resolved == 0 ? 0 : liquid * resolved * half_step * (gradient * gradient).trace();
 }
 
@@ -155,7 +151,7 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
   };
   invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
                      [&](std::size_t i, std::size_t d, double full) {
-                       const double theta = clamped_ramp(filled_from, filled_to, fill_of_face(i, d));
+                       const double theta = filled_indicator(fill_of_face(i, d));
                        return (1 - theta) * m_f[i][static_cast<Eigen::Index>(d)] + theta * full;
                      });
 }
@@ -188,20 +184,14 @@ void AssembleMultipliers<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim
     const auto l = static_cast<std::size_t>(row[i]);
     of_unknown[l] = static_cast<std::uint32_t>(i);
     unknown_site[l] = site[i];
-    diagonal[l] = 0;
     null_vector[l] = splines->widths(site[i]);
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const auto axis = static_cast<Eigen::Index>(d);
-      const std::size_t up = incidence.above(i, d);
-      const double per_width = incidence.per_width(i, d);
-      diagonal[l] += per_width * per_width * (mobility[i][axis] + mobility[up][axis]);
-      const bool has_upper = splines->has_multiplier(site[up]) && row[up] != staggered::none;
-      const std::int32_t down = neighbour[i][2 * d];
-      const bool has_lower = down != staggered::none && row[static_cast<std::size_t>(down)] != staggered::none;
-      unknown_neighbour[l][2 * d] = has_lower ? row[static_cast<std::size_t>(down)] : staggered::none;
-      unknown_neighbour[l][2 * d + 1] = has_upper ? row[up] : staggered::none;
-      conductance[l][d] = has_upper ? per_width * incidence.per_width(up, d) * mobility[up][axis] : 0;
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      const std::int32_t j = neighbour[i][side];
+      unknown_neighbour[l][side] = j == staggered::none ? staggered::none : row[static_cast<std::size_t>(j)];
     }
+    incidence.set_row(
+        i, [&](std::size_t f, std::size_t d) { return mobility[f][static_cast<Eigen::Index>(d)]; },
+        [&](std::size_t d) { return unknown_neighbour[l][2 * d + 1] != staggered::none; }, diagonal[l], conductance[l]);
   });
 }
 

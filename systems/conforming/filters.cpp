@@ -2,8 +2,7 @@
 
 #include "systems/conforming/gather.hpp"
 #include "systems/conforming/scatter.hpp"
-
-#include <algorithm>
+#include "systems/transfer/filter_series.hpp"
 
 namespace minamo {
 
@@ -32,18 +31,9 @@ template <int Dim>
 void filter_faces(const FaceSource<Dim>& source, std::span<const Vec<Dim>> m_f, std::span<const std::uint8_t> held,
                   int order, std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
                   std::span<Vec<Dim>> filtered) {
-  std::copy(v.begin(), v.end(), residue.begin());
-  std::copy(v.begin(), v.end(), filtered.begin());
-  for (int k = 1; k < order; ++k) {
-    faces_there_and_back<Dim>(source, m_f, residue, smoothed);
-    for_each_row(v.size(), [&](std::size_t i) {
-      residue[i] -= smoothed[i];
-      for (int d = 0; d < Dim; ++d) {
-        if ((held[i] >> static_cast<unsigned>(d) & 1U) != 0) residue[i][d] = 0;
-      }
-      filtered[i] += residue[i];
-    });
-  }
+  filter_series_by<Dim>(
+      [&](std::span<const Vec<Dim>> q, std::span<Vec<Dim>> out) { faces_there_and_back<Dim>(source, m_f, q, out); },
+      {held}, order, v, residue, smoothed, filtered);
 }
 
 }  // namespace

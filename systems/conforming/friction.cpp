@@ -1,6 +1,7 @@
 #include "systems/conforming/friction.hpp"
 
 #include "systems/conforming/friction_operator.hpp"
+#include "systems/grid/filled_nodes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +9,6 @@
 namespace minamo {
 
 namespace {
-
-/// Fill fractions of the multipliers of a cell from which its friction counts as that of full liquid, and all of it.
-constexpr double filled_from = 0.9;
-constexpr double filled_to = 0.97;
 
 template <int Dim>
 double* numbers(std::span<Vec<Dim>> of_faces) {
@@ -33,12 +30,9 @@ void FindCellViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-      const std::uint32_t* rows = sites->of(c);
-      double least = 1;
-      for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) { least = std::min(least, phi[rows[k]]); });
       double volume = 0;
       for (std::size_t p = cell.begin; p < cell.end; ++p) volume += V_p[p];
-      const double theta = std::clamp((least - filled_from) / (filled_to - filled_from), 0.0, 1.0);
+      const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), phi.span()));
       mu_c[c] = fluid->viscosity * ((1 - theta) * volume * per_cell + theta);
     });
   });

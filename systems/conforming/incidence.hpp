@@ -44,6 +44,21 @@ class Incidence {
     for_each_multiplier(row, d, [&](std::size_t l, double weight) { sum += weight * at(l); });
     return sum;
   }
+  /// Sets the row of B D^-1 B^T of a multiplier: its diagonal, and what it has to the multipliers above, where they are
+  /// unknowns, with the sign changed.
+  /// \param per_d      D^-1 of the face of direction d of a row
+  /// \param has_upper  whether the multiplier above along d is an unknown
+  template <class PerFace, class HasUpper>
+  void set_row(std::size_t row, const PerFace& per_d, const HasUpper& has_upper, double& diagonal,
+               std::array<double, static_cast<std::size_t>(Dim)>& conductance) const {
+    diagonal = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const std::size_t up = above(row, d);
+      const double own = per_width(row, d);
+      diagonal += own * own * (per_d(row, d) + per_d(up, d));
+      conductance[d] = has_upper(d) ? own * per_width(up, d) * per_d(up, d) : 0;
+    }
+  }
   /// 1/w_d of a multiplier. [1/m]
   double per_width(std::size_t row, std::size_t d) const {
     return per_spacing_ / splines_.axis[d].width(site_[row][d]);

@@ -2,9 +2,9 @@
 
 #include "systems/conforming/incidence.hpp"
 #include "systems/conforming/support.hpp"
+#include "systems/measure/volume.hpp"
 
 #include <cmath>
-#include <functional>
 
 namespace minamo {
 
@@ -22,11 +22,7 @@ void MeasureFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<D
 template <int Dim>
 void MeasureMultiplierOverlap<Dim>::operator()(Read<particle::Volume> V_p, Read<multiplier::Capacity> capacity,
                                                Read<multiplier::Volume> v_l, Write<measure::Overlap> overlap) const {
-  const double excess = reduce_rows(
-      v_l.size(), 0.0, [&](std::size_t i) { return std::max(0.0, v_l[i] - capacity[i]); }, std::plus<>());
-  const double volume = reduce_rows(
-      V_p.size(), 0.0, [&](std::size_t p) { return V_p[p]; }, std::plus<>());
-  overlap->value = excess / volume;
+  overlap->value = overlap_of(V_p.span(), capacity.span(), v_l.span());
 }
 
 namespace {
@@ -46,11 +42,8 @@ ProbeValues<Dim> values_at(const Grid<Dim>& grid, const Splines<Dim>& splines, c
   const CellFrame<Dim> frame(grid, splines, cell);
   const SplineWeights<Dim, K> weights(frame, frame.local(x));
   std::array<std::optional<std::uint32_t>, cell_sites<Dim, K>> row;
-  for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
-    Index<Dim> site;
-    for (std::size_t d = 0; d < Dim; ++d) site[d] = splines.axis[d].wrapped(cell[d] + offset[d]);
-    row[k] = rows.find(site);
-  });
+  for_each_site<Dim, K>(
+      [&](std::size_t k, const Index<Dim>& offset) { row[k] = rows.find(splines.site(cell, offset)); });
   ProbeValues<Dim> values;
   for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
     if (row[k]) values.pressure += weights.multiplier(offset) * p_l[*row[k]];

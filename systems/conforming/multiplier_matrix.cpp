@@ -18,15 +18,9 @@ void MultiplierMatrix<Dim>::prepare(const Splines<Dim>& splines, const Incidence
   b_.assign(n, {});
   x_.assign(n, {});
   for_each_row(n, [&](std::size_t l) {
-    const std::size_t i = graph.staggered[l];
-    diagonal_[l] = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const std::size_t up = incidence.above(i, d);
-      const double per_width = incidence.per_width(i, d);
-      diagonal_[l] += per_width * per_width * (per_d[Dim * i + d] + per_d[Dim * up + d]);
-      const bool has_upper = graph.neighbour[l][2 * d + 1] != staggered::none;
-      conductance_[l][d] = has_upper ? per_width * incidence.per_width(up, d) * per_d[Dim * up + d] : 0;
-    }
+    incidence.set_row(
+        graph.staggered[l], [&](std::size_t f, std::size_t d) { return per_d[Dim * f + d]; },
+        [&](std::size_t d) { return graph.neighbour[l][2 * d + 1] != staggered::none; }, diagonal_[l], conductance_[l]);
   });
   matrix_ = laplacian_of<Dim>(splines, graph.site, graph.neighbour, conductance_, diagonal_);
   null_vector_ = graph.null_vector;
@@ -36,7 +30,7 @@ void MultiplierMatrix<Dim>::prepare(const Splines<Dim>& splines, const Incidence
 template <int Dim>
 void MultiplierMatrix<Dim>::solve(std::span<const double> b, std::span<double> x) {
   for_each_row(b.size(), [&](std::size_t l) { b_[l][0] = b[l]; });
-  solver_.solve(matrix_, null_vector_, projection_tolerance, b_, x_);
+  solver_.solve(matrix_, null_vector_, projection_tolerance, b_, x_, 1);
   for_each_row(x.size(), [&](std::size_t l) { x[l] = x_[l][0]; });
 }
 

@@ -27,16 +27,6 @@ void find_addresses(const Splines<Dim>& splines, const SiteRows<Dim>& rows, cons
   });
 }
 
-/// Which row every row was before, from the sites of the rows before.
-template <int Dim>
-void find_former_rows(const SiteRows<Dim>& rows, std::span<const Index<Dim>> sites,
-                      std::vector<std::optional<std::uint32_t>>& from) {
-  std::fill(from.begin(), from.end(), std::nullopt);
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (const auto row = rows.find(sites[i])) from[*row] = static_cast<std::uint32_t>(i);
-  }
-}
-
 /// Directions whose face at a site walls hold, or where there is none.
 template <int Dim>
 std::uint8_t held_at(const Splines<Dim>& splines, const Walls<Dim>& walls, const Index<Dim>& site) {
@@ -89,7 +79,7 @@ void NumberSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splin
       for (std::size_t k = 0; k < cell_sites<Dim, K>; ++k) add(address[k]);
     }
     buffer->from.resize(rows->number_rows());
-    find_former_rows<Dim>(*rows, site.span(), buffer->from);
+    rows->find_former_rows(site.span(), buffer->from);
     table.renumber(buffer->from);
 
     constexpr std::size_t cells_per_task = 64;

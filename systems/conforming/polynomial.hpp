@@ -57,7 +57,9 @@ class FacePolynomials {
   /// \param rows  of the sites of the cell
   template <class AtFace>
   FacePolynomials(const CellFrame<Dim>& frame, const std::uint32_t* rows, const AtFace& at_face)
-      : c_(coefficients<Dim, K>(rows, at_face)), per_spacing_(frame.per_spacing) {
+      : FacePolynomials(frame, coefficients<Dim, K>(rows, at_face)) {}
+  FacePolynomials(const CellFrame<Dim>& frame, const FaceCoefficients<Dim, K>& q)
+      : c_(q), per_spacing_(frame.per_spacing) {
     for_each_direction<Dim>(
         [&](auto d) { for_each_direction<Dim>([&](auto axis) { along_axis<d(), axis()>(*frame.splines[axis()]); }); });
   }

@@ -1,6 +1,8 @@
 #include "systems/conforming/pressure.hpp"
 
 #include "systems/conforming/support.hpp"
+#include "systems/grid/filled_nodes.hpp"
+#include "systems/solve/conjugate_gradients.hpp"
 
 #include <cmath>
 
@@ -8,9 +10,6 @@ namespace minamo {
 
 namespace {
 
-/// Fill fractions of the multipliers of a cell from which integrals are exact, and all the way.
-constexpr double exact_from = 0.9;
-constexpr double exact_to = 0.97;
 /// Share of the sums of rows on the diagonal where integrals are by particles, which may be fewer than the multipliers
 /// around them: M would be singular, and the force not in its range.
 constexpr double lumped_share = 0.1;
@@ -109,11 +108,8 @@ class PressureMass {
       }
       Run run{cell, p, p + 1, {}};
       std::size_t m = 0;
-      for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
-        Index<Dim> at;
-        for (std::size_t d = 0; d < Dim; ++d) at[d] = splines.axis[d].wrapped(cell[d] + offset[d]);
-        run.rows[m++] = *rows.find(at);
-      });
+      for_each_multiplier<Dim, K>(
+          [&](std::size_t, const Index<Dim>& offset) { run.rows[m++] = *rows.find(splines.site(cell, offset)); });
       for (std::size_t d = 0; d < Dim; ++d) run.axis_mass[d] = axis_mass(splines.axis[d].of_cell(cell[d]));
       run.volume = std::pow(grid.spacing, Dim);
       runs_.push_back(run);
@@ -144,7 +140,7 @@ class PressureMass {
     for (Run& run : runs_) {
       double least = 1;
       for (const std::uint32_t row : run.rows) least = std::min(least, fill[row]);
-      run.exact = std::clamp((least - exact_from) / (exact_to - exact_from), 0.0, 1.0);
+      run.exact = filled_indicator(least);
     }
     // A cell whose particles come in several runs is counted once, in parts.
     std::vector<double> runs_at(site.size(), 0);
@@ -188,44 +184,18 @@ class PressureMass {
   std::vector<bool> is_free_;
 };
 
-double scalar_product(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 /// M^-1 b.
 template <class Mass>
-std::vector<double> solve_mass(const Mass& mass, std::span<const double> b) {
-  constexpr int most_iterations = 500;
+Values solve_mass(const Mass& mass, std::span<const double> b) {
+  constexpr std::int64_t most_iterations = 500;
   constexpr double tolerance = 1e-7;
-  const std::vector<double> diagonal = mass.diagonal();
-  const auto precondition = [&](const std::vector<double>& r) {
-    std::vector<double> z(r.size(), 0);
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      if (diagonal[i] > 0) z[i] = r[i] / diagonal[i];
-    }
-    return z;
-  };
-  std::vector<double> x(b.size(), 0);
-  std::vector<double> r(b.begin(), b.end());
-  std::vector<double> z = precondition(r);
-  std::vector<double> direction = z;
-  std::vector<double> image(b.size());
-  double square = scalar_product(r, z);
-  const double enough = tolerance * tolerance * square;
-  for (int k = 0; k < most_iterations && square > enough; ++k) {
-    mass.times(direction, image);
-    const double step = square / scalar_product(direction, image);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      x[i] += step * direction[i];
-      r[i] -= step * image[i];
-    }
-    z = precondition(r);
-    const double next = scalar_product(r, z);
-    for (std::size_t i = 0; i < x.size(); ++i) direction[i] = z[i] + next / square * direction[i];
-    square = next;
-  }
+  Values per_diagonal = mass.diagonal();
+  for (double& entry : per_diagonal) entry = entry > 0 ? 1 / entry : 0;
+  Values left(b.begin(), b.end());
+  Values x;
+  const double size = std::sqrt(weighted_square(per_diagonal, left));
+  ConjugateGradients().solve([&](const Values& p, Values& image) { mass.times(p, image); }, per_diagonal,
+                             tolerance * size, most_iterations, left, x);
   return x;
 }
 

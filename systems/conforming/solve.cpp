@@ -78,7 +78,8 @@ void MultiplierSolver<Dim>::prepare(const StaggeredLaplacian<Dim>& matrix, std::
 
 template <int Dim>
 SolveReport MultiplierSolver<Dim>::solve(const StaggeredLaplacian<Dim>& matrix, std::span<const double> null_vector,
-                                         double tolerance, std::span<const Sources> b, std::span<Sources> x) {
+                                         double tolerance, std::span<const Sources> b, std::span<Sources> x,
+                                         std::size_t sources) {
   const auto rows = static_cast<std::int64_t>(matrix.rows());
   SolveReport report{.unknowns = rows, .active = rows, .iterations = 0, .residual = 0};
   if (rows == 0) return report;
@@ -92,7 +93,7 @@ SolveReport MultiplierSolver<Dim>::solve(const StaggeredLaplacian<Dim>& matrix, 
     report.residual = residual_of<Dim>(matrix, b, x);
   } else {
     const MultigridReport done =
-        multigrid_.solve({matrix, null_vector, b, most_sources, tolerance}, x, most_multigrid_iterations);
+        multigrid_.solve({matrix, null_vector, b, sources, tolerance}, x, most_multigrid_iterations);
     report.iterations = done.iterations;
     report.residual = done.residual;
   }

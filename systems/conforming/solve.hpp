@@ -23,11 +23,12 @@ class MultiplierSolver {
 
   /// \throws StepRejected if S is not positive definite.
   void prepare(const StaggeredLaplacian<Dim>& matrix, std::span<const double> null_vector);
-  /// x = S^-1 b up to null vectors; b loses its part along them.
+  /// x = S^-1 b up to null vectors and parts of b along them, for the first so many right-hand sides of every row; the
+  /// others are zero.
   /// \param tolerance  |b - S x| / |b| of every right-hand side [1]
   /// \return unknowns, iterations and the largest residual
   SolveReport solve(const StaggeredLaplacian<Dim>& matrix, std::span<const double> null_vector, double tolerance,
-                    std::span<const Sources> b, std::span<Sources> x);
+                    std::span<const Sources> b, std::span<Sources> x, std::size_t sources = most_sources);
 
  private:
   bool is_direct_ = true;

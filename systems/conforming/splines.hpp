@@ -93,6 +93,11 @@ struct Splines {
     for (std::size_t d = 0; d < Dim; ++d) count[d] = axis[d].sites();
     return count;
   }
+  /// The site at an offset from the first one of a cell.
+  Index<Dim> site(const Index<Dim>& cell, Index<Dim> offset) const {
+    for (std::size_t d = 0; d < Dim; ++d) offset[d] = axis[d].wrapped(cell[d] + offset[d]);
+    return offset;
+  }
   /// Product of the widths of a multiplier, w_l/h^d. [1]
   double widths(const Index<Dim>& site) const {
     double product = 1;

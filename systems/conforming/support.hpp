@@ -55,6 +55,14 @@ template <int Dim, int K, class Body>
   for_each_offset<Dim, K, K, K, K>(body);
 }
 
+/// The least of a column of multipliers over those of a cell, at most 1; `rows` are those of its sites.
+template <int Dim, int K>
+double least_of_multipliers(const std::uint32_t* rows, std::span<const double> phi) {
+  double least = 1;
+  for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) { least = std::min(least, phi[rows[k]]); });
+  return least;
+}
+
 /// For all its sites.
 template <int Dim, int K, class Body>
 [[gnu::always_inline]] inline void for_each_site(const Body& body) {

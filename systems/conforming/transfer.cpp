@@ -4,6 +4,8 @@
 #include "systems/conforming/gather.hpp"
 #include "systems/conforming/scatter.hpp"
 #include "systems/transfer/advect.hpp"
+#include "systems/transfer/pic_flip.hpp"
+#include "systems/transfer/tpic.hpp"
 
 #include <atomic>
 
@@ -39,9 +41,7 @@ void G2PFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splin
 }
 
 template <int Dim>
-G2PFacesFlip<Dim>::G2PFacesFlip(Input& input)
-    : blend(input.number("blend",
-                         {.doc = "share of FLIP, the rest is PIC", .fallback = 0.99, .at_least = 0, .at_most = 1})) {}
+G2PFacesFlip<Dim>::G2PFacesFlip(Input& input) : blend(flip_blend(input)) {}
 
 template <int Dim>
 void G2PFacesFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
@@ -55,11 +55,7 @@ void G2PFacesFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
 }
 
 template <int Dim>
-G2PFacesTpic<Dim>::G2PFacesTpic(Input& in)
-    : conserves_spin(in.choice("spin", std::vector<std::string>{"conserved", "gradient"},
-                               "rotation that particles carry: that of APIC, which keeps angular momentum (E71), or of "
-                               "the gradient (E18)",
-                               "conserved") == "conserved") {}
+G2PFacesTpic<Dim>::G2PFacesTpic(Input& in) : conserves_spin(is_spin_conserved(in)) {}
 
 template <int Dim>
 void G2PFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,

@@ -2,6 +2,7 @@
 
 #include "systems/conforming/gather.hpp"
 #include "systems/measure/conservation.hpp"
+#include "systems/time/body_force.hpp"
 #include "systems/volume/shift.hpp"
 
 #include <cmath>
@@ -48,14 +49,12 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       const std::uint32_t* rows = sites->of(c);
-      double least = 1;
-      for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) { least = std::min(least, phi[rows[k]]); });
-      if (least < stirred_from) {
+      if (least_of_multipliers<Dim, K>(rows, phi.span()) < stirred_from) {
         for (std::size_t p = cell.begin; p < cell.end; ++p) s_p[p].setZero();
         return;
       }
       const CellFrame<Dim> frame(*grid, *splines, cell.node);
-      const auto q = coefficients<Dim, K>(rows, [&](std::size_t i) -> const Vec<Dim>& { return v_f[i]; });
+      const auto q = coefficients<Dim, K>(rows, of_faces<Dim>(v_f.span()));
       const Vec<Dim> middle = Vec<Dim>::Constant(0.5);
       const auto jet = jet_at<Dim, K>(q, SplineWeights<Dim, K>(frame, middle), SplineSlopes<Dim, K>(frame, middle));
       const double strain = (jet.gradient + jet.gradient.transpose()).norm() / std::sqrt(2.0);
@@ -77,9 +76,8 @@ template <int Dim>
 void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                       Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<face::Shift<Dim>> d_f, Write<particle::Shift<Dim>> d_p) const {
-  gather_faces<Dim>(
-      {*grid, *splines, *cells, *sites, y_p.span()}, [&](std::size_t i) -> const Vec<Dim>& { return d_f[i]; },
-      [&](std::size_t p, const Vec<Dim>& d) { d_p[p] = d; });
+  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(d_f.span()),
+                    [&](std::size_t p, const Vec<Dim>& d) { d_p[p] = d; });
 }
 
 template <int Dim>
@@ -90,10 +88,7 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
                                          Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
                                          Update<particle::Stir<Dim>> s_p) const {
   Vec<Dim> everywhere = Vec<Dim>::Zero();
-  if (!b_p) {
-    Arguments arguments(instant_of(ode, rates));
-    everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
-  }
+  if (!b_p) everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
   const double lifted = -reduce_rows(
       m_p.size(), 0.0, [&](std::size_t p) { return m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); },
       std::plus<>());

@@ -13,6 +13,10 @@ constexpr double all_from = 0.97;
 
 }  // namespace
 
+double filled_indicator(double least_fill) {
+  return std::clamp((least_fill - none_below) / (all_from - none_below), 0.0, 1.0);
+}
+
 template <int Dim>
 void FindFilledNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid,
                                       Read<node::Mass> m_i, Read<node::Capacity> capacity,
@@ -26,7 +30,7 @@ void FindFilledNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<D
     const Support<Dim> support(*grid, cell);
     double least = all_from;
     for (const std::size_t j : support.node) least = std::min(least, phi_i[j]);
-    theta_i[support.own()] = std::max(0.0, (least - none_below) / (all_from - none_below));
+    theta_i[support.own()] = filled_indicator(least);
   });
 }
 

@@ -17,16 +17,6 @@ std::uint8_t held_at(const Grid<Dim>& grid, const Walls<Dim>& walls, const Index
   return held;
 }
 
-/// Which row every row was before, from the sites of the rows before.
-template <int Dim>
-void find_origin(const NodeIndex<Dim>& rows, std::span<const Index<Dim>> sites,
-                 std::vector<std::optional<std::uint32_t>>& from) {
-  std::fill(from.begin(), from.end(), std::nullopt);
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (const auto row = rows.find(sites[i])) from[*row] = static_cast<std::uint32_t>(i);
-  }
-}
-
 /// Tells every cell the rows of its nodes.
 template <int Dim>
 void look_up(const Grid<Dim>& grid, const NodeIndex<Dim>& rows, OccupiedCells<Dim>& cells) {
@@ -54,7 +44,7 @@ void NumberNodes<Dim>::operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, 
                           [&](std::size_t, const auto& address) { add(address); });
   }
   buffer->from.resize(rows->number_rows());
-  find_origin<Dim>(*rows, sites.span(), buffer->from);
+  rows->find_former_rows(sites.span(), buffer->from);
   nodes.renumber(buffer->from);
   rows->for_each([&](const Index<Dim>& site, std::uint32_t i) {
     sites[i] = site;

@@ -25,14 +25,16 @@ void MeasureDivergence<Dim>::operator()(Read<Fluid> fluid, Read<Rates> rates, Re
   largest->value = reduce_rows(node.size(), 0.0, of_row, [](double x, double y) { return std::max(x, y); });
 }
 
+double overlap_of(std::span<const double> V_p, std::span<const double> capacity, std::span<const double> volume) {
+  const auto sum = [](std::size_t rows, const auto& value) { return reduce_rows(rows, 0.0, value, std::plus<>()); };
+  const double excess = sum(volume.size(), [&](std::size_t i) { return std::max(0.0, volume[i] - capacity[i]); });
+  return excess / sum(V_p.size(), [&](std::size_t p) { return V_p[p]; });
+}
+
 template <int Dim>
 void MeasureOverlap<Dim>::operator()(Read<particle::Volume> V_p, Read<advected_node::Capacity> capacity,
                                      Read<advected_node::Volume> v_i, Write<measure::Overlap> overlap) const {
-  const auto excess_of = [&](std::size_t i) { return v_i[i] > 0 ? std::max(0.0, v_i[i] - capacity[i]) : 0; };
-  const double excess = reduce_rows(v_i.size(), 0.0, excess_of, std::plus<>());
-  const double volume = reduce_rows(
-      V_p.size(), 0.0, [&](std::size_t p) { return V_p[p]; }, std::plus<>());
-  overlap->value = excess / volume;
+  overlap->value = overlap_of(V_p.span(), capacity.span(), v_i.span());
 }
 
 template struct MeasureDivergence<2>;

@@ -25,6 +25,9 @@ struct MeasureDivergence {
                   Write<measure::MaxDivergence> largest) const;
 };
 
+/// (E32)  sum max(0, V~ - V) / sum_p V_p.
+double overlap_of(std::span<const double> V_p, std::span<const double> capacity, std::span<const double> volume);
+
 /// (E32)  overlap = sum_I max(0, V~_I - V_I) / sum_p V_p, V~_I (E35), V_I (E39).
 template <int Dim>
 struct MeasureOverlap {

@@ -9,7 +9,6 @@ namespace minamo {
 /// Equal order: velocity and pressure on the nodes of the grid, stabilized. Conforming: velocities on faces, free of
 /// divergence at every point.
 struct Discretization {
-  std::string name;
   bool is_conforming = false;
   int degree = 2;  ///< of the splines of conforming velocities along themselves
 };

@@ -45,12 +45,6 @@ void Recipe::add_standing_step(const std::string& configure, std::vector<System>
   standing_.push_back({make(configure), std::move(after)});
 }
 
-Contribution adds(std::string_view slot, std::vector<std::string> systems) {
-  return [slot, systems = std::move(systems)](const Scene&, Recipe& recipe) {
-    for (const std::string& system : systems) recipe.add(slot, system);
-  };
-}
-
 const SystemRegistry& registry_of(const Scene& scene) { return scene.recipe.registry(); }
 
 void note_scheme(Scene& scene, const std::string& part, const std::string& scheme) { scene.schemes[part] = scheme; }

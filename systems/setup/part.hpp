@@ -137,9 +137,6 @@ Part choice(const std::string& key, const std::string& doc, const std::string& f
   });
 }
 
-/// A contribution that adds the named systems to a slot.
-Contribution adds(std::string_view slot, std::vector<std::string> systems);
-
 const SystemRegistry& registry_of(const Scene& scene);
 void note_scheme(Scene& scene, const std::string& part, const std::string& scheme);
 

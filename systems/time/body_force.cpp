@@ -19,12 +19,17 @@ namespace {
 }  // namespace
 
 template <int Dim>
+Vec<Dim> uniform_force(const BodyForce& b, const Instant& now) {
+  Arguments arguments(now);
+  const Vec<Dim> everywhere = vector_at<Dim>(b.of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
+  if (!everywhere.allFinite()) refuse(now, "");
+  return everywhere;
+}
+
+template <int Dim>
 void UniformBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                                        Read<node::Mass> m_i, Write<node::BodyForce<Dim>> b_i) const {
-  const Instant now = instant_of(ode, rates);
-  Arguments arguments(now);
-  const Vec<Dim> everywhere = vector_at<Dim>(b->of_place_and_time, arguments.at<Dim>(Vec<Dim>::Zero()));
-  if (!everywhere.allFinite()) refuse(now, "");
+  const Vec<Dim> everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
   for_each_row(b_i.size(), [&](std::size_t i) { b_i[i] = m_i[i] > 0 ? everywhere : Vec<Dim>(Vec<Dim>::Zero()); });
 }
 
@@ -67,6 +72,8 @@ void MoveBallisticNodes<Dim>::operator()(Read<node::Row> row, Read<node::Constra
   });
 }
 
+template Vec<2> uniform_force<2>(const BodyForce&, const Instant&);
+template Vec<3> uniform_force<3>(const BodyForce&, const Instant&);
 template struct UniformBodyForce<2>;
 template struct UniformBodyForce<3>;
 template struct SampleBodyForce<2>;

@@ -13,6 +13,10 @@
 
 namespace minamo {
 
+/// b(t) of a force that is the same everywhere. \throws StepRejected if it is not finite
+template <int Dim>
+Vec<Dim> uniform_force(const BodyForce& b, const Instant& now);
+
 /// (E14)  b_I = b(t), the same everywhere.
 template <int Dim>
 struct UniformBodyForce {

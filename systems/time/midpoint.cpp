@@ -9,7 +9,7 @@ void PredictMidpoint<Dim>::operator()(Read<Clock> clock, Read<node::Velocity<Dim
                                       Write<node::PredictedVelocity<Dim>> v_predicted,
                                       Write<node::PredictedAcceleration<Dim>> a_predicted) const {
   const double dt = clock->step;
-  *rates = {.velocity = 1 / dt, .acceleration = 2 / (dt * dt), .time = clock->time + dt / 2};
+  *rates = midpoint_rates(*clock);
   for_each_row(v_i.size(), [&](std::size_t i) {
     v_predicted[i].setZero();
     a_predicted[i] = -2 / dt * v_i[i];

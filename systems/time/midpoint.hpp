@@ -10,6 +10,12 @@
 
 namespace minamo {
 
+/// (E12)  c_v = 1/dt, c_a = 2/dt^2, in the middle of the step.
+inline Rates midpoint_rates(const Clock& clock) {
+  const double dt = clock.step;
+  return {.velocity = 1 / dt, .acceleration = 2 / (dt * dt), .time = clock.time + dt / 2};
+}
+
 /// (E12)  v_mid = u/dt, a_mid = 2 (u/dt - v^n)/dt:  c_v = 1/dt, v^ = 0; c_a = 2/dt^2, a^ = -2 v^n/dt.
 template <int Dim>
 struct PredictMidpoint {

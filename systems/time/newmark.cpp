@@ -12,7 +12,7 @@ void PredictNewmark<Dim>::operator()(Read<Clock> clock, Read<NewmarkParameters> 
   const double dt = clock->step;
   const double beta = newmark->beta;
   const double gamma = newmark->gamma;
-  *rates = {.velocity = gamma / (beta * dt), .acceleration = 1 / (beta * dt * dt), .time = clock->time + dt};
+  *rates = newmark_rates(*clock, *newmark);
   for_each_row(v_i.size(), [&](std::size_t i) {
     v_predicted[i] = -(gamma / beta - 1) * v_i[i] - (dt / 2 * (gamma / beta - 2)) * a_i[i];
     a_predicted[i] = -1 / (beta * dt) * v_i[i] - (1 / (2 * beta) - 1) * a_i[i];
@@ -36,7 +36,7 @@ void PredictBackwardEuler<Dim>::operator()(Read<Clock> clock, Read<node::Velocit
                                            Write<node::PredictedVelocity<Dim>> v_predicted,
                                            Write<node::PredictedAcceleration<Dim>> a_predicted) const {
   const double dt = clock->step;
-  *rates = {.velocity = 1 / dt, .acceleration = 1 / (dt * dt), .time = clock->time};
+  *rates = backward_euler_rates(*clock);
   for_each_row(v_i.size(), [&](std::size_t i) {
     v_predicted[i].setZero();
     a_predicted[i] = -1 / dt * v_i[i];

@@ -15,6 +15,20 @@
 
 namespace minamo {
 
+/// (E10)  c_v = gamma/(beta dt), c_a = 1/(beta dt^2), at the end of the step.
+inline Rates newmark_rates(const Clock& clock, const NewmarkParameters& newmark) {
+  const double dt = clock.step;
+  return {.velocity = newmark.gamma / (newmark.beta * dt),
+          .acceleration = 1 / (newmark.beta * dt * dt),
+          .time = clock.time + dt};
+}
+
+/// (E13)  c_v = 1/dt, c_a = 1/dt^2, of a standing step.
+inline Rates backward_euler_rates(const Clock& clock) {
+  const double dt = clock.step;
+  return {.velocity = 1 / dt, .acceleration = 1 / (dt * dt), .time = clock.time};
+}
+
 /// (E10)  c_v = gamma/(beta dt), v^ = -(gamma/beta - 1) v^n - dt/2 (gamma/beta - 2) a^n;
 ///        c_a = 1/(beta dt^2),   a^ = -v^n/(beta dt) - (1/(2 beta) - 1) a^n.
 template <int Dim>

@@ -1,9 +1,5 @@
 #include "systems/transfer/filter_series.hpp"
 
-#include "engine/parallel.hpp"
-
-#include <algorithm>
-
 namespace minamo {
 
 namespace {
@@ -27,16 +23,9 @@ template <int Dim>
 void filter_series(const ScatterSource<Dim>& source, const Constraints<Dim>& constraints, int order,
                    std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
                    std::span<Vec<Dim>> filtered) {
-  std::copy(v.begin(), v.end(), residue.begin());
-  std::copy(v.begin(), v.end(), filtered.begin());
-  for (int k = 1; k < order; ++k) {
-    there_and_back<Dim>(source, residue, smoothed);
-    for_each_row(v.size(), [&](std::size_t i) {
-      residue[i] -= smoothed[i];
-      hold_at_rest<Dim>(constraints, i, residue[i]);
-      filtered[i] += residue[i];
-    });
-  }
+  filter_series_by<Dim>(
+      [&](std::span<const Vec<Dim>> q, std::span<Vec<Dim>> out) { there_and_back<Dim>(source, q, out); }, constraints,
+      order, v, residue, smoothed, filtered);
 }
 
 template void filter_series<2>(const ScatterSource<2>&, const Constraints<2>&, int, std::span<const Vec<2>>,

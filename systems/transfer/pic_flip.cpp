@@ -29,9 +29,7 @@ void G2PVelocityPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Di
 }
 
 template <int Dim>
-G2PVelocityFlip<Dim>::G2PVelocityFlip(Input& input)
-    : blend(input.number("blend",
-                         {.doc = "share of FLIP, the rest is PIC", .fallback = 0.99, .at_least = 0, .at_most = 1})) {}
+G2PVelocityFlip<Dim>::G2PVelocityFlip(Input& input) : blend(flip_blend(input)) {}
 
 template <int Dim>
 void G2PVelocityFlip<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,

@@ -13,6 +13,12 @@
 
 namespace minamo {
 
+/// The option `blend` of FLIP: its share, the rest is PIC. [1]
+inline double flip_blend(Input& input) {
+  return input.number("blend",
+                      {.doc = "share of FLIP, the rest is PIC", .fallback = 0.99, .at_least = 0, .at_most = 1});
+}
+
 /// (E4) for the velocity.
 template <int Dim>
 struct P2GVelocityPic {

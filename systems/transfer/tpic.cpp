@@ -24,11 +24,7 @@ void P2GAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCel
 }
 
 template <int Dim>
-G2PVelocityTpic<Dim>::G2PVelocityTpic(Input& in)
-    : conserves_spin(in.choice("spin", std::vector<std::string>{"conserved", "gradient"},
-                               "rotation that particles carry: that of APIC, which keeps angular momentum (E71), or of "
-                               "the gradient (E18)",
-                               "conserved") == "conserved") {}
+G2PVelocityTpic<Dim>::G2PVelocityTpic(Input& in) : conserves_spin(is_spin_conserved(in)) {}
 
 template <int Dim>
 void G2PVelocityTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,

@@ -12,6 +12,15 @@
 
 namespace minamo {
 
+/// The option `spin` of TPIC: whether (E71) holds.
+inline bool is_spin_conserved(Input& in) {
+  return in.choice(
+             "spin", std::vector<std::string>{"conserved", "gradient"},
+             "rotation that particles carry: that of APIC, which keeps angular momentum (E71), or of the gradient "
+             "(E18)",
+             "conserved") == "conserved";
+}
+
 /// (E5) for the velocity.
 template <int Dim>
 struct P2GVelocityTpic {

@@ -3,6 +3,7 @@
 #include "systems/conforming/volume.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
+#include "systems/setup/memory.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/volume/delta.hpp"
 #include "systems/volume/limit_shift.hpp"
@@ -12,13 +13,6 @@ namespace minamo {
 
 namespace {
 
-/// The least number of particles per cell and direction of a scene's regions.
-int fewest_parts(const Scene& scene) {
-  int parts = scene.particles.front().per_cell;
-  for (const ParticleScene& region : scene.particles) parts = std::min(parts, region.per_cell);
-  return parts;
-}
-
 void project_faces(const Scene& scene, Recipe& recipe) {
   recipe.add("configure", "store_kinetic_energy", When::step);
   recipe.add("right_hand_side", "face_volume_source", When::step);
@@ -27,7 +21,7 @@ void project_faces(const Scene& scene, Recipe& recipe) {
   }
   if (!scene.facts.get<BodyForce>().is_zero()) recipe.add("volume", "limit_particle_shift", When::step);
   recipe.add("volume", "apply_particle_shift", When::step);
-  recipe.constant(StirGrid{fewest_parts(scene)});
+  recipe.constant(StirGrid{fewest_per_cell(scene)});
 }
 
 Contribution read_projection(Input& input, Scene&) {

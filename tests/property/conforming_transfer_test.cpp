@@ -95,24 +95,6 @@ Vec<rotations<Dim>> spin_of_faces(World& world) {
   return sum;
 }
 
-/// With the affine part of (E30), about the origin.
-template <int Dim>
-Vec<rotations<Dim>> spin_of_particles(World& world) {
-  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
-  const auto x_p = world.column<particle::Position<Dim>>();
-  std::copy(y_p.begin(), y_p.end(), x_p.begin());
-  run<MeasureMomentum<Dim>>(world);
-  const auto m_p = world.column<particle::Mass>();
-  double mass = 0;
-  Vec<Dim> centre = Vec<Dim>::Zero();
-  for (std::size_t p = 0; p < m_p.size(); ++p) {
-    mass += m_p[p];
-    centre += m_p[p] * x_p[p];
-  }
-  const auto& momentum = world.resource<measure::Momentum<Dim>>();
-  return momentum.angular + moment<Dim>(centre / mass, momentum.linear);
-}
-
 /// A rotation about an axis through the middle of the box, and random velocities on top of it.
 template <int Dim>
 void turn_faces(World& world) {
@@ -392,7 +374,7 @@ TEMPLATE_TEST_CASE_SIG("APIC hands the angular momentum of the faces to the part
   turn_faces<Dim>(world);
   run<G2PFacesApic<Dim>>(world);
   const auto of_faces = spin_of_faces<Dim, face::NewVelocity<Dim>>(world);
-  CHECK((spin_of_particles<Dim>(world) - of_faces).norm() < spin_rounding * of_faces.norm());
+  CHECK((particle_angular_momentum<Dim>(world) - of_faces).norm() < spin_rounding * of_faces.norm());
 }
 
 TEMPLATE_TEST_CASE_SIG("TPIC of both orders hands it to the particles and back", "[property]", ((int Dim), Dim), 2, 3) {
@@ -407,7 +389,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC of both orders hands it to the particles and back",
   const auto before = spin_of_faces<Dim, face::NewVelocity<Dim>>(world);
   if (scheme == "tpic") {
     run<G2PFacesTpic<Dim>>(world);
-    CHECK((spin_of_particles<Dim>(world) - before).norm() < spin_rounding * before.norm());
+    CHECK((particle_angular_momentum<Dim>(world) - before).norm() < spin_rounding * before.norm());
     run<P2GFacesTpic<Dim>>(world);
   } else {
     set_bulk<Dim>(world, 0, 1);

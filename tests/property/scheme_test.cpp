@@ -36,25 +36,6 @@ Vec<rotations<Dim>> nodal_angular_momentum(World& world) {
   return sum;
 }
 
-/// The same of the particles at their weights' places, affine part included (E30), about the origin.
-template <int Dim>
-Vec<rotations<Dim>> particle_angular_momentum(World& world) {
-  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
-  const auto x_p = world.column<particle::Position<Dim>>();
-  std::copy(y_p.begin(), y_p.end(), x_p.begin());
-  run<MeasureMomentum<Dim>>(world);
-  const auto m_p = world.column<particle::Mass>();
-  double mass = 0;
-  Vec<Dim> centre = Vec<Dim>::Zero();
-  for (std::size_t p = 0; p < m_p.size(); ++p) {
-    mass += m_p[p];
-    centre += m_p[p] * x_p[p];
-  }
-  centre /= mass;
-  const auto& momentum = world.resource<measure::Momentum<Dim>>();
-  return momentum.angular + moment<Dim>(centre, momentum.linear);
-}
-
 /// A rotation of the nodes about an axis through the middle of the box, and random velocities on top of it.
 template <int Dim>
 void turn_nodes(World& world, const RigidRotation<Dim>& rotation) {

@@ -3,6 +3,9 @@
 /// Rigid rotations and angular momentum by the right hand, written down a second time to compare with.
 
 #include "components/measure.hpp"
+#include "components/particle.hpp"
+#include "support/kernels.hpp"
+#include "systems/measure/conservation.hpp"
 
 #include <array>
 
@@ -40,6 +43,25 @@ Vec<rotations<Dim>> moment(const Vec<Dim>& x, const Vec<Dim>& v) {
     about[axis] = x[a] * v[b] - x[b] * v[a];
   }
   return about;
+}
+
+/// Of the particles at their weights' places, affine part included (E30), about the origin.
+template <int Dim>
+Vec<rotations<Dim>> particle_angular_momentum(World& world) {
+  const auto y_p = world.column<particle::QuadraturePosition<Dim>>();
+  const auto x_p = world.column<particle::Position<Dim>>();
+  std::copy(y_p.begin(), y_p.end(), x_p.begin());
+  kernels::run<MeasureMomentum<Dim>>(world);
+  const auto m_p = world.column<particle::Mass>();
+  double mass = 0;
+  Vec<Dim> centre = Vec<Dim>::Zero();
+  for (std::size_t p = 0; p < m_p.size(); ++p) {
+    mass += m_p[p];
+    centre += m_p[p] * x_p[p];
+  }
+  centre /= mass;
+  const auto& momentum = world.resource<measure::Momentum<Dim>>();
+  return momentum.angular + moment<Dim>(centre, momentum.linear);
 }
 
 }  // namespace minamo
