@@ -98,6 +98,8 @@ class Input {
   bool sound(std::string_view key) const;
   /// How many elements the list at a key (as in problem()) has, read or not; none if there is no list.
   std::optional<std::size_t> elements(std::string_view key) const;
+  /// The text at a key (as in problem()), read or not; none if there is no text.
+  std::optional<std::string> text_at(std::string_view key) const;
   /// The keys of the object at a key (as in problem()), read or not; none if there is no object.
   std::vector<std::string> names(std::string_view key) const;
   bool describing() const;

@@ -218,6 +218,11 @@ std::optional<std::size_t> Input::elements(std::string_view key) const {
   return value && value->is_array() ? std::optional(value->size()) : std::nullopt;
 }
 
+std::optional<std::string> Input::text_at(std::string_view key) const {
+  const Json* value = below(*place_, key);
+  return value && value->is_string() ? std::optional(value->get<std::string>()) : std::nullopt;
+}
+
 std::vector<std::string> Input::names(std::string_view key) const {
   std::vector<std::string> names;
   const Json* value = below(*place_, key);

@@ -31,7 +31,7 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add<GatherMoments>("moments");
   registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
-  registry.add(choice<Quadrature>("quadrature", "integrals of the balances", "mixed"));
+  registry.add(choice<Quadrature>("quadrature", "integrals of the balances", always("mixed")));
 }
 
 }  // namespace minamo

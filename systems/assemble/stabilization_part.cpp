@@ -90,7 +90,7 @@ void add_stabilization(SystemRegistry& registry) {
   registry.add(Stabilization{{"oss", "orthogonal subscales: what the projected pressure gradient leaves", read_oss}});
   registry.add(Stabilization{{"pspg", "residual of the momentum balance, one parameter tau", read_pspg}});
   registry.add(Stabilization{{"vms", "variational multiscale, parameters per cell, with a bulk viscosity", read_vms}});
-  Part part = choice<Stabilization>("stabilization", "pressure stabilization", "pspg", read_stabilization);
+  Part part = choice<Stabilization>("stabilization", "pressure stabilization", always("pspg"), read_stabilization);
   part.read = [inner = part](Input& input, Scene& scene) { return read_key(inner, input, scene); };
   registry.add(part);
 }

@@ -38,6 +38,13 @@ Contribution read_conforming(Input& input, Scene& scene) {
   return {};
 }
 
+/// Conforming, unless the scene asks for what only equal order has.
+std::string recommended(const Input& input, const Scene&) {
+  const bool of_equal_order =
+      !input.describing() && (input.has("stabilization") || input.text_at("volume/scheme") == "delta");
+  return of_equal_order ? "equal_order" : "conforming";
+}
+
 }  // namespace
 
 void add_discretization(SystemRegistry& registry) {
@@ -102,7 +109,7 @@ void add_discretization(SystemRegistry& registry) {
   registry.add(DiscretizationScheme{
       {"conforming", "splines free of divergence at every point, velocities on faces", read_conforming}});
   registry.add(DiscretizationScheme{{"equal_order", "velocity and pressure on nodes, stabilized", read_equal_order}});
-  registry.add(choice<DiscretizationScheme>("discretization", "where velocity and pressure live", "equal_order"));
+  registry.add(choice<DiscretizationScheme>("discretization", "where velocity and pressure live", recommended));
 }
 
 }  // namespace minamo

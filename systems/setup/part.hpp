@@ -123,15 +123,21 @@ std::vector<std::pair<std::string, std::string>> schemes_of(const SystemRegistry
   return schemes;
 }
 
+/// The scheme of a scene that names none; it may depend on what else stands in the scene.
+using DefaultScheme = std::function<std::string(const Input&, const Scene&)>;
+inline DefaultScheme always(const std::string& scheme) {
+  return [scheme](const Input&, const Scene&) { return scheme; };
+}
+
 /// A part whose key holds `scheme`, the name of a registered scheme, and its options.
 /// \param read  of a scheme
 template <class SchemeType>
-Part choice(const std::string& key, const std::string& doc, const std::string& fallback,
+Part choice(const std::string& key, const std::string& doc, const DefaultScheme& fallback,
             const std::function<Contribution(const SchemeType&, Input&, Scene&)>& read);
 
 /// The same for schemes that read themselves.
 template <class SchemeType>
-Part choice(const std::string& key, const std::string& doc, const std::string& fallback) {
+Part choice(const std::string& key, const std::string& doc, const DefaultScheme& fallback) {
   return choice<SchemeType>(key, doc, fallback, [](const SchemeType& scheme, Input& input, Scene& scene) {
     return scheme.read ? scheme.read(input, scene) : Contribution{};
   });
@@ -141,7 +147,7 @@ const SystemRegistry& registry_of(const Scene& scene);
 void note_scheme(Scene& scene, const std::string& part, const std::string& scheme);
 
 template <class SchemeType>
-Part choice(const std::string& key, const std::string& doc, const std::string& fallback,
+Part choice(const std::string& key, const std::string& doc, const DefaultScheme& fallback,
             const std::function<Contribution(const SchemeType&, Input&, Scene&)>& read) {
   const auto read_part = [key, doc, fallback, read](Input& input, Scene& scene) {
     Contribution contribution;
@@ -149,8 +155,9 @@ Part choice(const std::string& key, const std::string& doc, const std::string& f
     for (const auto& [name, scheme] : registry_of(scene).template choices<SchemeType>()) {
       variants.emplace_back(name, [&, &scheme = scheme](Input& in) { contribution = read(scheme, in, scene); });
     }
+    const std::string unless_named = fallback(input, scene);
     input.object(key, doc, Input::Presence::optional,
-                 [&](Input& in) { note_scheme(scene, key, in.variant("scheme", doc, fallback, variants)); });
+                 [&](Input& in) { note_scheme(scene, key, in.variant("scheme", doc, unless_named, variants)); });
     return contribution;
   };
   return {key, doc, read_part, schemes_of<SchemeType>};

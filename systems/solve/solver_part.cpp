@@ -96,7 +96,7 @@ void add_solver(SystemRegistry& registry) {
                             .solve_volume = {"solve_volume_umfpack"},
                             .bytes_per_node = umfpack_bytes_per_node,
                             .leaner = "block"});
-  registry.add(choice<LinearSolver>("solver", "linear solver", "block", read_solver));
+  registry.add(choice<LinearSolver>("solver", "linear solver", always("block"), read_solver));
 }
 
 }  // namespace minamo

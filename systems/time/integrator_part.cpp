@@ -68,7 +68,7 @@ void add_integrator(SystemRegistry& registry) {
   registry.add<CorrectBackwardEulerVelocity>("correct_backward_euler_velocity");
   registry.add(Integrator{{"midpoint", "balances in the middle of the step", read_midpoint}});
   registry.add(Integrator{{"newmark", "balances at the end of the step, particles carry accelerations", read_newmark}});
-  registry.add(choice<Integrator>("integrator", "time integration", "midpoint"));
+  registry.add(choice<Integrator>("integrator", "time integration", always("midpoint")));
 }
 
 }  // namespace minamo

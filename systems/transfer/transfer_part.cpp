@@ -73,6 +73,9 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
   };
 }
 
+/// What measures best: second derivatives on nodes; across faces there are none (systems/conforming/second_order.hpp).
+std::string recommended(const Input&, const Scene& scene) { return is_conforming(scene) ? "tpic" : "tpic2"; }
+
 }  // namespace
 
 void add_transfer(SystemRegistry& registry) {
@@ -101,7 +104,7 @@ void add_transfer(SystemRegistry& registry) {
   registry.add<G2PForceGradient>("g2p_force_gradient");
   registry.add<Advect>("advect");
   for (const TransferScheme& scheme : built_in_transfer_schemes()) registry.add(scheme);
-  registry.add(choice<TransferScheme>("transfer", "transfer between particles and grid", "tpic2", read_scheme));
+  registry.add(choice<TransferScheme>("transfer", "transfer between particles and grid", recommended, read_scheme));
 }
 
 }  // namespace minamo

@@ -73,7 +73,7 @@ void add_volume(SystemRegistry& registry) {
   registry.add(VolumeCorrection{{"none", "no correction", {}}});
   registry.add(VolumeCorrection{
       {"projection", "closes gaps and pushes apart, with the operators of the step", read_projection}});
-  registry.add(choice<VolumeCorrection>("volume", "volume correction", "projection"));
+  registry.add(choice<VolumeCorrection>("volume", "volume correction", always("projection")));
 }
 
 }  // namespace minamo

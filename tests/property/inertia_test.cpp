@@ -34,7 +34,7 @@ Json lump(bool at_wall) {
     particles["shape"]["box"]["low"].push_back(0.3);
     particles["shape"]["box"]["high"].push_back(0.5);
   }
-  return scene;
+  return of_equal_order(scene);
 }
 
 /// q_p in the rows that the particles have now, from a list in the order of ids.

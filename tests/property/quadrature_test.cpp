@@ -72,7 +72,7 @@ Json tank() {
   scene["grid"] = {{"low", low}, {"high", high}, {"cells", cells}};
   scene["body_force"] = Dim == 2 ? Json{-9.81, 0} : Json{-9.81, 0, 0};
   scene["particles"] = {{{"shape", {{"where", "x < 0.475"}}}, {"per_cell", 4}, {"arrangement", "jittered"}}};
-  return scene;
+  return of_equal_order(scene);
 }
 
 /// Of norms of whole matrices; moments of degree 4, whose terms cancel: 1e-15 measured.

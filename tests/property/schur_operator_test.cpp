@@ -23,7 +23,7 @@ Json water() {
     scene["grid"] = Json::parse(R"({"low": [0, 0, 0], "high": [1.4, 1.2, 0.5], "cells": [14, 12, 5]})");
     scene["body_force"] = {0, -9.81, 0};
   }
-  return scene;
+  return of_equal_order(scene);
 }
 
 Values random_values(std::size_t count, int seed) {

@@ -33,7 +33,7 @@ Json lump_and_wet_wall(double viscosity) {
       region["shape"]["box"]["high"].push_back(0.2);
     }
   }
-  return scene;
+  return of_equal_order(scene);
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include "systems/volume/limit_shift.hpp"
 
 using namespace minamo;
+using minamo::scene_run::of_equal_order;
 using minamo::scene_run::SceneRun;
 
 namespace {
@@ -90,14 +91,14 @@ namespace {
 
 /// A dam break that squeezes the water at the wall which it hits.
 Json impact() {
-  return Json::parse(R"({
+  return of_equal_order(Json::parse(R"({
     "dimension": 2,
     "grid": {"low": [0, 0], "high": [0.584, 0.584], "cells": [16, 16]},
     "fluid": {"density": 1000, "viscosity": 1e-3},
     "body_force": [0, -9.81],
     "particles": [{"shape": {"box": {"low": [0, 0], "high": [0.146, 0.292]}}, "per_cell": 2}],
     "time": {"end": 1, "step": 0.004}
-  })");
+  })"));
 }
 
 double energy_after_a_step(SceneRun& run) {

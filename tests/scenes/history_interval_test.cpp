@@ -90,12 +90,12 @@ TEST_CASE("systems that measure run in steps that the history has a row of", "[s
   const Json summary = run_dam_break({"/output/history=5"}, "12", folder / "out");
   std::map<std::string, int> calls;
   for (const Json& system : summary["systems"]) calls[system["name"]] = system["calls"];
-  for (const char* name : {"measure_energy", "measure_momentum", "measure_max_speed", "measure_divergence"}) {
+  for (const char* name : {"measure_energy", "measure_momentum", "measure_max_speed", "measure_face_divergence"}) {
     CHECK(calls[name] == 3);  // 5, 10, 12
   }
   CHECK(calls["write_history"] == 3);
   CHECK(calls["accept_step"] == 12);
-  CHECK(calls["advect"] == 12);
+  CHECK(calls["advect_by_faces"] == 12);
 }
 
 TEST_CASE("a run may go on with a row for other steps", "[scene]") {

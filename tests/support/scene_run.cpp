@@ -15,6 +15,11 @@ Json with(Json scene, const std::vector<std::string>& overrides) {
   return scene;
 }
 
+Json of_equal_order(Json scene) {
+  scene["discretization"] = {{"scheme", "equal_order"}};
+  return scene;
+}
+
 const SystemRegistry& registry() {
   static const SystemRegistry systems = [] {
     SystemRegistry made;

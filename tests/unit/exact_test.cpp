@@ -164,7 +164,7 @@ TEST_CASE("errors do not depend on the number of threads", "[unit][threads]") {
 }
 
 TEST_CASE("a block in free flight follows its exact solution", "[verification]") {
-  const Json scene = scene_run::with(scene_run::scene_of_file("ballistic_block.json"),
+  const Json scene = scene_run::with(scene_run::of_equal_order(scene_run::scene_of_file("ballistic_block.json")),
                                      {R"(/integrator/scheme=")" + std::string(GENERATE("newmark", "midpoint")) + '"'});
   SceneRun run(scene);
   run.step(20);

@@ -18,6 +18,11 @@ double measured(World& world, std::string_view name) {
   return *value;
 }
 
+/// The scene with TPIC on nodes.
+Json tpic_on_nodes(const std::string& name) {
+  return with(of_equal_order(scene_of_file(name)), {R"(/transfer={"scheme": "tpic"})"});
+}
+
 double velocity_error(const Json& scene, int steps) {
   SceneRun run(scene);
   run.step(steps);
@@ -25,7 +30,7 @@ double velocity_error(const Json& scene, int steps) {
 }
 
 Json taylor_green(int cells, const std::string& integrator) {
-  return with(scene_of_file("taylor_green.json"),
+  return with(tpic_on_nodes("taylor_green.json"),
               {"/grid/cells=[" + std::to_string(cells) + ", " + std::to_string(cells) + "]",
                "/time/step=" + std::to_string(0.16 / cells), R"(/integrator={"scheme": ")" + integrator + "\"}"});
 }
@@ -64,7 +69,7 @@ TEST_CASE("mixed quadrature rids Taylor-Green of where its particles are", "[ver
 TEST_CASE("the elliptical drop follows its exact solution", "[verification]") {
   // The error grows with time from 0: 1.4e-3 after 20 steps, 4.6e-3 after 100. Without the inertia correction it is
   // 2.0e-3 and 1.1e-2.
-  const Json scene = scene_of_file("elliptical_drop.json");
+  const Json scene = tpic_on_nodes("elliptical_drop.json");
   const double corrected = velocity_error(scene, 20);
   CHECK(corrected < 1.6e-3);
   CHECK(corrected < 0.8 * velocity_error(with(scene, {R"(/transfer/inertia="lumped")"}), 20));
@@ -74,7 +79,7 @@ TEST_CASE("the ball flattens to its exact ellipsoid in space", "[verification]")
   // Three cells to a radius. 0.9e-3 was measured, 1.1e-2 with lumped inertia, 1.2e-2 with the gradients of (E62) left
   // behind.
   const Json scene =
-      with(scene_of_file("drop_3d.json"), {"/grid/cells=[12, 12, 12]", "/particles/0/per_cell=2", "/time/step=0.02"});
+      with(tpic_on_nodes("drop_3d.json"), {"/grid/cells=[12, 12, 12]", "/particles/0/per_cell=2", "/time/step=0.02"});
   const double corrected = velocity_error(scene, 10);
   CHECK(corrected < 1.5e-3);
   CHECK(corrected < 0.2 * velocity_error(with(scene, {R"(/transfer/inertia="lumped")"}), 10));
@@ -82,15 +87,15 @@ TEST_CASE("the ball flattens to its exact ellipsoid in space", "[verification]")
 
 TEST_CASE("flow between no-slip walls reaches its parabola", "[verification]") {
   // At t = 1 s the flow is half developed; 0.3 % was measured, h^2 of the parabola and the start.
-  CHECK(velocity_error(scene_of_file("poiseuille.json"), 100) < 6e-3);
+  CHECK(velocity_error(tpic_on_nodes("poiseuille.json"), 100) < 6e-3);
 }
 
 TEST_CASE("a film down an incline keeps its exact velocity", "[verification]") {
-  CHECK(velocity_error(scene_of_file("film.json"), 40) < 3.5e-4);  // 1.8e-4 was measured
+  CHECK(velocity_error(tpic_on_nodes("film.json"), 40) < 3.5e-4);  // 1.8e-4 was measured
 }
 
 TEST_CASE("a film down an incline has its exact pressure", "[verification]") {
-  SceneRun run(scene_of_file("film.json"));
+  SceneRun run(tpic_on_nodes("film.json"));
   run.step(40);
   CHECK(measured(run.world(), "error_pressure") < 4.7e-4);  // 2.4e-4 was measured, 1e-4 after 400 steps
 }
