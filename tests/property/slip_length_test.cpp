@@ -172,6 +172,18 @@ void check_energy(int degree) {
   CHECK(at_walls > 0.1 * all);
 }
 
+/// Momentum along the wall after five steps from a velocity that vanishes at the floor.
+double momentum_over(const Json& floor, const std::string& integrator) {
+  Json scene = channel(2, 2, 100, floor, "slip");
+  scene["particles"][0]["velocity"] = {"y - 0.5*y*y", 0};
+  scene["integrator"] = {{"scheme", integrator}};
+  SceneRun run(scene);
+  run.step(5);
+  double sum = 0;
+  for (const Vec<2>& v : run.world().column<particle::Velocity<2>>()) sum += v[0];
+  return sum;
+}
+
 bool has(const Json& scene, const std::string& system) {
   const auto names = step_names(scene);
   return std::find(names.begin(), names.end(), system) != names.end();
@@ -189,6 +201,20 @@ TEST_CASE("a step loses the energy that viscosity and walls take", "[property]")
   SECTION("in the plane, degree 2") { check_energy<2>(2); }
   SECTION("in the plane, degree 3") { check_energy<2>(3); }
   SECTION("in space, degree 2") { check_energy<3>(2); }
+}
+
+TEST_CASE("short slip lengths tend to no-slip walls, long ones to slip walls", "[property]") {
+  const auto off = [](double length, const Json& from, const std::string& integrator) {
+    return momentum_over({{"slip_length", length}}, integrator) / momentum_over(from, integrator) - 1;
+  };
+  CHECK(off(1e-4, "no_slip", "newmark") == Approx(3.6e-5).epsilon(0.1));
+  CHECK(off(1e-6, "no_slip", "newmark") == Approx(3.7e-7).epsilon(0.1));
+  // The midpoint rule turns what the transfer brings to the wall around in every step: 6.5e-4.
+  CHECK(std::abs(off(1e-6, "no_slip", "midpoint")) < 1e-3);
+  for (const std::string integrator : {"newmark", "midpoint"}) {
+    CHECK(std::abs(off(1e6, "slip", integrator)) < 1e-6);
+    CHECK(off(1e6, "slip", integrator) == Approx(off(1e4, "slip", integrator) / 100).epsilon(0.1));
+  }
 }
 
 TEST_CASE("a wall with a short slip length has friction in the balances", "[property]") {
