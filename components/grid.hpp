@@ -58,12 +58,14 @@ struct Grid {
   }
 };
 
-/// Components of the displacement that the walls hold at zero, bit d for direction d: per axis those of the low and the
-/// high end. [1]
+/// What the sides of the box do to the liquid: per axis the low and the high end.
 template <int Dim>
 struct Walls {
+  /// Components of the displacement that are zero, bit d for direction d. [1]
   std::array<std::array<std::uint8_t, 2>, static_cast<std::size_t>(Dim)> held{};
-  static constexpr ComponentInfo info{"walls", "", "1", Lifetime::constant};
+  /// 1/b of the slip length b; 0 where nothing rubs along the wall, or where it holds the liquid. [1/m]
+  std::array<std::array<double, 2>, static_cast<std::size_t>(Dim)> per_slip_length{};
+  static constexpr ComponentInfo info{"walls", "1/b", "1/m", Lifetime::constant};
 };
 
 }  // namespace minamo

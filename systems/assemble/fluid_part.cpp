@@ -13,7 +13,8 @@ namespace {
 /// The matrices of friction, when there are the splines.
 template <int Dim>
 void seed_friction(const Scene&, World& world, SeedProblems&) {
-  world.resource<FrictionMatrices<Dim>>() = {world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>()};
+  world.resource<FrictionMatrices<Dim>>() = {world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>(),
+                                             world.resource<Walls<Dim>>()};
 }
 
 void add_friction(const Scene& scene, Recipe& recipe) {

@@ -9,6 +9,7 @@
 #include "systems/conforming/second_order.hpp"
 #include "systems/conforming/solve.hpp"
 #include "systems/conforming/solve_friction.hpp"
+#include "systems/conforming/solve_umfpack.hpp"
 #include "systems/conforming/transfer.hpp"
 #include "systems/conforming/volume.hpp"
 #include "systems/grid/bin.hpp"
@@ -92,6 +93,8 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<SolveMultipliers>("solve_multipliers");
   registry.add<ProjectFaces>("project_faces");
   registry.add<SolveFriction>("solve_friction");
+  registry.add<SolveFacesUmfpack>("solve_faces_umfpack");
+  registry.add<SolveFrictionUmfpack>("solve_face_friction_umfpack");
   registry.add<CorrectFacesMidpoint>("correct_faces_midpoint");
   registry.add<CorrectFacesNewmark>("correct_faces_newmark");
   registry.add<CorrectFacesBackwardEuler>("correct_faces_backward_euler");

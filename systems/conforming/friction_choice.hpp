@@ -4,19 +4,25 @@
 
 #include "components/fluid.hpp"
 #include "systems/setup/discretization.hpp"
+#include "systems/setup/schemes.hpp"
 #include "systems/setup/time_plan.hpp"
+
+#include <algorithm>
 
 namespace minamo {
 
 enum class Friction { none, at_start, in_balances };
 
-/// Up to nu dt/h^2 = 1e-2 friction at the start of the step is exact enough, and costs next to nothing.
+/// Up to nu dt/h^2 = 1e-2 friction at the start of the step is exact enough, and costs next to nothing. A wall with
+/// slip length b is as stiff as nu dt/(b h).
 inline Friction friction_of(const Scene& scene) {
   constexpr double largest_at_start = 1e-2;
   const Fluid& fluid = scene.facts.get<Fluid>();
   if (!is_conforming(scene) || fluid.viscosity == 0) return Friction::none;
   const double h = scene.grid.spacing;
-  const double number = fluid.viscosity * longest_step(scene) / (fluid.density * h * h);
+  const double diffusion = fluid.viscosity * longest_step(scene) / (fluid.density * h * h);
+  const auto* walls = scene.facts.find<WallFriction>();
+  const double number = walls == nullptr ? diffusion : diffusion * std::max(1.0, h * walls->largest_per_length);
   return number <= largest_at_start ? Friction::at_start : Friction::in_balances;
 }
 

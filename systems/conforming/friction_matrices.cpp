@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace minamo {
 
@@ -22,6 +24,11 @@ double integral(const Polynomial& p, const Polynomial& q) {
     for (std::size_t j = 0; j < q.size(); ++j) sum += p[i] * q[j] / static_cast<double>(i + j + 1);
   }
   return sum;
+}
+
+/// Value at the low (end 0) or the high end of the cell.
+double at_end(const Polynomial& p, std::size_t end) {
+  return end == 0 ? p[0] : std::accumulate(p.begin(), p.end(), 0.0);
 }
 
 /// The function of a face as a product of polynomials, one per axis.
@@ -52,13 +59,49 @@ double friction(const Product<Dim>& f, const Product<Dim>& g) {
   return sum;
 }
 
+/// Integral of f g over the low (end 0) or the high side of the cell across an axis.
+template <int Dim>
+double over_side(const Product<Dim>& f, const Product<Dim>& g, std::size_t axis, std::size_t end) {
+  double product = 1;
+  for (std::size_t e = 0; e < Dim; ++e) {
+    const Polynomial& p = f.factor[e];
+    const Polynomial& q = g.factor[e];
+    product *= e == axis ? at_end(p, end) * at_end(q, end) : integral(p, q);
+  }
+  return product;
+}
+
+/// (E83) What walls with slip lengths add, faces along the wall alone.
+template <int Dim, class PerLength>
+double wall_friction(const Product<Dim>& f, const Product<Dim>& g, const PerLength& per_slip_length) {
+  if (f.direction != g.direction) return 0;
+  double sum = 0;
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    if (static_cast<int>(axis) == f.direction) continue;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double per_length = per_slip_length[axis][end];
+      if (per_length > 0) sum += per_length * over_side<Dim>(f, g, axis, end);
+    }
+  }
+  return sum;
+}
+
+/// Cells of an axis with the same splines and the same ends of the axis beside them.
+struct Kind {
+  std::size_t number;
+  const CellSplines* splines;
+  std::array<bool, 2> at_end;
+};
+
 /// Kinds of the cells of an axis, each once.
-std::vector<std::pair<std::size_t, const CellSplines*>> kinds_of(const SplineAxis& axis) {
-  std::vector<std::pair<std::size_t, const CellSplines*>> kinds;
+std::vector<Kind> kinds_of(const SplineAxis& axis) {
+  std::vector<Kind> kinds;
   for (int cell = 0; cell < axis.cells(); ++cell) {
-    const std::size_t kind = axis.kind_of(cell);
-    const auto is_same = [&](const auto& other) { return other.first == kind; };
-    if (std::none_of(kinds.begin(), kinds.end(), is_same)) kinds.emplace_back(kind, &axis.of_cell(cell));
+    const std::size_t number = axis.kind_of(cell);
+    const auto is_same = [&](const Kind& other) { return other.number == number; };
+    if (std::any_of(kinds.begin(), kinds.end(), is_same)) continue;
+    const bool ends = !axis.periodic();
+    kinds.push_back({number, &axis.of_cell(cell), {ends && cell == 0, ends && cell == axis.cells() - 1}});
   }
   return kinds;
 }
@@ -67,8 +110,7 @@ std::vector<std::pair<std::size_t, const CellSplines*>> kinds_of(const SplineAxi
 
 template <int Dim>
 template <int K>
-void FrictionMatrices<Dim>::add(double scale,
-                                const std::array<const CellSplines*, static_cast<std::size_t>(Dim)>& cell) {
+void FrictionMatrices<Dim>::add(double scale, const Cell& cell) {
   std::vector<Product<Dim>> faces;
   for_each_direction<Dim>([&](auto d) {
     constexpr int D = d();
@@ -76,7 +118,7 @@ void FrictionMatrices<Dim>::add(double scale,
       Product<Dim> face{D, {}};
       for (std::size_t e = 0; e < Dim; ++e) {
         const auto a = static_cast<std::size_t>(offset[e]);
-        face.factor[e] = e == D ? cell[e]->along[a] : cell[e]->across[a];
+        face.factor[e] = e == D ? cell.splines[e]->along[a] : cell.splines[e]->across[a];
       }
       faces.push_back(face);
     });
@@ -86,7 +128,9 @@ void FrictionMatrices<Dim>::add(double scale,
     double bound = 0;
     for (const Product<Dim>& g : faces) {
       // In one order, so that the matrix is symmetric to the last digit.
-      const double entry = scale * (&f < &g ? friction<Dim>(f, g) : friction<Dim>(g, f));
+      const auto& [first, second] = &f < &g ? std::tie(f, g) : std::tie(g, f);
+      const double entry =
+          scale * (friction<Dim>(first, second) + wall_friction<Dim>(first, second, cell.per_slip_length));
       entries_.push_back(entry);
       bound += std::abs(entry);
     }
@@ -95,17 +139,20 @@ void FrictionMatrices<Dim>::add(double scale,
 }
 
 template <int Dim>
-FrictionMatrices<Dim>::FrictionMatrices(const Grid<Dim>& grid, const Splines<Dim>& splines) {
+FrictionMatrices<Dim>::FrictionMatrices(const Grid<Dim>& grid, const Splines<Dim>& splines, const Walls<Dim>& walls) {
   const double scale = std::pow(grid.spacing, Dim - 2);
   std::size_t count = 1;
   for (const SplineAxis& axis : splines.axis) count *= axis.kinds();
   place_.assign(count, 0);
-  std::array<const CellSplines*, static_cast<std::size_t>(Dim)> cell{};
+  Cell cell;
   std::size_t next = 0;
   const auto add_all = [&](auto&& self, std::size_t d, std::size_t number) -> void {
-    for (const auto& [kind, of_axis] : kinds_of(splines.axis[d])) {
-      cell[d] = of_axis;
-      const std::size_t within = number * splines.axis[d].kinds() + kind;
+    for (const Kind& kind : kinds_of(splines.axis[d])) {
+      cell.splines[d] = kind.splines;
+      for (std::size_t end = 0; end < 2; ++end) {
+        cell.per_slip_length[d][end] = kind.at_end[end] ? grid.spacing * walls.per_slip_length[d][end] : 0;
+      }
+      const std::size_t within = number * splines.axis[d].kinds() + kind.number;
       if (d > 0) {
         self(self, d - 1, within);
         continue;

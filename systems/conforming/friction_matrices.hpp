@@ -3,6 +3,11 @@
 /// (E80) Friction of the faces of a cell full of liquid of unit viscosity: the exact integrals K^_fg of 2 D(N_f):D(N_g)
 /// over the cell, D the symmetric gradient. Cells of one kind have the same matrix. It takes translations and rotations
 /// to zero, and no other velocity.
+///
+/// (E83) In a cell beside a wall with slip length b it has the wall's friction as well, the integral of N_f N_g/b over
+/// the cell's part of the wall for the directions along the wall: the traction mu v/b of Navier's condition, C. L. M.
+/// H. Navier, Mem. Acad. Sci. Inst. France 6 (1823) 389. So mu_c, what of the cell is liquid, weighs both alike, and
+/// what holds for friction inside the liquid, its bound and its diagonal, holds at the wall.
 
 #include "systems/conforming/support.hpp"
 
@@ -30,7 +35,7 @@ class FrictionMatrices {
   static constexpr ComponentInfo info{"friction.matrices", "K^", "m^(d-2)", Lifetime::constant};
 
   FrictionMatrices() = default;
-  FrictionMatrices(const Grid<Dim>& grid, const Splines<Dim>& splines);
+  FrictionMatrices(const Grid<Dim>& grid, const Splines<Dim>& splines, const Walls<Dim>& walls = {});
 
   /// K^ of a cell, symmetric, cell_faces x cell_faces. [m in 3-D; 1 in 2-D]
   const double* of(const Splines<Dim>& splines, const Index<Dim>& cell) const {
@@ -47,8 +52,13 @@ class FrictionMatrices {
     for (std::size_t d = Dim; d-- > 0;) number = number * splines.axis[d].kinds() + splines.axis[d].kind_of(cell[d]);
     return number;
   }
+  /// The splines of a cell, and 1/b of the walls beside it in units of 1/h, 0 where there is none.
+  struct Cell {
+    std::array<const CellSplines*, static_cast<std::size_t>(Dim)> splines{};
+    std::array<std::array<double, 2>, static_cast<std::size_t>(Dim)> per_slip_length{};
+  };
   template <int K>
-  void add(double scale, const std::array<const CellSplines*, static_cast<std::size_t>(Dim)>& cell);
+  void add(double scale, const Cell& cell);
 
   std::size_t faces_ = 0;
   std::vector<std::size_t> place_;  ///< by kind: which of the matrices, of kinds that there are

@@ -15,6 +15,14 @@ double spread(const Scene& scene) { return scene.dimension == 3 ? 2.5 : 1 + 6.0 
 /// Columns of faces and multipliers, what cells know of their sites, factors in the plane and multigrid in space.
 double bytes_per_site(const Scene& scene) { return scene.dimension == 2 ? 2500 : 2000; }
 
+double bytes_per_node_of(const Scene& scene, double nodes) {
+  const auto& solver = scene.facts.get<LinearSolver>();
+  if (!is_conforming(scene)) return solver.bytes_per_node(scene, nodes);
+  // All equations at once have about as many entries as with equal order.
+  const bool is_whole = solver.name == "umfpack";
+  return bytes_per_site(scene) + (is_whole ? solver.bytes_per_node(scene, nodes) : 0);
+}
+
 }  // namespace
 
 int fewest_per_cell(const Scene& scene) {
@@ -27,9 +35,7 @@ double memory_of(const Scene& scene, const SceneSize& size) {
   constexpr double program = 30e6;
   const double bytes_per_particle = scene.dimension == 2 ? 400 : 500;
   const double nodes = std::min(size.nodes * spread(scene), size.all_nodes);
-  const double bytes_per_node =
-      is_conforming(scene) ? bytes_per_site(scene) : scene.facts.get<LinearSolver>().bytes_per_node(scene, nodes);
-  return program + bytes_per_particle * size.particles + bytes_per_node * nodes;
+  return program + bytes_per_particle * size.particles + bytes_per_node_of(scene, nodes) * nodes;
 }
 
 }  // namespace minamo

@@ -24,6 +24,12 @@ struct WallCondition {
   std::string doc;
   /// The directions that a wall of the axis holds, bit d for direction d.
   std::function<std::uint8_t(int dimension, int axis)> held;
+  bool is_length = false;  ///< given as {name: slip length}, for the conforming discretization, and not as a name alone
+};
+
+/// What the walls of a scene tell other parts.
+struct WallFriction {
+  double largest_per_length = 0;  ///< 1/b of the shortest slip length b [1/m]
 };
 
 /// A linear solver is three lists of systems.
@@ -33,6 +39,9 @@ struct LinearSolver {
   std::vector<std::string> prepare;       ///< what they write, solve and solve_volume read
   std::vector<std::string> solve;         ///< matrix.displacement, matrix.pressure from matrix.momentum, matrix.mass
   std::vector<std::string> solve_volume;  ///< matrix.shift from matrix.volume_source
+  /// What solves the equations of the conforming discretization, and then those with friction in the balances.
+  std::vector<std::string> solve_on_faces = {"prepare_multipliers", "solve_multipliers", "project_faces"};
+  std::vector<std::string> solve_friction_on_faces = {"solve_friction"};
   std::function<Contribution(Input&, Scene&)> read = {};  ///< its options; may be empty
   /// Largest memory that matrices and factors take per node with a row. [byte]
   std::function<double(const Scene&, double nodes)> bytes_per_node;

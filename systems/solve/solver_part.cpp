@@ -52,10 +52,10 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
   const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
   return [solver, options](const Scene& of, Recipe& recipe) {
     if (is_conforming(of)) {
-      recipe.add("solve", "prepare_multipliers");
-      recipe.add("solve", "solve_multipliers");
-      recipe.add("solve", "project_faces");
-      if (friction_of(of) == Friction::in_balances) recipe.add("solve", "solve_friction");
+      for (const std::string& system : solver.solve_on_faces) recipe.add("solve", system);
+      if (friction_of(of) == Friction::in_balances) {
+        for (const std::string& system : solver.solve_friction_on_faces) recipe.add("solve", system);
+      }
     } else {
       for (const auto* systems : {&solver.prepare, &solver.solve}) {
         for (const std::string& system : *systems) recipe.add("solve", system);
@@ -94,6 +94,8 @@ void add_solver(SystemRegistry& registry) {
                             .prepare = {"assemble_monolithic", "factorize_umfpack"},
                             .solve = {"solve_umfpack"},
                             .solve_volume = {"solve_volume_umfpack"},
+                            .solve_on_faces = {"solve_faces_umfpack"},
+                            .solve_friction_on_faces = {"solve_face_friction_umfpack"},
                             .bytes_per_node = umfpack_bytes_per_node,
                             .leaner = "block"});
   registry.add(choice<LinearSolver>("solver", "linear solver", always("block"), read_solver));
