@@ -9,6 +9,7 @@
 #include "components/measure.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
+#include "components/staggered.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/registry.hpp"

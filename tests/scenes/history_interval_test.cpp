@@ -94,7 +94,7 @@ TEST_CASE("systems that measure run in steps that the history has a row of", "[s
     CHECK(calls[name] == 3);  // 5, 10, 12
   }
   CHECK(calls["write_history"] == 3);
-  CHECK(calls["accept_step"] == 12);
+  CHECK(calls["accept_step_on_faces"] == 12);
   CHECK(calls["advect_by_faces"] == 12);
 }
 

@@ -18,17 +18,22 @@ struct Wind {
   static constexpr ComponentInfo info{"wind", "w, k", "m/s, 1/s", Lifetime::constant};
 };
 
-/// b_I += (1 - f_I) k (w - v_I), f_I the fill fraction of the node, so that only the surface feels it.
+/// b_f += (1 - phi_f) k (w - v_f), phi_f the fill fraction beside the face, so that only the surface feels it.
 template <int Dim>
 struct ApplyWind {
-  static constexpr const char* doc = "b_I += (1 - f_I) k (w - v_I), drag of the wind";
+  static constexpr const char* doc = "b_f += (1 - phi_f) k (w - v_f), drag of the wind";
 
-  void operator()(Read<Wind<Dim>> wind, Read<Fluid> fluid, Read<node::Mass> m_i, Read<node::Capacity> V_i,
-                  Read<node::Velocity<Dim>> v_i, Update<node::BodyForce<Dim>> b_i) const {
-    for_each_row(b_i.size(), [&](std::size_t i) {
-      if (m_i[i] == 0) return;
-      const double fill = std::min(1.0, m_i[i] / (fluid->density * V_i[i]));
-      b_i[i] += (1 - fill) * wind->rate * (wind->velocity - v_i[i]);
+  void operator()(Read<Wind<Dim>> wind, Read<staggered::Neighbour<Dim>> neighbour,
+                  Read<multiplier::FillFraction> fill_fraction, Read<face::Velocity<Dim>> v_f,
+                  Update<face::BodyForce<Dim>> b_f) const {
+    for_each_row(b_f.size(), [&](std::size_t f) {
+      for (int d = 0; d < Dim; ++d) {
+        // A face lies between the multipliers of its site and of the site below.
+        const std::int32_t below = neighbour[f][2 * static_cast<std::size_t>(d)];
+        const double beside = below == staggered::none ? 0 : fill_fraction[static_cast<std::size_t>(below)];
+        const double fill = std::min(1.0, std::max(fill_fraction[f], beside));
+        b_f[f][d] += (1 - fill) * wind->rate * (wind->velocity[d] - v_f[f][d]);
+      }
     });
   }
 };
@@ -44,7 +49,7 @@ Contribution read_wind(Input& input, Scene& scene) {
     rate = wind.number("rate", {.unit = "1/s", .doc = "at which the surface takes it over", .at_least = 0});
   });
   return [velocity, rate](const Scene& of, Recipe& recipe) {
-    recipe.add("forces", "apply_wind");
+    recipe.add("material", "apply_wind");  // behind find_fill, which says where the surface is
     with_dimension(of.dimension, [&](auto dim) {
       Wind<dim()> wind;
       for (int d = 0; d < dim(); ++d) wind.velocity[d] = velocity[static_cast<std::size_t>(d)];
