@@ -63,8 +63,9 @@ void check_euclidean(const Shape<Dim>& shape, const Bounds<Dim>& where, double r
     wrong_sign += shape.contains(x) != (d <= 0);
     norm_error.add(std::abs(n.norm() - 1));
     const Vec<Dim> foot = x - d * n;
-    not_on_surface += std::abs(shape.distance(foot)) > rounding || shape.contains(foot - rounding * n) == false ||
-                      shape.contains(foot + rounding * n);
+    // On the way from the surface to the point nothing changes.
+    not_on_surface += std::abs(shape.distance(foot)) > rounding ||
+                      (d > 0 ? shape.contains(foot + rounding * n) : !shape.contains(foot - rounding * n));
     for (const Vec<Dim>& s : surface) too_far.add(std::abs(d) - (x - s).norm());
   }
   CHECK(wrong_sign == 0);
