@@ -32,7 +32,7 @@ std::string content_of(const std::filesystem::path& path) {
   std::string content(bytes, '\0');
   if (!is_file || error || !file.read(content.data(), static_cast<std::streamsize>(bytes)))
     throw MeshError(std::filesystem::exists(path, error) ? "cannot be read" : "no such file",
-                    "an STL or OBJ file, relative to the folder of the scene", path.string());
+                    "an STL or OBJ file, relative to the folder of the scene", {});
   return content;
 }
 
@@ -199,11 +199,11 @@ std::string lower_case(std::string text) {
 Triangles read_mesh(const std::filesystem::path& path) {
   const std::string kind = lower_case(path.extension().string());
   if (kind != ".stl" && kind != ".obj") {
-    throw MeshError("unknown format", "a file whose name ends in .stl or .obj", path.filename().string());
+    throw MeshError("unknown format", "a file whose name ends in .stl or .obj", {});
   }
   const std::string content = content_of(path);
   Triangles mesh = kind == ".stl" ? read_stl(content) : read_obj(content);
-  if (mesh.triangle.empty()) throw MeshError("no triangles", "a closed surface of triangles", path.string());
+  if (mesh.triangle.empty()) throw MeshError("no triangles", "a closed surface of triangles", {});
   if (mesh.corner.size() > most_corners)
     throw MeshError("too many corners", fmt::format("at most {}", most_corners), std::to_string(mesh.corner.size()));
   return mesh;

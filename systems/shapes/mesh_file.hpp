@@ -23,7 +23,7 @@ class MeshError : public std::runtime_error {
   MeshError(const std::string& what, std::string expected_instead, std::string got_instead)
       : std::runtime_error(what), expected(std::move(expected_instead)), got(std::move(got_instead)) {}
   std::string expected;
-  std::string got;
+  std::string got;  ///< empty: the name of the file tells
 };
 
 /// OBJ if the name ends in .obj, STL if in .stl. Of STL every triangle has corners of its own; its normals are not

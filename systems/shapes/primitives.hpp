@@ -46,6 +46,7 @@ class Ball : public Shape<Dim> {
   bool contains(const Vec<Dim>& x) const override;
   Bounds<Dim> bounds() const override;
 
+  const Vec<Dim>& center() const { return center_; }
   double radius() const { return radius_; }
 
  private:
