@@ -2,6 +2,8 @@
 
 #include "engine/input_place.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -155,15 +157,16 @@ Json number_schema(const InputPlace& place, const Rule& rule) {
   return place.record->of_numbers ? or_text(schema_of(rule)) : schema_of(rule);
 }
 
+bool holds_text(const Json& value) {
+  return value.is_array() ? std::any_of(value.begin(), value.end(), holds_text) : value.is_string();
+}
+
 /// Echoes what expressions came to; numbers stay as they were written.
 template <class Value>
 std::optional<Value> echo_evaluated(InputPlace& place, std::string_view key, std::optional<Value> value) {
   const Json* written = place.find(key);
   if (!value || !written) return value;
-  const bool is_text = written->is_array() ? std::any_of(written->begin(), written->end(),
-                                                         [](const Json& element) { return element.is_string(); })
-                                           : written->is_string();
-  if (is_text) place.echo[std::string(key)] = as_json(*value);
+  if (holds_text(*written)) place.echo[std::string(key)] = as_json(*value);
   return value;
 }
 
@@ -271,8 +274,53 @@ std::vector<double> Input::numbers(std::string_view key, std::size_t size, const
   return read_numbers(*place_, key, size, rule);
 }
 
+std::optional<std::vector<double>> Input::optional_numbers(std::string_view key, std::size_t size, const Number& rule) {
+  const auto check = [&](const std::string& at, const Json& value) { return checked(*place_, at, value, rule); };
+  KeyShape shape = list_shape(key, phrase(rule), number_schema(*place_, rule), size, rule.doc, {});
+  shape.presence = KeyShape::Presence::optional;
+  return echo_evaluated(*place_, key, read_elements(*place_, std::move(shape), size, std::optional<double>(), check));
+}
+
 std::vector<std::int64_t> Input::integers(std::string_view key, std::size_t size, const Integer& rule) {
   return read_numbers(*place_, key, size, rule);
+}
+
+std::vector<std::vector<double>> Input::points(std::string_view key, std::size_t size, std::size_t at_least,
+                                               const Number& rule) {
+  const std::string one = fmt::format("{} {}", size, phrase(rule).many);
+  const std::string expected = fmt::format("a list of at least {} lists of {}", at_least, one);
+  using Points = std::vector<std::vector<double>>;
+  const auto check_point = [&](const std::string& at, const Json& list) -> std::optional<std::vector<double>> {
+    const bool is_point = list.is_array() && list.size() == size;
+    if (!is_point) place_->note(at, list.is_array() ? "wrong length" : "wrong type", "a list of " + one, list);
+    std::vector<double> point;
+    for (std::size_t d = 0; is_point && d < size; ++d)
+      if (const auto x = checked(*place_, fmt::format("{}/{}", at, d), list[d], rule)) point.push_back(*x);
+    return point.size() == size ? std::optional(std::move(point)) : std::nullopt;
+  };
+  const auto check = [&](const std::string& at, const Json& list) -> std::optional<Points> {
+    if (!list.is_array() || list.size() < at_least) {
+      place_->note(at, list.is_array() ? "too short" : "wrong type", expected, list);
+      return {};
+    }
+    Points points;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (auto point = check_point(fmt::format("{}/{}", at, i), list[i])) points.push_back(std::move(*point));
+    return points.size() == list.size() ? std::optional(std::move(points)) : std::nullopt;
+  };
+  const Json point{{"type", "array"}, {"items", number_schema(*place_, rule)}, {"minItems", size}, {"maxItems", size}};
+  Json schema{{"type", "array"}, {"items", point}, {"minItems", at_least}};
+  KeyShape shape = key_shape(key, expected, std::move(schema), rule.doc, {});
+  return echo_evaluated(*place_, key, read_key(*place_, std::move(shape), std::optional<Points>(), check))
+      .value_or(Points(at_least, std::vector(size, harmless(rule))));
+}
+
+std::filesystem::path Input::path(std::string_view key, std::string_view doc) {
+  const std::string name = text(key, {.doc = doc, .fallback = {}});
+  if (!place_->find(key) || !sound(key)) return name;
+  std::filesystem::path path = std::filesystem::absolute(place_->record->file).parent_path() / name;
+  place_->echo[std::string(key)] = path.lexically_normal().string();
+  return path.lexically_normal();
 }
 
 Expression Input::expression(std::string_view key, const ExpressionScope& scope, const Number& rule) {

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -54,7 +55,15 @@ class Input {
   std::string known_name(std::string_view key, std::span<const std::string> names, std::string_view doc);
   /// Exactly `size` numbers, all within the rule; `rule.fallback` fills all of them.
   std::vector<double> numbers(std::string_view key, std::size_t size, const Number& rule);
+  /// Like numbers(), for a key that may be absent without a default.
+  std::optional<std::vector<double>> optional_numbers(std::string_view key, std::size_t size, const Number& rule);
   std::vector<std::int64_t> integers(std::string_view key, std::size_t size, const Integer& rule);
+  /// At least so many points, each a list of `size` numbers.
+  std::vector<std::vector<double>> points(std::string_view key, std::size_t size, std::size_t at_least,
+                                          const Number& rule);
+  /// The name of a file, relative to the folder of the document; the whole path is what is echoed, so that the echo may
+  /// lie elsewhere. Whether there is such a file is not looked at. Required.
+  std::filesystem::path path(std::string_view key, std::string_view doc);
   /// A number or a string that is an expression.
   Expression expression(std::string_view key, const ExpressionScope& scope, const Number& rule);
   std::vector<Expression> expressions(std::string_view key, std::size_t size, const ExpressionScope& scope,
@@ -104,6 +113,10 @@ class Input {
   std::vector<std::string> names(std::string_view key) const;
   bool describing() const;
   const std::string& pointer() const;
+  /// Describes the keys here as those of a place further up, so that objects may hold others of their own kind: call it
+  /// in description mode instead of reading the keys once more. `pointer` is that of an object under a key, with `*`
+  /// for each element of a list.
+  void same_keys_as(const std::string& pointer);
 
  private:
   explicit Input(std::shared_ptr<InputPlace> place);

@@ -35,6 +35,7 @@ struct ChoiceShape;
 struct ObjectShape {
   std::vector<KeyShape> keys;
   std::vector<ChoiceShape> choices;
+  std::string same_as = {};  ///< pointer of the object whose keys these are; empty: they are told here
 
   /// Adds a key, or widens the one of that name to both sizes.
   KeyShape& add(KeyShape key);

@@ -134,6 +134,8 @@ std::string default_text(const KeyShape& key) {
 std::string condition_text(const ChoiceShape& choice, const Alternative& alternative, const std::string& key) {
   if (!choice.key.empty()) return fmt::format(" (with {} \"{}\")", choice.key, alternative.name);
   if (key != alternative.name) return fmt::format(" (with {})", alternative.name);
+  const auto& all = choice.alternatives;
+  if (all.size() > 6) return fmt::format(" (one of {} to {})", all.front().name, all.back().name);
   std::string others;
   for (const Alternative& other : choice.alternatives)
     if (other.name != alternative.name) others += (others.empty() ? "" : ", ") + other.name;
@@ -159,9 +161,22 @@ std::string table_rows(const ObjectShape& shape, const std::string& pointer, con
   return rows;
 }
 
+/// `/list/*/key` as the place of its schema: `#/properties/list/items/properties/key`.
+std::string reference(const std::string& pointer) {
+  std::string reference = "#";
+  for (std::size_t at = 1; at <= pointer.size();) {
+    const std::size_t end = std::min(pointer.find('/', at), pointer.size());
+    const std::string step = pointer.substr(at, end - at);
+    reference += step == "*" ? "/items" : "/properties/" + step;
+    at = end + 1;
+  }
+  return reference;
+}
+
 }  // namespace
 
 Json object_schema(const ObjectShape& shape) {
+  if (!shape.same_as.empty()) return {{"$ref", reference(shape.same_as)}};
   Json schema{{"type", "object"}};
   schema.update(open_schema(shape));
   for (const std::string& name : all_names(shape))  // those of the choices, whose schemas are in the alternatives

@@ -235,4 +235,6 @@ bool Input::describing() const { return place_->record->describing; }
 
 const std::string& Input::pointer() const { return place_->pointer; }
 
+void Input::same_keys_as(const std::string& pointer) { place_->shape->same_as = pointer; }
+
 }  // namespace minamo

@@ -1,5 +1,7 @@
 #include "systems/setup/lattice.hpp"
 
+#include "engine/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -8,28 +10,47 @@ namespace minamo {
 
 namespace {
 
+/// Keeps, of the points that are tried one after the other, those inside a region; the many at a time that threads
+/// share, for the nearest triangle of a mesh takes a microsecond or more.
 template <int Dim>
-struct Contains {
-  const Vec<Dim>& x;
-  const Instant& start;
+class Inside {
+ public:
+  Inside(const ParticleScene& region, const Instant& start) : region_(region), start_(start) { tried_.reserve(batch); }
 
-  bool operator()(const Box& box) const {
-    for (int d = 0; d < Dim; ++d) {
-      const auto axis = static_cast<std::size_t>(d);
-      if (x[d] < box.low[axis] || x[d] > box.high[axis]) return false;
+  void try_point(const Vec<Dim>& x) {
+    tried_.push_back(x);
+    if (tried_.size() == batch) sift();
+  }
+  std::vector<Vec<Dim>> found() {
+    sift();
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr std::size_t batch = 1 << 16;
+
+  void sift() {
+    std::vector<std::uint8_t> is_inside(tried_.size());
+    if (const auto* shape = std::get_if<SharedShape<Dim>>(&region_.shape)) {
+      for_each_row(tried_.size(), [&](std::size_t k) { is_inside[k] = (*shape)->contains(tried_[k]); });
+    } else {
+      for (std::size_t k = 0; k < tried_.size(); ++k) is_inside[k] = is_where(tried_[k]);
     }
-    return true;
+    for (std::size_t k = 0; k < tried_.size(); ++k) {
+      if (is_inside[k] != 0) found_.push_back(tried_[k]);
+    }
+    tried_.clear();
   }
-  bool operator()(const Ball& ball) const {
-    double squared = 0;
-    for (int d = 0; d < Dim; ++d) squared += std::pow(x[d] - ball.center[static_cast<std::size_t>(d)], 2);
-    return squared <= ball.radius * ball.radius;
-  }
-  bool operator()(const Where& where) const {
-    Arguments arguments(start);
-    const double value = where.inside(arguments.at<Dim>(x));
+  bool is_where(const Vec<Dim>& x) const {
+    Arguments arguments(start_);
+    const double value = std::get<Where>(region_.shape).inside(arguments.at<Dim>(x));
     return std::isfinite(value) && value != 0;
   }
+
+  const ParticleScene& region_;
+  const Instant& start_;
+  std::vector<Vec<Dim>> tried_;
+  std::vector<Vec<Dim>> found_;
 };
 
 /// Parts that can lie in a shape, first and past the last per direction; all of them unless the shape has bounds.
@@ -37,19 +58,16 @@ template <int Dim>
 std::array<std::array<int, 2>, static_cast<std::size_t>(Dim)> parts_to_try(const ParticleScene& region,
                                                                            const Grid<Dim>& grid) {
   std::array<std::array<int, 2>, static_cast<std::size_t>(Dim)> range;
+  const auto* shape = std::get_if<SharedShape<Dim>>(&region.shape);
+  const Bounds<Dim> bounds = shape ? (*shape)->bounds() : Bounds<Dim>();
   for (std::size_t d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<Eigen::Index>(d);
     const int parts = grid.cells[d] * region.per_cell;
     const auto clip = [&](double x) {
-      const double part = (x - grid.low[static_cast<Eigen::Index>(d)]) / grid.spacing * region.per_cell;
+      const double part = (x - grid.low[axis]) / grid.spacing * region.per_cell;
       return static_cast<int>(std::clamp(part, 0.0, static_cast<double>(parts)));
     };
-    range[d] = {0, parts};
-    if (const auto* box = std::get_if<Box>(&region.shape)) {
-      range[d] = {std::max(0, clip(box->low[d]) - 1), std::min(parts, clip(box->high[d]) + 2)};
-    } else if (const auto* ball = std::get_if<Ball>(&region.shape)) {
-      range[d] = {std::max(0, clip(ball->center[d] - ball->radius) - 1),
-                  std::min(parts, clip(ball->center[d] + ball->radius) + 2)};
-    }
+    range[d] = {std::max(0, clip(bounds.low[axis]) - 1), std::min(parts, clip(bounds.high[axis]) + 2)};
   }
   return range;
 }
@@ -74,7 +92,7 @@ std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid
   const auto range = parts_to_try<Dim>(region, grid);
   const double part = grid.spacing / region.per_cell;
   std::mt19937_64 random(region.jitter.value_or(0));
-  std::vector<Vec<Dim>> positions;
+  Inside<Dim> inside(region, start);
   Index<Dim> at;
   for (std::size_t d = 0; d < Dim; ++d) at[d] = range[d][0];
   while (at[Dim - 1] < range[Dim - 1][1]) {
@@ -84,13 +102,13 @@ std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid
       const double within = region.jitter ? uniform(random) : 0.5;
       x[axis] = grid.low[axis] + part * (at[d] + within);
     }
-    if (std::visit(Contains<Dim>{x, start}, region.shape)) positions.push_back(x);
+    inside.try_point(x);
     for (std::size_t d = 0; d < Dim; ++d) {
       if (++at[d] < range[d][1] || d + 1 == Dim) break;
       at[d] = range[d][0];
     }
   }
-  return positions;
+  return inside.found();
 }
 
 template <int Dim>

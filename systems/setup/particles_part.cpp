@@ -5,6 +5,7 @@
 #include "systems/setup/lattice.hpp"
 #include "systems/setup/scene_checks.hpp"
 #include "systems/setup/seed_text.hpp"
+#include "systems/shapes/read_shape.hpp"
 #include "systems/transfer/scheme.hpp"
 
 #include <cmath>
@@ -14,37 +15,26 @@ namespace minamo {
 
 namespace {
 
-std::variant<Box, Ball, Where> read_shape(Input& shape, const Scene& scene) {
-  const auto dimension = static_cast<std::size_t>(scene.dimension);
-  std::variant<Box, Ball, Where> read;
-  shape.one_of("a box, a ball, or an expression",
-               {{"box",
-                 [&](Input& in) {
-                   in.object("box", "box with sides along the axes", Input::Presence::required, [&](Input& box) {
-                     read = Box{box.numbers("low", dimension, {.unit = "m", .doc = "corner"}),
-                                box.numbers("high", dimension, {.unit = "m", .doc = "opposite corner"})};
-                   });
-                 }},
-                {"ball",
-                 [&](Input& in) {
-                   in.object("ball", "disc or ball", Input::Presence::required, [&](Input& ball) {
-                     read = Ball{ball.numbers("center", dimension, {.unit = "m", .doc = "center"}),
-                                 ball.number("radius", {.unit = "m", .doc = "radius", .above = 0})};
-                   });
-                 }},
-                {"where", [&](Input& in) {
-                   read = Where{in.expression("where", scene.scope, {.doc = "particles wherever this is true"})};
-                   check_coordinates(in, "where", std::get<Where>(read).inside, scene.dimension);
-                 }}});
-  return read;
+using Region = std::variant<Where, SharedShape<2>, SharedShape<3>>;
+
+/// A shape, or `where`.
+Region read_region(Input& input, const Scene& scene) {
+  std::optional<Where> where;
+  const Input::Variants where_it_is_true{
+      {"where", [&](Input& in) {
+         where = Where{in.expression("where", scene.scope, {.doc = "particles wherever this is true"})};
+         check_coordinates(in, "where", where->inside, scene.dimension);
+       }}};
+  return with_dimension(scene.dimension, [&](auto dim) {
+    auto shape = read_shape<dim()>(input, scene, ShapePlace::inside_the_grid, where_it_is_true);
+    return shape ? Region(std::move(shape)) : Region(where.value_or(Where()));
+  });
 }
 
 ParticleScene read_particles(Input& input, const Scene& scene) {
   ParticleScene particles;
-  input.object("shape", "the region that is filled", Input::Presence::required, [&](Input& shape) {
-    particles.shape = read_shape(shape, scene);
-    check_shape(shape, particles.shape, scene.grid);
-  });
+  input.object("shape", "the region that is filled", Input::Presence::required,
+               [&](Input& shape) { particles.shape = read_region(shape, scene); });
   particles.per_cell = static_cast<int>(input.integer(
       "per_cell", {.doc = "particles per cell and direction", .fallback = 2, .at_least = 1, .at_most = 16}));
   if (input.sound("shape") && input.sound("per_cell")) check_particle_count(input, particles, scene.grid);

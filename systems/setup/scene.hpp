@@ -6,6 +6,7 @@
 #include "components/instant.hpp"
 #include "systems/setup/facts.hpp"
 #include "systems/setup/part.hpp"
+#include "systems/shapes/shape.hpp"
 
 #include <array>
 #include <map>
@@ -24,24 +25,16 @@ struct GridScene {
   std::vector<bool> periodic;  ///< per axis
 };
 
-struct Box {
-  std::vector<double> low;
-  std::vector<double> high;
-};
-struct Ball {
-  std::vector<double> center;
-  double radius = 0;
-};
 /// Wherever the expression is not zero.
 struct Where {
   Expression inside;
 };
 
 struct ParticleScene {
-  std::variant<Box, Ball, Where> shape;
-  int per_cell = 2;                     ///< per direction
-  std::optional<std::uint64_t> jitter;  ///< seed; none: a lattice
-  std::vector<Expression> velocity;     ///< [m/s]
+  std::variant<Where, SharedShape<2>, SharedShape<3>> shape;  ///< that of the dimension of the scene
+  int per_cell = 2;                                           ///< per direction
+  std::optional<std::uint64_t> jitter;                        ///< seed; none: a lattice
+  std::vector<Expression> velocity;                           ///< [m/s]
 };
 
 struct TimeScene {

@@ -81,17 +81,20 @@ bool inside(const std::vector<double>& low, const std::vector<double>& high, con
   return true;
 }
 
-/// Measure of the box around a shape; that of the grid where the shape has no bounds. [m^d]
-double extent(const std::variant<Box, Ball, Where>& shape, const GridScene& grid) {
+/// Measure of the box around a region, as far as it has one and lies in the grid. [m^d]
+double extent(const Where&, const GridScene& grid) {
   double extent = 1;
-  for (std::size_t d = 0; d < grid.low.size(); ++d) {
-    if (const auto* box = std::get_if<Box>(&shape)) {
-      extent *= box->high[d] - box->low[d];
-    } else if (const auto* ball = std::get_if<Ball>(&shape)) {
-      extent *= 2 * ball->radius;
-    } else {
-      extent *= grid.high[d] - grid.low[d];
-    }
+  for (std::size_t d = 0; d < grid.low.size(); ++d) extent *= grid.high[d] - grid.low[d];
+  return extent;
+}
+template <int Dim>
+double extent(const SharedShape<Dim>& shape, const GridScene& grid) {
+  const Bounds<Dim> bounds = shape->bounds();
+  double extent = 1;
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    const double low = std::max(bounds.low[d], grid.low[axis]);
+    extent *= std::max(0.0, std::min(bounds.high[d], grid.high[axis]) - low);
   }
   return extent;
 }
@@ -140,33 +143,18 @@ void check_grid(Input& input, GridScene& grid) {
                 nearest ? fmt::format("[{}]", fmt::join(*nearest, ", ")) : nearest_box(grid));
 }
 
-void check_shape(Input& input, const std::variant<Box, Ball, Where>& shape, const GridScene& grid) {
-  if (input.describing() || grid.spacing == 0) return;
-  if (const auto* box = std::get_if<Box>(&shape)) {
-    for (std::size_t d = 0; d < box->low.size(); ++d) {
-      if (box->low[d] < box->high[d]) continue;
-      input.problem("box", "the box is empty", "high above low in every direction",
-                    fmt::format("low [{}], high [{}] m", fmt::join(box->low, ", "), fmt::join(box->high, ", ")));
-      return;
-    }
-    if (inside(box->low, box->high, grid)) return;
-    input.problem("box", "outside the grid", box_text(grid),
-                  fmt::format("[{}] to [{}] m", fmt::join(box->low, ", "), fmt::join(box->high, ", ")));
-  } else if (const auto* ball = std::get_if<Ball>(&shape)) {
-    std::vector<double> low = ball->center;
-    std::vector<double> high = ball->center;
-    for (double& x : low) x -= ball->radius;
-    for (double& x : high) x += ball->radius;
-    if (inside(low, high, grid)) return;
-    input.problem("ball", "outside the grid", box_text(grid),
-                  fmt::format("center [{}], radius {} m", fmt::join(ball->center, ", "), ball->radius));
-  }
+void check_inside_grid(Input& input, const std::string& key, const std::vector<double>& low,
+                       const std::vector<double>& high, const GridScene& grid, std::string got) {
+  if (input.describing() || grid.spacing == 0 || inside(low, high, grid)) return;
+  if (got.empty()) got = fmt::format("[{}] to [{}] m", fmt::join(low, ", "), fmt::join(high, ", "));
+  input.problem(key, "outside the grid", box_text(grid), std::move(got));
 }
 
 void check_particle_count(Input& input, const ParticleScene& particles, const GridScene& grid) {
   if (input.describing() || grid.spacing == 0) return;
   constexpr double most_particles = 1e8;  // about 300 bytes each
-  const double count = extent(particles.shape, grid) * std::pow(particles.per_cell / grid.spacing, grid.low.size());
+  const double measure = std::visit([&](const auto& shape) { return extent(shape, grid); }, particles.shape);
+  const double count = measure * std::pow(particles.per_cell / grid.spacing, grid.low.size());
   if (count <= most_particles) return;
   input.problem("per_cell", "too many particles", fmt::format("at most {:.0e} particles, about 30 GB", most_particles),
                 fmt::format("{} per cell and direction, {:.3g} particles", particles.per_cell, count));

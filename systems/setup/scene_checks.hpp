@@ -9,8 +9,9 @@ namespace minamo {
 /// low < high, equal spacing, a size that fits into memory. Sets the spacing.
 void check_grid(Input& input, GridScene& grid);
 
-/// Boxes and balls lie inside the grid box.
-void check_shape(Input& input, const std::variant<Box, Ball, Where>& shape, const GridScene& grid);
+/// What lies between two corners lies inside the grid box. `got`: how a message tells of it; empty: by the corners.
+void check_inside_grid(Input& input, const std::string& key, const std::vector<double>& low,
+                       const std::vector<double>& high, const GridScene& grid, std::string got = {});
 
 /// Not more particles than fit into memory.
 /// \pre the shape was read without problems.

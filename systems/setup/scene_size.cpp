@@ -1,6 +1,7 @@
 #include "systems/setup/scene_size.hpp"
 
 #include "systems/setup/lattice.hpp"
+#include "systems/shapes/primitives.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,24 +28,25 @@ double product(const std::vector<double>& factors) {
 
 // The nodes of a region reach a cell beyond it on each side, two from a ball, whose surface cuts cells.
 
-SceneSize size_of(const Box& box, const GridScene& grid, const ParticleScene& region) {
+template <int Dim>
+SceneSize size_of(const shapes::Box<Dim>& box, const GridScene& grid, const ParticleScene& region) {
   std::vector<double> particles;
   std::vector<double> nodes;
-  for (std::size_t d = 0; d < box.low.size(); ++d) {
-    const double cells = (box.high[d] - box.low[d]) / grid.spacing;
+  for (const double side : box.size()) {
+    const double cells = side / grid.spacing;
     particles.push_back(std::floor(cells * region.per_cell) + 1);  // both the first and the last may lie just inside
     nodes.push_back(cells + 2);
   }
   return {product(particles), product(particles), product(nodes), 0};
 }
 
-SceneSize size_of(const Ball& ball, const GridScene& grid, const ParticleScene& region) {
-  const auto dimension = static_cast<double>(ball.center.size());
-  const double unit_ball = ball.center.size() == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
-  const double cells = ball.radius / grid.spacing;
-  const double places = std::pow(2 * cells * region.per_cell + 1, dimension);
-  return {places, std::min(places, unit_ball * std::pow(cells * region.per_cell + 1, dimension)),
-          unit_ball * std::pow(cells + 2, dimension), 0};
+template <int Dim>
+SceneSize size_of(const shapes::Ball<Dim>& ball, const GridScene& grid, const ParticleScene& region) {
+  const double unit_ball = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
+  const double cells = ball.radius() / grid.spacing;
+  const double places = std::pow(2 * cells * region.per_cell + 1, Dim);
+  return {places, std::min(places, unit_ball * std::pow(cells * region.per_cell + 1, Dim)),
+          unit_ball * std::pow(cells + 2, Dim), 0};
 }
 
 /// The grid with `stride` parts of its cells as cells.
@@ -60,7 +62,7 @@ Grid<Dim> coarse(const GridScene& scene, const std::vector<double>& parts, doubl
 }
 
 template <int Dim>
-SceneSize size_where(const Scene& scene, const ParticleScene& region) {
+SceneSize size_by_samples(const Scene& scene, const ParticleScene& region) {
   const std::vector<double> all = parts(scene.grid, region);
   const double places = product(all);
   const double samples = std::max(100.0, most_samples / static_cast<double>(scene.particles.size()));
@@ -76,10 +78,16 @@ SceneSize size_where(const Scene& scene, const ParticleScene& region) {
   return {places, particles, std::pow(side + 2, Dim), 0};
 }
 
+template <int Dim>
 SceneSize size_of(const Scene& scene, const ParticleScene& region) {
-  if (const auto* box = std::get_if<Box>(&region.shape)) return size_of(*box, scene.grid, region);
-  if (const auto* ball = std::get_if<Ball>(&region.shape)) return size_of(*ball, scene.grid, region);
-  return scene.dimension == 2 ? size_where<2>(scene, region) : size_where<3>(scene, region);
+  if (const auto* shared = std::get_if<SharedShape<Dim>>(&region.shape)) {
+    const Shape<Dim>* shape = shared->get();
+    const auto* box = dynamic_cast<const shapes::Box<Dim>*>(shape);
+    if (box && !box->is_turned()) return size_of<Dim>(*box, scene.grid, region);
+    if (const auto* ball = dynamic_cast<const shapes::Ball<Dim>*>(shape))
+      return size_of<Dim>(*ball, scene.grid, region);
+  }
+  return size_by_samples<Dim>(scene, region);
 }
 
 }  // namespace
@@ -87,7 +95,8 @@ SceneSize size_of(const Scene& scene, const ParticleScene& region) {
 SceneSize size_of(const Scene& scene) {
   SceneSize size;
   for (const ParticleScene& region : scene.particles) {
-    const SceneSize of_region = size_of(scene, region);
+    const SceneSize of_region =
+        with_dimension(scene.dimension, [&](auto dim) { return size_of<dim()>(scene, region); });
     size.places += of_region.places;
     size.particles += of_region.particles;
     size.nodes += of_region.nodes;

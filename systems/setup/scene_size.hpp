@@ -13,8 +13,8 @@ struct SceneSize {
   double all_nodes = 0;  ///< of the grid [1]
 };
 
-/// Boxes and balls are counted by their measure, other shapes at up to 2e4 places, all of them if there are no more.
-/// \pre the scene was read without problems.
+/// Boxes along the axes and balls are counted by their measure, other shapes at up to 2e4 places, all of them if there
+/// are no more. \pre the scene was read without problems.
 SceneSize size_of(const Scene& scene);
 
 }  // namespace minamo

@@ -1,6 +1,6 @@
 /// \file
 /// Every NAME.json beside this file is broken in one way; NAME.txt is what the program says about it, NAME.args, where
-/// there is one, holds further arguments, one a line.
+/// there is one, holds further arguments, one a line, NAME.obj is a mesh of the scene.
 
 #include "support/program_output.hpp"
 
@@ -56,7 +56,12 @@ TEST_CASE("a broken scene is refused with every problem told, and nothing is run
   const std::string name = GENERATE(from_range(names()));
   CAPTURE(name);
   const Folder folder;
-  fs::copy_file(broken_scenes / (name + ".json"), folder / (name + ".json"));
+  std::set<std::string> files;
+  for (const char* kind : {".json", ".obj"}) {
+    if (!fs::exists(broken_scenes / (name + kind))) continue;
+    fs::copy_file(broken_scenes / (name + kind), folder / (name + kind));
+    files.insert(name + kind);
+  }
   std::vector<std::string> arguments{"run", name + ".json"};
   for (std::string& argument : lines_of(broken_scenes / (name + ".args"))) arguments.push_back(std::move(argument));
 
@@ -64,7 +69,7 @@ TEST_CASE("a broken scene is refused with every problem told, and nothing is run
   CHECK(run.err == text_of(broken_scenes / (name + ".txt")));
   CHECK(run.code == 2);
   CHECK(run.out.empty());
-  CHECK(files_in(folder / "") == std::set<std::string>{name + ".json"});
+  CHECK(files_in(folder / "") == files);
 }
 
 TEST_CASE("every broken scene has a text, and every text a scene", "[error]") {

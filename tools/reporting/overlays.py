@@ -70,7 +70,7 @@ def corner_paths(run: Run) -> dict[str, Any] | None:
     """
     boxes = [region["shape"].get("box") for region in run.scene["particles"]]
     force = run.scene.get("body_force", [0, 0])
-    if run.dimension != 2 or not all(boxes) or not all(map(_is_number, force)) or len(run.times) == 0:
+    if run.dimension != 2 or not all(boxes) or any(box.get("angle", 0) for box in boxes) or not all(map(_is_number, force)) or len(run.times) == 0:
         return None
     sides = [(np.array(box["low"], float), np.array(box["high"], float)) for box in boxes]
     if not all(_is_free(box, sides[:k] + [run.box], run) for k, box in enumerate(sides)):

@@ -1,0 +1,28 @@
+#pragma once
+/// \file
+/// Rotation matrices.
+
+#include "components/types.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+/// By an angle in the plane, from x to y. [rad]
+inline Mat<2> rotation(double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  Mat<2> R;
+  R << c, -s, s, c;
+  return R;
+}
+
+/// By an angle [rad] about an axis of any length but zero (Rodrigues 1840).
+inline Mat<3> rotation(double angle, const Vec<3>& axis) {
+  const Vec<3> e = axis.stableNormalized();
+  Mat<3> cross;
+  cross << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;
+  return Mat<3>::Identity() + std::sin(angle) * cross + (1 - std::cos(angle)) * cross * cross;
+}
+
+}  // namespace minamo
