@@ -12,6 +12,7 @@ void add_grid(SystemRegistry& registry);            // grid/
 void add_walls(SystemRegistry& registry);           // grid/
 void add_quadrature(SystemRegistry& registry);      // assemble/
 void add_fluid(SystemRegistry& registry);           // assemble/
+void add_bodies(SystemRegistry& registry);          // bodies/
 void add_particles(SystemRegistry& registry);       // setup/
 void add_body_force(SystemRegistry& registry);      // time/
 void add_transfer(SystemRegistry& registry);        // transfer/

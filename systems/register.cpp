@@ -11,6 +11,7 @@ void register_parts(SystemRegistry& registry) {
   add_walls(registry);
   add_quadrature(registry);
   add_fluid(registry);
+  add_bodies(registry);
   add_particles(registry);
   add_body_force(registry);
   add_transfer(registry);

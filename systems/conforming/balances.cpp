@@ -108,18 +108,20 @@ template <int Dim>
 void FillFaceSource<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                      Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                      Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
-                                     Read<unknown::Staggered> of_unknown, Update<face::Predictor<Dim>> predictor,
-                                     Write<unknown::Source> source) const {
+                                     Optional<Read<face::Open<Dim>>> open,
+                                     Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
+                                     Update<face::Predictor<Dim>> predictor, Write<unknown::Source> source) const {
   const double tau = rates->velocity / rates->acceleration;
   const Constraints<Dim> walls{held.span()};
   for_each_row(predictor.size(), [&](std::size_t i) {
     predictor[i] += tau * b_f[i];
     hold_at_rest<Dim>(walls, i, predictor[i]);
   });
+  const Passage<Dim> passage{open.span(), wall_flux.span()};
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   for_each_row(source.size(), [&](std::size_t l) {
     source[l] = {};
-    source[l][unknown::balance] = incidence.divergence(of_unknown[l], predictor.span());
+    source[l][unknown::balance] = incidence.divergence(of_unknown[l], predictor.span(), passage);
   });
 }
 
@@ -127,12 +129,14 @@ template <int Dim>
 void DampFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                          Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                          Read<face::Velocity<Dim>> v_f, Read<multiplier::Volume> v_l,
-                                         Read<multiplier::Curvature> curvature, Read<unknown::Staggered> of_unknown,
-                                         Update<unknown::Source> source) const {
+                                         Read<multiplier::Curvature> curvature, Optional<Read<face::Open<Dim>>> open,
+                                         Optional<Read<face::OldWallFlux<Dim>>> wall_flux,
+                                         Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
+  const Passage<Dim> passage{open.span(), wall_flux.span()};
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   for_each_row(source.size(), [&](std::size_t l) {
     const std::size_t i = of_unknown[l];
-    const double excess = damped_share * (incidence.divergence(i, v_f.span()) + curvature[i] / v_l[i]);
+    const double excess = damped_share * (incidence.divergence(i, v_f.span(), passage) + curvature[i] / v_l[i]);
     source[l][unknown::damping] = excess;
     source[l][unknown::balance] -= excess;
   });

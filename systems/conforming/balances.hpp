@@ -4,6 +4,7 @@
 /// lambda)_f; mass: B v = 0. The integrator chooses v° and tau = c_v/c_a. Without pressure the velocity would be the
 /// predictor v*; then v = v* - m^-1 B^T x with S x = B v*, S = B m^-1 B^T, and lambda = -x/tau.
 
+#include "components/body.hpp"
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/instant.hpp"
@@ -90,6 +91,7 @@ struct FillFaceSource {
   static constexpr std::string_view doc = "(E77) B v*, source of the balances";
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
+                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::WallFlux<Dim>>> wall_flux,
                   Read<unknown::Staggered> of_unknown, Update<face::Predictor<Dim>> predictor,
                   Write<unknown::Source> source) const;
 };
@@ -102,6 +104,7 @@ struct DampFaceDivergence {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Velocity<Dim>> v_f,
                   Read<multiplier::Volume> v_l, Read<multiplier::Curvature> curvature,
+                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::OldWallFlux<Dim>>> wall_flux,
                   Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const;
 };
 

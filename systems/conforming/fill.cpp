@@ -33,6 +33,14 @@ double cell_volume(const Grid<Dim>& grid) {
   return Dim == 2 ? grid.spacing * grid.spacing : grid.spacing * grid.spacing * grid.spacing;
 }
 
+/// Mass that the particles around a face would have, were nothing of it cut away by bodies, (E85).
+constexpr double least_open_volume = 1e-2;
+template <int Dim>
+double uncut_mass(std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> open_volume, std::size_t i, std::size_t d) {
+  const auto axis = static_cast<Eigen::Index>(d);
+  return open_volume.empty() ? m_f[i][axis] : m_f[i][axis] / std::max(open_volume[i][axis], least_open_volume);
+}
+
 /// 1/mass, zero where a wall holds the face.
 template <int Dim, class MassOf>
 void invert_masses(double full_cell, const Splines<Dim>& splines, std::span<const Index<Dim>> site,
@@ -132,16 +140,20 @@ void FindLiquidCellsByMultipliers<Dim>::operator()(Read<Splines<Dim>> splines, R
 template <int Dim>
 void FindMobility<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                    Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
+                                   Optional<Read<face::OpenVolume<Dim>>> open_volume,
                                    Write<face::Mobility<Dim>> mobility) const {
-  invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
-                     [&](std::size_t i, std::size_t d, double) { return m_f[i][static_cast<Eigen::Index>(d)]; });
+  invert_masses<Dim>(
+      fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
+      [&](std::size_t i, std::size_t d, double) { return uncut_mass<Dim>(m_f.span(), open_volume.span(), i, d); });
 }
 
 template <int Dim>
 void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                         Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                                        Read<multiplier::LeastFill> least, Write<face::Mobility<Dim>> mobility) const {
+                                        Read<multiplier::LeastFill> least,
+                                        Optional<Read<face::OpenVolume<Dim>>> open_volume,
+                                        Write<face::Mobility<Dim>> mobility) const {
   // Of the multipliers below and above a face; at a wall there is one.
   const auto fill_of_face = [&](std::size_t i, std::size_t d) {
     const double above = splines->has_multiplier(site[i]) ? least[i] : 1;
@@ -152,25 +164,28 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
   invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
                      [&](std::size_t i, std::size_t d, double full) {
                        const double theta = filled_indicator(fill_of_face(i, d));
-                       return (1 - theta) * m_f[i][static_cast<Eigen::Index>(d)] + theta * full;
+                       const double of_particles = uncut_mass<Dim>(m_f.span(), open_volume.span(), i, d);
+                       return (1 - theta) * of_particles + theta * full;
                      });
 }
 
 template <int Dim>
-void AssembleMultipliers<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                          Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                          Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
-                                          Resize<Unknowns> unknowns, Write<multiplier::Row> row,
-                                          Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
-                                          Write<unknown::Neighbour<Dim>> unknown_neighbour,
-                                          Write<unknown::Conductance<Dim>> conductance,
-                                          Write<unknown::Diagonal> diagonal,
-                                          Write<unknown::NullVector> null_vector) const {
+void AssembleMultipliers<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
+    Optional<Read<face::Open<Dim>>> open, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
+    Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+    Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
+    Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Passage<Dim> passage{open.span()};
+  const auto conducts = [&](std::size_t f, std::size_t d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    return passage.share(f, axis) * mobility[f][axis];
+  };
   const auto moves = [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
-      const auto axis = static_cast<Eigen::Index>(d);
-      if (mobility[i][axis] > 0 || mobility[incidence.above(i, d)][axis] > 0) return true;
+      if (conducts(i, d) > 0 || conducts(incidence.above(i, d), d) > 0) return true;
     }
     return false;
   };
@@ -190,8 +205,8 @@ void AssembleMultipliers<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim
       unknown_neighbour[l][side] = j == staggered::none ? staggered::none : row[static_cast<std::size_t>(j)];
     }
     incidence.set_row(
-        i, [&](std::size_t f, std::size_t d) { return mobility[f][static_cast<Eigen::Index>(d)]; },
-        [&](std::size_t d) { return unknown_neighbour[l][2 * d + 1] != staggered::none; }, diagonal[l], conductance[l]);
+        i, conducts, [&](std::size_t d) { return unknown_neighbour[l][2 * d + 1] != staggered::none; }, diagonal[l],
+        conductance[l]);
   });
 }
 

@@ -2,6 +2,7 @@
 /// \file
 /// How full of liquid the grid is, and what follows: which multipliers are unknowns, and with which mass faces resist.
 
+#include "components/body.hpp"
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/particle.hpp"
@@ -46,7 +47,8 @@ template <int Dim>
 struct FindMobility {
   static constexpr std::string_view doc = "1/m_f, by particles";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
-                  Read<face::Held> held, Read<face::Mass<Dim>> m_f, Write<face::Mobility<Dim>> mobility) const;
+                  Read<face::Held> held, Read<face::Mass<Dim>> m_f, Optional<Read<face::OpenVolume<Dim>>> open_volume,
+                  Write<face::Mobility<Dim>> mobility) const;
 };
 
 /// (E68)  1/m_f with the mass of a full grid where the liquid fills it.
@@ -55,7 +57,8 @@ struct FindMobilityMixed {
   static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                  Read<multiplier::LeastFill> least, Write<face::Mobility<Dim>> mobility) const;
+                  Read<multiplier::LeastFill> least, Optional<Read<face::OpenVolume<Dim>>> open_volume,
+                  Write<face::Mobility<Dim>> mobility) const;
 };
 
 /// (E78)  The active multipliers and the matrix S = B m^-1 B^T between them.
@@ -64,10 +67,11 @@ struct AssembleMultipliers {
   static constexpr std::string_view doc = "(E77) (E78) active multipliers, S = B m^-1 B^T";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
-                  Read<multiplier::FillFraction> phi, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
-                  Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
-                  Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
-                  Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const;
+                  Read<multiplier::FillFraction> phi, Optional<Read<face::Open<Dim>>> open, Resize<Unknowns> unknowns,
+                  Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
+                  Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
+                  Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
+                  Write<unknown::NullVector> null_vector) const;
 };
 
 }  // namespace minamo

@@ -10,6 +10,19 @@
 
 namespace minamo {
 
+/// What passes a face whose velocity is u: u itself, or with bodies a_f u and what moving ones push through (E85).
+template <int Dim>
+struct Passage {
+  std::span<const Vec<Dim>> open = {};       ///< a_f; empty: no bodies
+  std::span<const Vec<Dim>> wall_flux = {};  ///< of moving bodies; empty: none [m/s]
+
+  double share(std::size_t f, Eigen::Index axis) const { return open.empty() ? 1 : open[f][axis]; }
+  double through(std::size_t f, Eigen::Index axis, double u) const {
+    if (open.empty()) return u;
+    return open[f][axis] * u + (wall_flux.empty() ? 0 : wall_flux[f][axis]);
+  }
+};
+
 template <int Dim>
 class Incidence {
  public:
@@ -19,11 +32,12 @@ class Incidence {
 
   /// (B u)_l = sum_d (u_{l + e_d} - u_l)/w_d for the multiplier of a row. [1/m of u]
   /// \pre particles touch the multiplier, so that its faces have rows
-  double divergence(std::size_t row, std::span<const Vec<Dim>> u) const {
+  double divergence(std::size_t row, std::span<const Vec<Dim>> u, const Passage<Dim>& passage = {}) const {
     double sum = 0;
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      sum += per_width(row, d) * (u[above(row, d)][axis] - u[row][axis]);
+      const std::size_t up = above(row, d);
+      sum += per_width(row, d) * (passage.through(up, axis, u[up][axis]) - passage.through(row, axis, u[row][axis]));
     }
     return sum;
   }

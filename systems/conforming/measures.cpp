@@ -11,11 +11,15 @@ namespace minamo {
 template <int Dim>
 void MeasureFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                             Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                            Optional<Read<face::Open<Dim>>> open,
+                                            Optional<Read<face::WallFlux<Dim>>> wall_flux,
                                             Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f,
                                             Write<measure::MaxDivergence> largest) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Passage<Dim> passage{open.span(), wall_flux.span()};
   largest->value = reduce_rows(
-      of_unknown.size(), 0.0, [&](std::size_t l) { return std::abs(incidence.divergence(of_unknown[l], v_f.span())); },
+      of_unknown.size(), 0.0,
+      [&](std::size_t l) { return std::abs(incidence.divergence(of_unknown[l], v_f.span(), passage)); },
       [](double x, double y) { return std::max(x, y); });
 }
 

@@ -2,6 +2,7 @@
 /// \file
 /// How well the conforming discretization keeps the volume.
 
+#include "components/body.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
@@ -16,7 +17,8 @@ template <int Dim>
 struct MeasureFaceDivergence {
   static constexpr std::string_view doc = "(E31) largest divergence";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<unknown::Staggered> of_unknown,
+                  Read<staggered::Neighbour<Dim>> neighbour, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
                   Read<face::BalanceVelocity<Dim>> v_f, Write<measure::MaxDivergence> largest) const;
 };
 

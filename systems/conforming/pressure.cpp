@@ -205,10 +205,16 @@ template <int Dim>
 void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                                       Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Volume> V_p, Read<multiplier::Force> lambda,
-                                      Write<multiplier::Pressure> p_l, Write<particle::Pressure> p_p) const {
+                                      Optional<Read<multiplier::OpenShare>> open_share, Write<multiplier::Pressure> p_l,
+                                      Write<particle::Pressure> p_p) const {
   with_degree(splines->degree, [&](auto degree) {
-    const PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span());
-    const std::vector<double> p = solve_mass(mass, lambda.span());
+    // Of a multiplier that bodies cut, lambda is the pressure times the whole volume (E85).
+    std::vector<double> force(lambda.begin(), lambda.end());
+    if (open_share) {
+      for (std::size_t i = 0; i < force.size(); ++i) force[i] *= open_share[i];
+    }
+    const PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), force);
+    const std::vector<double> p = solve_mass(mass, force);
     std::copy(p.begin(), p.end(), p_l.begin());
     mass.for_each_value(p, [&](std::size_t particle, double value) { p_p[particle] = value; });
   });

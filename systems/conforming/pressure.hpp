@@ -2,6 +2,7 @@
 /// \file
 /// The pressure behind the multipliers.
 
+#include "components/body.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
@@ -18,7 +19,8 @@ struct RecoverPressure {
   static constexpr std::string_view doc = "(E75) p_p from the multipliers";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Volume> V_p, Read<multiplier::Force> lambda, Write<multiplier::Pressure> p_l,
+                  Read<particle::Volume> V_p, Read<multiplier::Force> lambda,
+                  Optional<Read<multiplier::OpenShare>> open_share, Write<multiplier::Pressure> p_l,
                   Write<particle::Pressure> p_p) const;
 };
 

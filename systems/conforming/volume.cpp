@@ -42,14 +42,17 @@ template <int Dim>
 void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                     Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<StirGrid> stir,
                                     Read<PartFill> parts, Read<staggered::Neighbour<Dim>> neighbour,
-                                    Read<multiplier::FillFraction> phi, Read<face::NewVelocity<Dim>> v_f,
+                                    Read<multiplier::FillFraction> phi,
+                                    Optional<Read<multiplier::OpenShare>> open_share, Read<face::NewVelocity<Dim>> v_f,
                                     Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::Stir<Dim>> s_p) const {
   const double spacing = grid->spacing / stir->parts;
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       const std::uint32_t* rows = sites->of(c);
-      if (least_of_multipliers<Dim, K>(rows, phi.span()) < stirred_from) {
+      // Beside a body parts without particles are no gaps.
+      const bool is_cut = open_share && least_of_multipliers<Dim, K>(rows, open_share.span()) < 1;
+      if (is_cut || least_of_multipliers<Dim, K>(rows, phi.span()) < stirred_from) {
         for (std::size_t p = cell.begin; p < cell.end; ++p) s_p[p].setZero();
         return;
       }

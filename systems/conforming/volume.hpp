@@ -3,6 +3,7 @@
 /// What keeps particles apart on the staggered grid: the shift of the volume projection, (E36) to (E38), and stirring,
 /// both limited by (E69).
 
+#include "components/body.hpp"
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/instant.hpp"
@@ -57,8 +58,8 @@ struct StirParticles {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<StirGrid> stir, Read<PartFill> parts,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                  Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Write<particle::Stir<Dim>> s_p) const;
+                  Optional<Read<multiplier::OpenShare>> open_share, Read<face::NewVelocity<Dim>> v_f,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::Stir<Dim>> s_p) const;
 };
 
 /// (E38)  d_p = sum_f N_f d_f.

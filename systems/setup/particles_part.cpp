@@ -1,6 +1,8 @@
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
+#include "systems/bodies/bodies_part.hpp"
+#include "systems/bodies/seed_cut.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/lattice.hpp"
 #include "systems/setup/scene_checks.hpp"
@@ -69,13 +71,6 @@ Mat<Dim> velocity_gradient_at(const std::vector<Expression>& velocity, const Vec
   return gradient;
 }
 
-/// Positions, and the region that each comes from.
-template <int Dim>
-struct Seeds {
-  std::vector<Vec<Dim>> position;
-  std::vector<std::size_t> region;
-};
-
 template <int Dim>
 Vec<Dim> moved_at_walls(const Scene& scene, const Grid<Dim>& grid, int per_cell, const Vec<Dim>& x) {
   switch (scene.facts.get<LatticePlaces>()) {
@@ -108,11 +103,17 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& prob
       if (cell > 1 + 1e-9 && !overlap) overlap = &x;
       seeds.position.push_back(region.jitter ? x : moved_at_walls<Dim>(scene, grid, region.per_cell, x));
       seeds.region.push_back(r);
+      seeds.share.push_back(1);
     }
     if (overlap) {
       problems.note(pointer + "/shape", "overlaps an earlier one", "no cell more than full",
                     "more than a full cell at " + place_text<Dim>(*overlap));
     }
+  }
+  if (const auto* bodies = scene.facts.find<BodiesOfScene>()) {
+    std::vector<double> size;
+    for (const ParticleScene& region : scene.particles) size.push_back(grid.spacing / region.per_cell);
+    cut_away<Dim>(bodies->of<Dim>(), grid, size, seeds);
   }
   return seeds;
 }
@@ -137,7 +138,7 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     const ParticleScene& region = scene.particles[r];
     x_p[p] = seeds.position[p];
     id[p] = static_cast<std::int64_t>(p);
-    V_p[p] = std::pow(grid.spacing / region.per_cell, Dim);
+    V_p[p] = seeds.share[p] * std::pow(grid.spacing / region.per_cell, Dim);
     m_p[p] = density * V_p[p];
     v_p[p] = value_at<Dim>(region.velocity, x_p[p], start);
     if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], start, grid.spacing);

@@ -1,0 +1,201 @@
+#include "systems/bodies/bodies_part.hpp"
+
+#include "systems/bodies/cut.hpp"
+#include "systems/bodies/extension.hpp"
+#include "systems/bodies/fill.hpp"
+#include "systems/bodies/forces.hpp"
+#include "systems/bodies/keep_out.hpp"
+#include "systems/bodies/motion.hpp"
+#include "systems/bodies/motion_table.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/discretization.hpp"
+#include "systems/setup/scene_checks.hpp"
+#include "systems/shapes/read_shape.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace minamo {
+
+namespace {
+
+ExpressionScope of_time(const Scene& scene) { return {{"t"}, scene.constants}; }
+
+template <int Dim>
+Vec<Dim> vec(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(numbers.data());
+}
+
+/// The middle of the shape; of an endless one the origin.
+template <int Dim>
+Vec<Dim> middle_of(const SharedShape<Dim>& shape) {
+  if (!shape || !shape->bounds().finite()) return Vec<Dim>::Zero();
+  return 0.5 * (shape->bounds().low + shape->bounds().high);
+}
+
+template <int Dim>
+Prescribed<Dim> read_prescribed(Input& input, const Scene& scene, BodyScene<Dim>& body) {
+  Prescribed<Dim> motion;
+  motion.velocity =
+      input.expressions("velocity", Dim, of_time(scene),
+                        {.unit = "m/s", .doc = "of the point that it turns about; in t and constants", .fallback = 0});
+  motion.rate = Expression(0);
+  input.object("rotation", "turns the body", Input::Presence::only_if_present, [&](Input& in) {
+    const auto center =
+        in.optional_numbers("center", Dim, {.unit = "m", .doc = "at the start; else the middle of the shape"});
+    motion.rate = in.expression("rate", of_time(scene), {.unit = "1/s", .doc = "angular velocity, counter-clockwise"});
+    if (center) body.pivot = vec<Dim>(*center);
+    if constexpr (Dim == 2) {
+      motion.axis[0] = 1;
+    } else {
+      const Vec<3> axis = vec<3>(in.numbers("axis", 3, {.doc = "of any length but zero"}));
+      if (in.sound("axis") && !in.describing() && axis.norm() == 0) {
+        in.problem("axis", "no direction", "a vector that is not zero");
+      } else {
+        motion.axis = axis.stableNormalized();
+      }
+    }
+  });
+  return motion;
+}
+
+template <int Dim>
+Tabulated<Dim> read_table(Input& input) {
+  Tabulated<Dim> table;
+  input.object("table", "place by time", Input::Presence::required, [&](Input& in) {
+    const auto file = in.path("file", "CSV: time, x, y[, z][, angle in degrees], since the start");
+    if (in.describing() || !in.sound("file")) return;
+    try {
+      table = read_motion_table<Dim>(file);
+    } catch (const MotionTableError& error) {
+      in.problem("file", error.what(), error.expected, error.got);
+    }
+  });
+  return table;
+}
+
+template <int Dim>
+void read_motion(Input& input, const Scene& scene, BodyScene<Dim>& body) {
+  input.object(
+      "motion", "how the body moves; without it, not at all", Input::Presence::only_if_present, [&](Input& motion) {
+        motion.one_of("velocities, or a table",
+                      {{"prescribed",
+                        [&](Input& in) {
+                          in.object("prescribed", "moves with a given velocity", Input::Presence::required,
+                                    [&](Input& given) { body.motion = read_prescribed<Dim>(given, scene, body); });
+                        }},
+                       {"table", [&](Input& in) { body.motion = read_table<Dim>(in); }}});
+      });
+}
+
+template <int Dim>
+void check_name(Input& input, const BodyScene<Dim>& body, const BodySet<Dim>& earlier) {
+  const auto is_twin = [&](const auto& other) { return other.name == body.name; };
+  const bool can_name = !body.name.empty() && std::all_of(body.name.begin(), body.name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_';
+  });
+  if (std::any_of(earlier.bodies.begin(), earlier.bodies.end(), is_twin)) {
+    input.problem("name", "name is taken by an earlier body", "a name for each body", shown(Json(body.name)));
+  } else if (!can_name || body.name == "error") {
+    input.problem("name", "cannot name columns of the history", "letters, digits and _, and not \"error\"",
+                  shown(Json(body.name)));
+  }
+}
+
+template <int Dim>
+void check_inside(Input& input, const BodyScene<Dim>& body, const GridScene& grid) {
+  const Bounds<Dim> bounds = body.shape->bounds();
+  if (!bounds.finite() || body.moves()) return;
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    if (bounds.high[d] > grid.low[axis] && bounds.low[d] < grid.high[axis]) continue;
+    input.problem("shape", "outside the grid",
+                  fmt::format("a body that reaches into {} = {} ... {} m", "xyz"[d], grid.low[axis], grid.high[axis]),
+                  fmt::format("{} = {} ... {} m", "xyz"[d], bounds.low[d], bounds.high[d]));
+    return;
+  }
+}
+
+template <int Dim>
+void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
+  BodyScene<Dim> body;
+  body.name = input.text("name", {.doc = "its columns are NAME_force_x, NAME_torque, NAME_position_x, ..."});
+  input.object("shape", "where the body is at the start", Input::Presence::required,
+               [&](Input& shape) { body.shape = read_shape<Dim>(shape, scene, ShapePlace::anywhere); });
+  input.choice("wall", std::vector<std::string>{"slip"}, "what its surface does to the liquid", "slip");
+  body.pivot = middle_of<Dim>(body.shape);
+  read_motion<Dim>(input, scene, body);
+  if (input.describing() || !body.shape) return;
+  if (input.sound("name")) check_name<Dim>(input, body, set);
+  check_inside<Dim>(input, body, scene.grid);
+  set.bodies.push_back(std::move(body));
+}
+
+template <int Dim>
+void seed_bodies(const BodySet<Dim>& set, World& world) {
+  world.resource<BodySet<Dim>>() = set;
+  world.resource<StaticCut<Dim>>() =
+      cut_by_bodies_at_rest<Dim>(set, world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>());
+  world.resize<Bodies>(set.bodies.size());
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    world.column<body::Position<Dim>>()[b] = set.bodies[b].pivot;
+    world.column<body::Rotation<Dim>>()[b] = Mat<Dim>::Identity();
+    std::tie(world.column<body::Velocity<Dim>>()[b], world.column<body::Spin<Dim>>()[b]) =
+        velocity_at<Dim>(set.bodies[b], 0);
+    world.column<body::Angle<Dim>>()[b].setZero();
+    world.column<body::Work>()[b] = 0;
+  }
+}
+
+void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
+  recipe.add("sort", "place_bodies");
+  recipe.add("sort", "cut_faces");
+  recipe.add("sort", "find_face_extension");
+  recipe.add("boundaries", "extend_old_velocity");
+  recipe.add("material", "fill_beside_bodies");
+  recipe.add("correct", "extend_balance_velocity", When::step);
+  recipe.add("correct", "push_bodies", When::step);
+  recipe.add("advect", "move_bodies", When::step);
+  recipe.add("accept", "keep_out_of_bodies", When::step);
+  recipe.add("measure", "measure_bodies", When::step);
+  recipe.add("measure", "measure_bodies_at_start", When::standing);
+  with_dimension(scene.dimension, [&](auto dim) {
+    constexpr int Dim = dim();
+    recipe.seed([set = bodies.of<Dim>()](const Scene&, World& world, SeedProblems&) { seed_bodies<Dim>(set, world); });
+  });
+}
+
+Contribution read_bodies(Input& input, Scene& scene) {
+  BodiesOfScene bodies;
+  const auto is_there = input.elements("bodies").value_or(0) > 0;
+  input.list("bodies", "solids in the liquid", 0, [&](Input& in, std::size_t) {
+    with_dimension(scene.dimension, [&](auto dim) { read_body<dim()>(in, scene, bodies.of<dim()>()); });
+  });
+  if (!is_there || input.describing()) return {};
+  if (!is_conforming(scene)) {
+    input.problem("bodies", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
+  }
+  scene.facts.set(bodies);
+  return [bodies](const Scene& of, Recipe& recipe) { add_systems_of_bodies(bodies, of, recipe); };
+}
+
+}  // namespace
+
+void add_bodies(SystemRegistry& registry) {
+  registry.add<PlaceBodies>("place_bodies");
+  registry.add<CutFaces>("cut_faces");
+  registry.add<FindFaceExtension>("find_face_extension");
+  registry.add<ExtendOldVelocity>("extend_old_velocity");
+  registry.add<FillBesideBodies>("fill_beside_bodies");
+  registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
+  registry.add<PushBodies>("push_bodies");
+  registry.add<MoveBodies>("move_bodies");
+  registry.add<KeepOutOfBodies>("keep_out_of_bodies");
+  registry.add<MeasureBodies>("measure_bodies");
+  registry.add<MeasureBodiesAtStart>("measure_bodies_at_start");
+  registry.add(Part{"bodies", "solids in the liquid", read_bodies});
+}
+
+}  // namespace minamo

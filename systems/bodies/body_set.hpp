@@ -1,0 +1,72 @@
+#pragma once
+/// \file
+/// The bodies of a scene: shapes, and how they move.
+
+#include "components/body.hpp"
+#include "engine/expression.hpp"
+#include "systems/shapes/placement.hpp"
+#include "systems/shapes/shape.hpp"
+
+#include <Eigen/Geometry>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace minamo {
+
+/// A body that stays where it is.
+struct Fixed {};
+
+/// A body whose velocity is given as expressions of t and constants.
+template <int Dim>
+struct Prescribed {
+  std::vector<Expression> velocity;                        ///< per direction [m/s]
+  Expression rate;                                         ///< angular velocity about the axis [1/s]
+  Vec<rotations<Dim>> axis = Vec<rotations<Dim>>::Zero();  ///< unit; 1 in the plane, 0 without rotation
+};
+
+/// A body whose place is given at some instants; in between it moves steadily.
+template <int Dim>
+struct Tabulated {
+  std::vector<double> time;        ///< rising [s]
+  std::vector<Vec<Dim>> position;  ///< displacement since the start [m]
+  std::vector<double> angle;       ///< counter-clockwise, in space about z, the same count [rad]
+};
+
+template <int Dim>
+struct BodyScene {
+  std::string name;
+  SharedShape<Dim> shape;             ///< at the start
+  Vec<Dim> pivot = Vec<Dim>::Zero();  ///< the point that it turns about, at the start [m]
+  std::variant<Fixed, Prescribed<Dim>, Tabulated<Dim>> motion;
+
+  bool moves() const { return !std::holds_alternative<Fixed>(motion); }
+};
+
+template <int Dim>
+struct BodySet {
+  std::vector<BodyScene<Dim>> bodies;
+  static constexpr ComponentInfo info{"bodies", "", "", Lifetime::constant};
+
+  bool any_moves() const {
+    for (const auto& body : bodies) {
+      if (body.moves()) return true;
+    }
+    return false;
+  }
+};
+
+/// The velocity of a point at a distance r from the one that a body turns about: V + omega x r.
+inline Vec<2> rigid_velocity(const Vec<2>& velocity, const Vec<1>& spin, const Vec<2>& r) {
+  return {velocity[0] - spin[0] * r[1], velocity[1] + spin[0] * r[0]};
+}
+inline Vec<3> rigid_velocity(const Vec<3>& velocity, const Vec<3>& spin, const Vec<3>& r) {
+  return velocity + spin.cross(r);
+}
+
+/// r x f.
+inline Vec<1> moment_of(const Vec<2>& r, const Vec<2>& f) { return Vec<1>(r[0] * f[1] - r[1] * f[0]); }
+inline Vec<3> moment_of(const Vec<3>& r, const Vec<3>& f) { return r.cross(f); }
+
+}  // namespace minamo

@@ -1,0 +1,274 @@
+#include "systems/bodies/cut.hpp"
+
+#include "systems/bodies/clip.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Samples of the volume around a multiplier, per cell and direction.
+template <int Dim>
+constexpr int volume_samples = Dim == 2 ? 4 : 2;
+
+double polynomial_at(const CellSplines::Polynomial& of, double xi) {
+  double value = 0;
+  for (std::size_t k = of.size(); k-- > 0;) value = value * xi + of[k];
+  return value;
+}
+
+/// A sample along an axis: where, and the weight of a multiplier there.
+struct AxisSample {
+  double place;
+  double weight;
+};
+
+/// Samples of the spline j of degree K - 1.
+std::vector<AxisSample> samples_of(const SplineAxis& axis, int degree, int j, int per_cell, double low,
+                                   double spacing) {
+  std::vector<AxisSample> samples;
+  for (int a = degree - 1; a >= 0; --a) {
+    const int cell = j - a;
+    if (!axis.periodic() && (cell < 0 || cell >= axis.cells())) continue;
+    const int kind_of = axis.periodic() ? (cell + axis.cells()) % axis.cells() : cell;
+    for (int s = 0; s < per_cell; ++s) {
+      const double xi = (s + 0.5) / per_cell;
+      samples.push_back(
+          {low + spacing * (cell + xi), polynomial_at(axis.of_cell(kind_of).across[static_cast<std::size_t>(a)], xi)});
+    }
+  }
+  return samples;
+}
+
+/// (E85)  Integral of N_l over the open volume, over that of N_l.
+template <int Dim, class Distance>
+double volume_share(const SitePlaces<Dim>& places, const Index<Dim>& site, const Distance& distance) {
+  const Splines<Dim>& splines = places.splines();
+  const Grid<Dim>& grid = places.grid();
+  constexpr int per_cell = volume_samples<Dim>;
+  std::array<std::vector<AxisSample>, static_cast<std::size_t>(Dim)> samples;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    samples[d] = samples_of(splines.axis[d], splines.degree, site[d], per_cell, grid.low[static_cast<Eigen::Index>(d)],
+                            grid.spacing);
+  }
+  const double size = grid.spacing / per_cell;
+  double open = 0;
+  double all = 0;
+  const auto add = [&](const Vec<Dim>& x, double weight) {
+    all += weight;
+    open += weight * std::clamp(0.5 + distance(x) / size, 0.0, 1.0);
+  };
+  for (const AxisSample& a : samples[0]) {
+    for (const AxisSample& b : samples[1]) {
+      if constexpr (Dim == 2) {
+        add({a.place, b.place}, a.weight * b.weight);
+      } else {
+        for (const AxisSample& c : samples[2]) add({a.place, b.place, c.place}, a.weight * b.weight * c.weight);
+      }
+    }
+  }
+  return open / all;
+}
+
+/// The middle of a box that may reach beyond the grid, where the last sites have faces but no multiplier.
+template <int Dim>
+Vec<Dim> middle(const Bounds<Dim>& box) {
+  return 0.5 * (box.low + box.high);
+}
+
+}  // namespace
+
+template <int Dim>
+double SitePlaces<Dim>::along(std::size_t d, int i) const {
+  const SplineAxis& axis = splines_.axis[d];
+  const int cell = axis.periodic() ? i : std::clamp(i - 1, 0, axis.cells() - 1);
+  const int kind_of = axis.periodic() ? i % axis.cells() : cell;
+  const double from_low = axis.of_cell(kind_of).along_place[static_cast<std::size_t>(i - cell)];
+  return grid_.low[static_cast<Eigen::Index>(d)] + grid_.spacing * (cell + from_low);
+}
+
+template <int Dim>
+Bounds<Dim> SitePlaces<Dim>::box(const Index<Dim>& site) const {
+  Bounds<Dim> box;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    box.low[axis] = along(d, site[d]);
+    const bool has_multiplier = site[d] < splines_.axis[d].multipliers();
+    box.high[axis] = box.low[axis] + (has_multiplier ? grid_.spacing * splines_.axis[d].width(site[d]) : 0);
+  }
+  return box;
+}
+
+template <int Dim>
+Vec<Dim> SitePlaces<Dim>::face(const Index<Dim>& site, std::size_t d) const {
+  const Bounds<Dim> around = box(site);
+  Vec<Dim> x = middle<Dim>(around);
+  x[static_cast<Eigen::Index>(d)] = around.low[static_cast<Eigen::Index>(d)];
+  return x;
+}
+
+template <int Dim>
+double SitePlaces<Dim>::reach() const {
+  return 0.5 * grid_.spacing * (splines_.degree + 1) * std::sqrt(static_cast<double>(Dim));
+}
+
+template <int Dim, class Distance>
+SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded, const Distance& distance) {
+  const Bounds<Dim> box = places.box(site);
+  SiteCut<Dim> cut;
+  const bool has_multiplier = places.splines().has_multiplier(site);
+  if (bounded) {
+    const double at_middle = distance(middle<Dim>(box));
+    if (std::abs(at_middle) > places.reach()) {
+      if (at_middle < 0) cut = {Vec<Dim>::Zero(), has_multiplier ? 0.0 : 1.0};
+      return cut;
+    }
+  }
+  for (std::size_t d = 0; d < Dim; ++d) {
+    if (!places.splines().has_face(site, d)) continue;
+    const auto axis = static_cast<Eigen::Index>(d);
+    Vec<Dim> high = box.high;
+    high[axis] = box.low[axis];
+    const double open = open_share<Dim>(box.low, high, static_cast<int>(d), distance);
+    cut.open[axis] = open < least_open ? 0 : open;
+  }
+  if (has_multiplier) cut.share = volume_share<Dim>(places, site, distance);
+  return cut;
+}
+
+template <int Dim>
+StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines) {
+  StaticCut<Dim> cut;
+  cut.sites = splines.sites();
+  std::vector<Vec<Dim>> position;
+  std::vector<Mat<Dim>> rotation;
+  bool rests = false;
+  for (const auto& body : set.bodies) {
+    position.push_back(body.pivot);
+    rotation.push_back(Mat<Dim>::Identity());
+    rests = rests || !body.moves();
+  }
+  if (!rests) return cut;
+  const PlacedBodies<Dim> bodies(set, position, rotation);
+  const SitePlaces<Dim> places(grid, splines);
+  const auto at_rest = [&](const Vec<Dim>& x) { return bodies.distance(x, false); };
+  const auto index = [](std::size_t row, const Index<Dim>& count) {
+    Index<Dim> at;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      at[d] = static_cast<int>(row % static_cast<std::size_t>(count[d]));
+      row /= static_cast<std::size_t>(count[d]);
+    }
+    return at;
+  };
+  std::size_t sites = 1;
+  std::size_t cells = 1;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    sites *= static_cast<std::size_t>(cut.sites[d]);
+    cells *= static_cast<std::size_t>(grid.cells[d]);
+  }
+  cut.of.resize(sites);
+  for_each_row(
+      sites, [&](std::size_t i) { cut.of[i] = cut_site<Dim>(places, index(i, cut.sites), bodies.bounded(), at_rest); });
+  cut.near.resize(cells);
+  const double half_diagonal = 0.5 * grid.spacing * std::sqrt(static_cast<double>(Dim));
+  for_each_row(cells, [&](std::size_t c) {
+    const Vec<Dim> x = grid.position(index(c, grid.cells)) + Vec<Dim>::Constant(0.5 * grid.spacing);
+    cut.near[c] = bodies.bounded() && at_rest(x) > 1.1 * half_diagonal ? 0 : 1;
+  });
+  return cut;
+}
+
+template <int Dim>
+PlacedBodies<Dim>::PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim>> position,
+                                std::span<const Mat<Dim>> rotation)
+    : set_(set) {
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    const auto& body = set.bodies[b];
+    placement_.push_back({body.pivot, position[b], rotation[b]});
+    (body.moves() ? moving_ : resting_).push_back(b);
+    if (body.moves()) moving_bounds_.push_back(placement_.back().bounds(body.shape->bounds()));
+    bounded_ = bounded_ && body.shape->is_bounded_by_distance();
+  }
+}
+
+template <int Dim>
+typename PlacedBodies<Dim>::Nearest PlacedBodies<Dim>::nearest(const Vec<Dim>& x, bool moving) const {
+  Nearest nearest;
+  for (const std::size_t b : moving ? moving_ : resting_) {
+    const double distance = placement_[b].distance(*set_.bodies[b].shape, x);
+    if (distance < nearest.distance) nearest = {distance, static_cast<int>(b)};
+  }
+  return nearest;
+}
+
+template <int Dim>
+bool PlacedBodies<Dim>::may_be_near(const Vec<Dim>& x, double reach) const {
+  for (const Bounds<Dim>& bounds : moving_bounds_) {
+    if (((x - bounds.low).array() > -reach).all() && ((bounds.high - x).array() > -reach).all()) return true;
+  }
+  return false;
+}
+
+template <int Dim>
+void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                               Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                               Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b,
+                               Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
+                               Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
+                               Read<staggered::Neighbour<Dim>> neighbour, Write<face::Open<Dim>> open,
+                               Write<face::OpenVolume<Dim>> open_volume, Write<face::WallFlux<Dim>> flux,
+                               Write<face::OldWallFlux<Dim>> old_flux, Write<face::Closed<Dim>> closed,
+                               Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share,
+                               Update<multiplier::Capacity> capacity) const {
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const SitePlaces<Dim> places(*grid, *splines);
+  for_each_row(site.size(), [&](std::size_t i) {
+    const SiteCut<Dim> by_resting = at_rest->of.empty() ? SiteCut<Dim>{} : at_rest->at(site[i]);
+    SiteCut<Dim> cut = by_resting;
+    if (bodies.may_be_near(middle<Dim>(places.box(site[i])), places.reach())) {
+      cut = cut_site<Dim>(places, site[i], bodies.bounded(), [&](const Vec<Dim>& x) { return bodies.distance(x); });
+      cut.open = cut.open.cwiseMin(by_resting.open);
+      cut.share = std::min(cut.share, by_resting.share);
+    }
+    open[i] = cut.open;
+    share[i] = cut.share;
+    capacity[i] *= cut.share;
+    flux[i].setZero();
+    old_flux[i].setZero();
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      closed[i][d] = {1 - by_resting.open[axis], by_resting.open[axis] - cut.open[axis]};
+      closer[i][d] = {-1, -1};
+      if (cut.open[axis] == 1) continue;
+      const Vec<Dim> x = places.face(site[i], d);
+      for (const bool moving : {false, true}) {
+        if (closed[i][d][moving] == 0) continue;
+        closer[i][d][moving] = static_cast<std::int16_t>(bodies.nearest(x, moving).body);
+      }
+      if (closer[i][d][1] < 0) continue;
+      const auto b = static_cast<std::size_t>(closer[i][d][1]);
+      const Vec<Dim> r = x - c_b[b];
+      flux[i][axis] = closed[i][d][1] * rigid_velocity(V_b[b], omega_b[b], r)[axis];
+      old_flux[i][axis] = closed[i][d][1] * rigid_velocity(V_old[b], omega_old[b], r)[axis];
+    }
+  });
+  for_each_row(site.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const std::int32_t below = neighbour[i][2 * d];
+      const double of_below = below == staggered::none ? share[i] : share[static_cast<std::size_t>(below)];
+      open_volume[i][static_cast<Eigen::Index>(d)] = 0.5 * (share[i] + of_below);
+    }
+  });
+}
+
+template class SitePlaces<2>;
+template class SitePlaces<3>;
+template StaticCut<2> cut_by_bodies_at_rest<2>(const BodySet<2>&, const Grid<2>&, const Splines<2>&);
+template StaticCut<3> cut_by_bodies_at_rest<3>(const BodySet<3>&, const Grid<3>&, const Splines<3>&);
+template class PlacedBodies<2>;
+template class PlacedBodies<3>;
+template struct CutFaces<2>;
+template struct CutFaces<3>;
+
+}  // namespace minamo

@@ -1,0 +1,114 @@
+#pragma once
+/// \file
+/// (E85) What bodies leave open of the staggered grid: of every face a share of the plane between its two multipliers,
+/// of every multiplier a share of its volume.
+
+#include "components/grid.hpp"
+#include "engine/system.hpp"
+#include "systems/bodies/body_set.hpp"
+#include "systems/conforming/splines.hpp"
+
+namespace minamo {
+
+/// Faces less open than this are closed.
+inline constexpr double least_open = 1e-3;
+
+/// Where faces and multipliers are: between the Greville points of neighbouring faces lies a multiplier.
+template <int Dim>
+class SitePlaces {
+ public:
+  SitePlaces(const Grid<Dim>& grid, const Splines<Dim>& splines) : grid_(grid), splines_(splines) {}
+
+  /// Greville point of the spline i of degree K along an axis. [m]
+  double along(std::size_t d, int i) const;
+  /// The box between the faces of a site: from its own to those of the sites above. [m]
+  Bounds<Dim> box(const Index<Dim>& site) const;
+  /// Middle of a face of direction d.
+  Vec<Dim> face(const Index<Dim>& site, std::size_t d) const;
+  /// Half of the diagonal of what the splines of a multiplier cover. [m]
+  double reach() const;
+  const Grid<Dim>& grid() const { return grid_; }
+  const Splines<Dim>& splines() const { return splines_; }
+
+ private:
+  const Grid<Dim>& grid_;
+  const Splines<Dim>& splines_;
+};
+
+template <int Dim>
+struct SiteCut {
+  Vec<Dim> open = Vec<Dim>::Ones();  ///< of its faces [1]
+  double share = 1;                  ///< of the volume of its multiplier, weighted with its spline [1]
+
+  bool is_whole() const { return share == 1 && (open.array() == 1).all(); }
+};
+
+/// The cut of a site by a region, of which `distance` is the signed distance, negative inside.
+/// \param bounded  whether one distance tells of a neighbourhood (Shape::is_bounded_by_distance())
+template <int Dim, class Distance>
+SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded, const Distance& distance);
+
+/// The cut of all sites of the grid by the bodies at rest.
+template <int Dim>
+struct StaticCut {
+  Index<Dim> sites{};              ///< per direction
+  std::vector<SiteCut<Dim>> of;    ///< of all sites, x fastest; empty without bodies at rest
+  std::vector<std::uint8_t> near;  ///< cells of the grid, x fastest, whose points may lie in a body
+  static constexpr ComponentInfo info{"bodies.static_cut", "a_f", "1", Lifetime::constant};
+
+  const SiteCut<Dim>& at(const Index<Dim>& site) const {
+    std::size_t row = 0;
+    for (std::size_t d = Dim; d-- > 0;)
+      row = row * static_cast<std::size_t>(sites[d]) + static_cast<std::size_t>(site[d]);
+    return of[row];
+  }
+};
+
+template <int Dim>
+StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines);
+
+/// The bodies of a scene, where they are in the middle of the step.
+template <int Dim>
+class PlacedBodies {
+ public:
+  PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim>> position, std::span<const Mat<Dim>> rotation);
+
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();  ///< [m]
+    int body = -1;
+  };
+  /// Of the bodies at rest, or of the moving ones.
+  Nearest nearest(const Vec<Dim>& x, bool moving) const;
+  double distance(const Vec<Dim>& x, bool moving) const { return nearest(x, moving).distance; }
+  double distance(const Vec<Dim>& x) const { return std::min(distance(x, false), distance(x, true)); }
+  /// Whether a moving body may be within a distance of a point.
+  bool may_be_near(const Vec<Dim>& x, double reach) const;
+  bool bounded() const { return bounded_; }
+  const Placement<Dim>& placement(std::size_t b) const { return placement_[b]; }
+  const BodySet<Dim>& set() const { return set_; }
+
+ private:
+  const BodySet<Dim>& set_;
+  std::vector<Placement<Dim>> placement_;
+  std::vector<std::size_t> moving_;
+  std::vector<std::size_t> resting_;
+  std::vector<Bounds<Dim>> moving_bounds_;
+  bool bounded_ = true;
+};
+
+/// (E85) of the sites of a step.
+template <int Dim>
+struct CutFaces {
+  static constexpr std::string_view doc = "(E85) what bodies leave open of faces and multipliers";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b,
+                  Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                  Write<face::Open<Dim>> open, Write<face::OpenVolume<Dim>> open_volume,
+                  Write<face::WallFlux<Dim>> flux, Write<face::OldWallFlux<Dim>> old_flux,
+                  Write<face::Closed<Dim>> closed, Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share,
+                  Update<multiplier::Capacity> capacity) const;
+};
+
+}  // namespace minamo

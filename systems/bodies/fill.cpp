@@ -1,0 +1,91 @@
+#include "systems/bodies/fill.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Open share from which on a multiplier tells whether the liquid around it is full: in less few particles tell little.
+constexpr double telling_from = 0.4;
+/// Open share below which a multiplier lies inside a body.
+constexpr double inside_below = 1e-6;
+
+/// Open shares of sites that no particle touches.
+template <int Dim>
+class EmptySites {
+ public:
+  EmptySites(const SitePlaces<Dim>& places, const StaticCut<Dim>& at_rest, const PlacedBodies<Dim>& bodies)
+      : places_(places), at_rest_(at_rest), bodies_(bodies) {}
+
+  /// Of the neighbour of a site towards a side. \pre there is one
+  double share(Index<Dim> site, std::size_t side) const {
+    const std::size_t d = side / 2;
+    site[d] += side % 2 == 0 ? -1 : 1;
+    const int count = at_rest_.sites[d] > 0 ? at_rest_.sites[d] : places_.splines().sites()[d];
+    if (places_.splines().axis[d].periodic()) site[d] = (site[d] + count) % count;
+    const double by_resting = at_rest_.of.empty() ? 1 : at_rest_.at(site).share;
+    const Bounds<Dim> box = places_.box(site);
+    const Vec<Dim> x = 0.5 * (box.low + box.high);
+    if (!bodies_.may_be_near(x, places_.reach())) return by_resting;
+    return std::min(by_resting, bodies_.distance(x, true) < 0 ? 0.0 : 1.0);
+  }
+
+ private:
+  const SitePlaces<Dim>& places_;
+  const StaticCut<Dim>& at_rest_;
+  const PlacedBodies<Dim>& bodies_;
+};
+
+}  // namespace
+
+template <int Dim>
+void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                                       Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                                       Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
+                                       Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> share,
+                                       Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                                       Update<multiplier::FillFraction> phi,
+                                       Update<multiplier::LeastFill> least) const {
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const SitePlaces<Dim> places(*grid, *splines);
+  const EmptySites<Dim> empty(places, *at_rest, bodies);
+  const double cell_volume = std::pow(grid->spacing, Dim);
+  for_each_row(phi.size(), [&](std::size_t i) {
+    if (share[i] == 1) return;
+    if (share[i] < inside_below) {
+      phi[i] = 1;
+      return;
+    }
+    if (v_l[i] == 0) return;  // not all of its faces have rows
+    double filled = 2 * v_l[i];
+    double open = 2 * capacity[i];
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (splines->ends_at(site[i], side)) continue;
+      const std::int32_t j = neighbour[i][side];
+      if (j == staggered::none) {
+        open += cell_volume * empty.share(site[i], side);
+      } else {
+        filled += v_l[static_cast<std::size_t>(j)];
+        open += capacity[static_cast<std::size_t>(j)];
+      }
+    }
+    phi[i] = filled / open;
+  });
+  for_each_row(phi.size(), [&](std::size_t i) {
+    least[i] = share[i] < telling_from ? 1 : phi[i];
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (splines->ends_at(site[i], side)) continue;
+      const std::int32_t j = neighbour[i][side];
+      const bool is_empty = j == staggered::none;
+      const double open = is_empty ? empty.share(site[i], side) : share[static_cast<std::size_t>(j)];
+      if (open < telling_from) continue;
+      least[i] = std::min(least[i], is_empty ? 0 : phi[static_cast<std::size_t>(j)]);
+    }
+  });
+}
+
+template struct FillBesideBodies<2>;
+template struct FillBesideBodies<3>;
+
+}  // namespace minamo

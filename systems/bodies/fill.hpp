@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// (E86) How full the grid is beside bodies.
+
+#include "components/body.hpp"
+#include "components/grid.hpp"
+#include "engine/system.hpp"
+#include "systems/bodies/cut.hpp"
+#include "systems/conforming/splines.hpp"
+
+namespace minamo {
+
+/// (E86)  Beside a body phi_l is that of the multiplier and its neighbours together, for few particles in a small open
+/// volume tell little; inside a body nothing is missing, phi_l = 1.
+template <int Dim>
+struct FillBesideBodies {
+  static constexpr std::string_view doc = "(E86) fill fraction beside bodies";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> share,
+                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                  Update<multiplier::FillFraction> phi, Update<multiplier::LeastFill> least) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,113 @@
+#include "systems/bodies/forces.hpp"
+
+#include "systems/bodies/cut.hpp"
+#include "systems/conforming/incidence.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+struct BodyRow {
+  Vec<Dim> force;
+  Vec<rotations<Dim>> torque;
+  Vec<Dim> position;
+  Vec<Dim> velocity;
+  Vec<rotations<Dim>> angle;
+  Vec<rotations<Dim>> spin;
+  double work;
+};
+
+template <int Dim>
+void set_columns(measure::Columns& columns, const std::string& name, const BodyRow<Dim>& row) {
+  const auto vector = [&](const char* what, const Vec<Dim>& value) {
+    for (int d = 0; d < Dim; ++d) columns.set(fmt::format("{}_{}_{}", name, what, "xyz"[d]), value[d]);
+  };
+  const auto rotation = [&](const char* what, const Vec<rotations<Dim>>& value) {
+    if constexpr (Dim == 2) {
+      columns.set(fmt::format("{}_{}", name, what), value[0]);
+    } else {
+      vector(what, value);
+    }
+  };
+  vector("force", row.force);
+  rotation("torque", row.torque);
+  vector("position", row.position);
+  vector("velocity", row.velocity);
+  rotation("angle", row.angle);
+  rotation("rotation", row.spin);
+  columns.set(name + "_work", row.work);
+}
+
+}  // namespace
+
+template <int Dim>
+void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                 Read<BodySet<Dim>> set, Read<staggered::Site<Dim>> site,
+                                 Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
+                                 Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed,
+                                 Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
+                                 Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
+                                 Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
+                                 Update<body::Work> W_b) const {
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const SitePlaces<Dim> places(*grid, *splines);
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    F_b[b].setZero();
+    T_b[b].setZero();
+  }
+  const auto at = [&](std::size_t l) { return lambda[l]; };
+  // One after the other: the same sums on any number of threads.
+  for (std::size_t i = 0; i < site.size(); ++i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      if (open[i][axis] == 1) continue;
+      const double drop = incidence.gradient(i, d, at);
+      if (drop == 0) continue;
+      const Vec<Dim> x = places.face(site[i], d);
+      for (const std::size_t moving : {0, 1}) {
+        if (closer[i][d][moving] < 0) continue;
+        const auto b = static_cast<std::size_t>(closer[i][d][moving]);
+        const Vec<Dim> force = closed[i][d][moving] * drop * Vec<Dim>::Unit(axis);
+        F_b[b] += force;
+        T_b[b] += moment_of(Vec<Dim>(x - c_b[b]), force);
+      }
+    }
+  }
+  for (std::size_t b = 0; b < set->bodies.size(); ++b)
+    W_b[b] += clock->step * (F_b[b].dot(V_b[b]) + T_b[b].dot(omega_b[b]));
+}
+
+template <int Dim>
+void MeasureBodies<Dim>::operator()(Read<BodySet<Dim>> set, Read<body::Force<Dim>> F_b, Read<body::Torque<Dim>> T_b,
+                                    Read<body::Position<Dim>> c_b, Read<body::Velocity<Dim>> V_b,
+                                    Read<body::Angle<Dim>> alpha_b, Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b,
+                                    Update<measure::Columns> columns) const {
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    set_columns<Dim>(*columns, set->bodies[b].name, {F_b[b], T_b[b], c_b[b], V_b[b], alpha_b[b], omega_b[b], W_b[b]});
+  }
+}
+
+template <int Dim>
+void MeasureBodiesAtStart<Dim>::operator()(Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
+                                           Read<body::Velocity<Dim>> V_b, Read<body::Angle<Dim>> alpha_b,
+                                           Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b,
+                                           Update<measure::Columns> columns) const {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    set_columns<Dim>(*columns, set->bodies[b].name,
+                     {Vec<Dim>::Constant(nothing), Vec<rotations<Dim>>::Constant(nothing), c_b[b], V_b[b], alpha_b[b],
+                      omega_b[b], W_b[b]});
+  }
+}
+
+template struct PushBodies<2>;
+template struct PushBodies<3>;
+template struct MeasureBodiesAtStart<2>;
+template struct MeasureBodiesAtStart<3>;
+template struct MeasureBodies<2>;
+template struct MeasureBodies<3>;
+
+}  // namespace minamo

@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// (E90) What the liquid does to bodies.
+
+#include "components/body.hpp"
+#include "components/grid.hpp"
+#include "components/measure.hpp"
+#include "components/step.hpp"
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+#include "systems/bodies/body_set.hpp"
+#include "systems/conforming/splines.hpp"
+
+namespace minamo {
+
+/// (E90)  F_b = sum_f c_fb (B^T lambda)_f e_f and its moment: the force that does the work of the wall velocities in
+/// the balance of mass.
+template <int Dim>
+struct PushBodies {
+  static constexpr std::string_view doc = "(E90) force, torque and work of the pressure on bodies";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                  Read<multiplier::Force> lambda, Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed,
+                  Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Write<body::Force<Dim>> F_b,
+                  Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
+};
+
+/// Columns of the history: NAME_force_x, ..., NAME_torque, NAME_position_x, ..., NAME_velocity_x, ..., NAME_angle,
+/// NAME_rotation, NAME_work.
+template <int Dim>
+struct MeasureBodies {
+  static constexpr std::string_view doc = "forces, places and velocities of bodies";
+  void operator()(Read<BodySet<Dim>> set, Read<body::Force<Dim>> F_b, Read<body::Torque<Dim>> T_b,
+                  Read<body::Position<Dim>> c_b, Read<body::Velocity<Dim>> V_b, Read<body::Angle<Dim>> alpha_b,
+                  Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b, Update<measure::Columns> columns) const;
+};
+
+/// The same of the start, where there is no force yet.
+template <int Dim>
+struct MeasureBodiesAtStart {
+  static constexpr std::string_view doc = "places and velocities of bodies at the start";
+  void operator()(Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b, Read<body::Velocity<Dim>> V_b,
+                  Read<body::Angle<Dim>> alpha_b, Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b,
+                  Update<measure::Columns> columns) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,115 @@
+#include "systems/bodies/motion.hpp"
+
+#include "engine/step_control.hpp"
+#include "systems/shapes/rotation.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <tuple>
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+struct Twist {
+  Vec<Dim> velocity = Vec<Dim>::Zero();
+  Vec<rotations<Dim>> spin = Vec<rotations<Dim>>::Zero();
+};
+
+Mat<2> turned_by(const Vec<1>& angle) { return rotation(angle[0]); }
+Mat<3> turned_by(const Vec<3>& angle) { return angle.norm() == 0 ? Mat<3>::Identity() : rotation(angle.norm(), angle); }
+
+template <int Dim>
+Twist<Dim> twist_at(const Prescribed<Dim>& motion, double time) {
+  Twist<Dim> twist;
+  const std::array<double, 1> at{time};
+  for (int d = 0; d < Dim; ++d) twist.velocity[d] = motion.velocity[static_cast<std::size_t>(d)](at);
+  twist.spin = motion.rate(at) * motion.axis;
+  return twist;
+}
+
+/// Linear between the rows of the table, the ends before and after.
+template <int Dim>
+std::pair<Vec<Dim>, double> place_at(const Tabulated<Dim>& motion, double time) {
+  const auto after = std::upper_bound(motion.time.begin(), motion.time.end(), time);
+  if (after == motion.time.begin()) return {motion.position.front(), motion.angle.front()};
+  if (after == motion.time.end()) return {motion.position.back(), motion.angle.back()};
+  const auto k = static_cast<std::size_t>(after - motion.time.begin());
+  const double s = (time - motion.time[k - 1]) / (motion.time[k] - motion.time[k - 1]);
+  return {motion.position[k - 1] + s * (motion.position[k] - motion.position[k - 1]),
+          motion.angle[k - 1] + s * (motion.angle[k] - motion.angle[k - 1])};
+}
+
+/// Mean over [time, time + length].
+template <int Dim>
+Twist<Dim> mean_twist(const BodyScene<Dim>& body, double time, double length) {
+  Twist<Dim> mean;
+  if (const auto* prescribed = std::get_if<Prescribed<Dim>>(&body.motion)) {
+    const Twist<Dim> a = twist_at<Dim>(*prescribed, time);
+    const Twist<Dim> b = twist_at<Dim>(*prescribed, time + 0.5 * length);
+    const Twist<Dim> c = twist_at<Dim>(*prescribed, time + length);
+    mean.velocity = (a.velocity + 4 * b.velocity + c.velocity) / 6;
+    mean.spin = (a.spin + 4 * b.spin + c.spin) / 6;
+  } else if (const auto* table = std::get_if<Tabulated<Dim>>(&body.motion)) {
+    const auto [from, angle_from] = place_at(*table, time);
+    const auto [to, angle_to] = place_at(*table, time + length);
+    mean.velocity = (to - from) / length;
+    mean.spin[rotations<Dim> - 1] = (angle_to - angle_from) / length;
+  }
+  if (mean.velocity.allFinite() && mean.spin.allFinite()) return mean;
+  throw StepRejected(fmt::format("body \"{}\" has a velocity that is not finite near t = {} s", body.name, time));
+}
+
+}  // namespace
+
+template <int Dim>
+std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body, double time) {
+  Twist<Dim> twist;
+  if (const auto* prescribed = std::get_if<Prescribed<Dim>>(&body.motion)) {
+    twist = twist_at<Dim>(*prescribed, time);
+  } else {
+    constexpr double moment = 1e-6;
+    twist = mean_twist<Dim>(body, time, moment);
+  }
+  return {twist.velocity, twist.spin};
+}
+
+template <int Dim>
+void PlaceBodies<Dim>::operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
+                                  Read<body::Rotation<Dim>> R_b, Write<body::MiddlePosition<Dim>> c_middle,
+                                  Write<body::MiddleRotation<Dim>> R_middle, Write<body::MeanVelocity<Dim>> V_b,
+                                  Write<body::MeanSpin<Dim>> omega_b) const {
+  const double half = 0.5 * clock->step;
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    const Twist<Dim> mean = mean_twist<Dim>(set->bodies[b], clock->time, clock->step);
+    V_b[b] = mean.velocity;
+    omega_b[b] = mean.spin;
+    c_middle[b] = c_b[b] + half * mean.velocity;
+    R_middle[b] = turned_by(Vec<rotations<Dim>>(half * mean.spin)) * R_b[b];
+  }
+}
+
+template <int Dim>
+void MoveBodies<Dim>::operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::MeanVelocity<Dim>> V_mean,
+                                 Read<body::MeanSpin<Dim>> omega_mean, Update<body::Position<Dim>> c_b,
+                                 Update<body::Rotation<Dim>> R_b, Update<body::Angle<Dim>> alpha_b,
+                                 Update<body::Velocity<Dim>> V_b, Update<body::Spin<Dim>> omega_b) const {
+  const double dt = clock->step;
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    c_b[b] += dt * V_mean[b];
+    alpha_b[b] += dt * omega_mean[b];
+    if (omega_mean[b].norm() > 0) R_b[b] = turned_by(Vec<rotations<Dim>>(dt * omega_mean[b])) * R_b[b];
+    std::tie(V_b[b], omega_b[b]) = velocity_at<Dim>(set->bodies[b], clock->time + dt);
+  }
+}
+
+template std::pair<Vec<2>, Vec<1>> velocity_at<2>(const BodyScene<2>&, double);
+template std::pair<Vec<3>, Vec<3>> velocity_at<3>(const BodyScene<3>&, double);
+template struct PlaceBodies<2>;
+template struct PlaceBodies<3>;
+template struct MoveBodies<2>;
+template struct MoveBodies<3>;
+
+}  // namespace minamo

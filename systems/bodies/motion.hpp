@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// (E88) Motion of bodies whose place is given: where they are in the middle of the step, and at its end.
+
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+#include "systems/bodies/body_set.hpp"
+
+namespace minamo {
+
+/// Velocity and angular velocity of a body at an instant; of a tabulated one the mean over a moment.
+template <int Dim>
+std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body, double time);
+
+/// (E88)  c_b and R_b in the middle of the step, and the mean of V_b and omega_b over it, by Simpson's rule.
+/// \throws StepRejected if a velocity is not finite
+template <int Dim>
+struct PlaceBodies {
+  static constexpr std::string_view doc = "(E88) bodies in the middle of the step";
+  void operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
+                  Read<body::Rotation<Dim>> R_b, Write<body::MiddlePosition<Dim>> c_middle,
+                  Write<body::MiddleRotation<Dim>> R_middle, Write<body::MeanVelocity<Dim>> V_b,
+                  Write<body::MeanSpin<Dim>> omega_b) const;
+};
+
+/// (E88)  c_b, R_b, V_b and omega_b at the end of the step.
+template <int Dim>
+struct MoveBodies {
+  static constexpr std::string_view doc = "(E88) bodies at the end of the step";
+  void operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::MeanVelocity<Dim>> V_mean,
+                  Read<body::MeanSpin<Dim>> omega_mean, Update<body::Position<Dim>> c_b,
+                  Update<body::Rotation<Dim>> R_b, Update<body::Angle<Dim>> alpha_b, Update<body::Velocity<Dim>> V_b,
+                  Update<body::Spin<Dim>> omega_b) const;
+};
+
+}  // namespace minamo

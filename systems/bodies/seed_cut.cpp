@@ -1,0 +1,112 @@
+#include "systems/bodies/seed_cut.hpp"
+
+#include "systems/bodies/cut.hpp"
+
+#include <cmath>
+#include <unordered_map>
+
+namespace minamo {
+
+namespace {
+
+/// Share of a part from which on it makes a particle.
+constexpr double least_share = 0.3;
+/// Samples of a part per direction.
+constexpr int samples = 8;
+
+template <int Dim>
+struct Piece {
+  double share = 1;
+  Vec<Dim> middle;
+};
+
+template <int Dim>
+Piece<Dim> piece_outside(const PlacedBodies<Dim>& bodies, const Vec<Dim>& x, double size) {
+  Piece<Dim> piece{1, x};
+  const double at_middle = bodies.distance(x);
+  if (bodies.bounded() && std::abs(at_middle) > 0.5 * size * std::sqrt(static_cast<double>(Dim))) {
+    piece.share = at_middle > 0 ? 1 : 0;
+    return piece;
+  }
+  const double step = size / samples;
+  double open = 0;
+  Vec<Dim> moment = Vec<Dim>::Zero();
+  for (std::size_t k = 0; k < power(samples, Dim); ++k) {
+    Vec<Dim> offset;
+    std::size_t rest = k;
+    for (int d = 0; d < Dim; ++d) {
+      offset[d] = (static_cast<double>(rest % samples) + 0.5 - 0.5 * samples) * step;
+      rest /= samples;
+    }
+    const double share = std::clamp(0.5 + bodies.distance(Vec<Dim>(x + offset)) / step, 0.0, 1.0);
+    open += share;
+    moment += share * offset;
+  }
+  piece.share = open / static_cast<double>(power(samples, Dim));
+  if (open > 0) piece.middle += moment / open;
+  return piece;
+}
+
+}  // namespace
+
+template <int Dim>
+void cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<double>& size, Seeds<Dim>& seeds) {
+  std::vector<Vec<Dim>> position;
+  std::vector<Mat<Dim>> rotation;
+  for (const auto& body : set.bodies) {
+    position.push_back(body.pivot);
+    rotation.push_back(Mat<Dim>::Identity());
+  }
+  const PlacedBodies<Dim> bodies(set, position, rotation);
+  std::vector<Piece<Dim>> pieces(seeds.position.size());
+  for_each_row(pieces.size(), [&](std::size_t p) {
+    pieces[p] = piece_outside<Dim>(bodies, seeds.position[p], size[seeds.region[p]]);
+  });
+
+  Seeds<Dim> kept;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell;
+  const auto cell_of = [&](const Vec<Dim>& x, const Index<Dim>& aside) {
+    std::size_t row = 0;
+    for (int d = Dim; d-- > 0;) {
+      const auto cell = static_cast<int>((x[d] - grid.low[d]) / grid.spacing) + aside[static_cast<std::size_t>(d)];
+      row = row * 1'000'003 + static_cast<std::size_t>(cell + 1);
+    }
+    return row;
+  };
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (pieces[p].share < least_share) continue;
+    in_cell[cell_of(pieces[p].middle, {})].push_back(kept.position.size());
+    kept.position.push_back(pieces[p].middle);
+    kept.region.push_back(seeds.region[p]);
+    kept.share.push_back(seeds.share[p] * pieces[p].share);
+  }
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (pieces[p].share <= 0 || pieces[p].share >= least_share) continue;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t heir = 0;
+    for (std::size_t k = 0; k < power(3, Dim); ++k) {
+      Index<Dim> aside;
+      std::size_t rest = k;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        aside[d] = static_cast<int>(rest % 3) - 1;
+        rest /= 3;
+      }
+      const auto found = in_cell.find(cell_of(pieces[p].middle, aside));
+      if (found == in_cell.end()) continue;
+      for (const std::size_t q : found->second) {
+        const double distance = (kept.position[q] - pieces[p].middle).norm();
+        if (kept.region[q] == seeds.region[p] && distance < nearest) {
+          nearest = distance;
+          heir = q;
+        }
+      }
+    }
+    if (std::isfinite(nearest)) kept.share[heir] += seeds.share[p] * pieces[p].share;
+  }
+  seeds = std::move(kept);
+}
+
+template void cut_away<2>(const BodySet<2>&, const Grid<2>&, const std::vector<double>&, Seeds<2>&);
+template void cut_away<3>(const BodySet<3>&, const Grid<3>&, const std::vector<double>&, Seeds<3>&);
+
+}  // namespace minamo
