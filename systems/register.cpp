@@ -17,6 +17,7 @@ void register_parts(SystemRegistry& registry) {
   add_transfer(registry);
   add_integrator(registry);
   add_solver(registry);
+  add_extension(registry);
   add_stabilization(registry);
   add_volume(registry);
   add_time(registry);

@@ -155,7 +155,6 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   recipe.add("sort", "find_face_extension");
   recipe.add("boundaries", "extend_old_velocity");
   recipe.add("material", "fill_beside_bodies");
-  recipe.add("correct", "extend_balance_velocity", When::step);
   recipe.add("correct", "push_bodies", When::step);
   recipe.add("advect", "move_bodies", When::step);
   recipe.add("accept", "keep_out_of_bodies", When::step);
@@ -181,6 +180,13 @@ Contribution read_bodies(Input& input, Scene& scene) {
   return [bodies](const Scene& of, Recipe& recipe) { add_systems_of_bodies(bodies, of, recipe); };
 }
 
+/// Behind the solver, in standing steps too: what particles take from them is a force gradient.
+Contribution extend_velocities(Input&, Scene&) {
+  return [](const Scene& scene, Recipe& recipe) {
+    if (scene.facts.find<BodiesOfScene>()) recipe.add("solve", "extend_balance_velocity");
+  };
+}
+
 }  // namespace
 
 void add_bodies(SystemRegistry& registry) {
@@ -189,13 +195,17 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<FindFaceExtension>("find_face_extension");
   registry.add<ExtendOldVelocity>("extend_old_velocity");
   registry.add<FillBesideBodies>("fill_beside_bodies");
-  registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
   registry.add<PushBodies>("push_bodies");
   registry.add<MoveBodies>("move_bodies");
   registry.add<KeepOutOfBodies>("keep_out_of_bodies");
   registry.add<MeasureBodies>("measure_bodies");
   registry.add<MeasureBodiesAtStart>("measure_bodies_at_start");
   registry.add(Part{"bodies", "solids in the liquid", read_bodies});
+}
+
+void add_extension(SystemRegistry& registry) {
+  registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
+  registry.add(Part{"extension", "velocities of the faces that bodies close; no key", extend_velocities});
 }
 
 }  // namespace minamo

@@ -53,11 +53,12 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
   const double cell_volume = std::pow(grid->spacing, Dim);
   for_each_row(phi.size(), [&](std::size_t i) {
     if (share[i] == 1) return;
+    phi[i] = 0;
+    if (v_l[i] == 0) return;  // not all of its faces have rows
     if (share[i] < inside_below) {
       phi[i] = 1;
       return;
     }
-    if (v_l[i] == 0) return;  // not all of its faces have rows
     double filled = 2 * v_l[i];
     double open = 2 * capacity[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
