@@ -11,12 +11,8 @@ namespace {
 
 constexpr int most_passes = 60;
 
-/// About what whole factors cost, if there are none, or what UMFPACK costs: many iterations in space, where its factors
-/// fill in.
-template <int Dim>
-std::int64_t most_iterations(const PressureFactors<Dim>& preconditioner) {
-  return Dim == 3 && !preconditioner.is_incomplete() ? 500 : 100;
-}
+/// About what whole factors cost.
+constexpr std::int64_t most_iterations = 100;
 
 /// What the solves of a step look at.
 template <int Dim>
@@ -35,7 +31,6 @@ struct BlockSystem {
 template <int Dim>
 void prepare(const SchurOperator<Dim>& schur, BlockWork<Dim>& w) {
   const std::size_t n = schur.rows();
-  schur.start(w.products);
   for (Values* v : {&w.mass, &w.pressure, &w.more_pressure, &w.g, &w.zero, &w.unscaled}) v->resize(n);
   std::fill(w.zero.begin(), w.zero.end(), 0.0);
   for (Values* v : {&w.momentum, &w.displacement, &w.more_displacement, &w.f, &w.of_velocity}) v->resize(Dim * n);
@@ -62,7 +57,7 @@ Gmres::Report eliminate(const BlockSystem<Dim>& s, const Values& f, const Values
     for_each_row(r.size(), [&](std::size_t i) { s.work.unscaled[i] = r[i] / scale[i]; });
     s.preconditioner.solve(s.work.unscaled, out);
   };
-  const auto report = s.work.gmres.solve(apply, precondition, g, target, most_iterations(s.preconditioner), start, p);
+  const auto report = s.work.gmres.solve(apply, precondition, g, target, most_iterations, start, p);
   s.schur.apply_gradient(p, s.work.products, u);
   add_scaled(1, f, u);
   s.solve_for_velocity(u, 0);
@@ -155,8 +150,8 @@ void take_displacement(const Values& from, std::span<Vec<Dim>> u) {
 }
 
 template <int Dim>
-void fall_back(const Operators<Dim>& operators, const Grid<Dim>& grid, Fallback& to) {
-  fill_monolithic<Dim>(operators, grid, to.matrix);
+void fall_back(const Operators<Dim>& operators, Fallback& to) {
+  fill_monolithic<Dim>(operators, to.matrix);
   to.factors.factorize(to.matrix);
 }
 
@@ -168,7 +163,7 @@ double shift_tolerance(const SolverTolerance& tolerance) { return std::min(1e-2,
 template <int Dim>
 void AssembleSchur<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                     Read<node::Row> row, Read<node::Constraint> fixed, Read<node::Mass> m_i,
-                                    Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                    Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                                     Read<matrix::Divergence<Dim>> divergence,
                                     Read<matrix::Stabilization<Dim>> stabilization,
                                     Optional<Read<matrix::Viscosity<Dim>>> viscosity,
@@ -178,41 +173,29 @@ void AssembleSchur<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
                    row.span(),
                    fixed.span(),
                    m_i.span(),
-                   site.span(),
-                   &*rows,
                    node.span(),
+                   neighbour.span(),
                    divergence.span(),
                    stabilization.span(),
-                   viscosity.span()},
-                  *grid);
+                   viscosity.span()});
 }
 
 template <int Dim>
-void ApproximateSchur<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row,
-                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
-                                       Read<node::Site<Dim>> site, Read<matrix::Node> node,
+void ApproximateSchur<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed,
+                                       Read<node::Mass> m_i, Read<node::Site<Dim>> site, Read<matrix::Node> node,
                                        Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
                                        Read<SchurOperator<Dim>> schur,
                                        Write<SchurApproximation<Dim>> approximation) const {
-  approximation->assemble({schur->coefficients(),
-                           row.span(),
-                           fixed.span(),
-                           m_i.span(),
-                           site.span(),
-                           &*rows,
-                           node.span(),
-                           divergence.span(),
-                           {},
-                           {}},
-                          *grid, *fluid, laplacian_factor(schur->coefficients(), *fluid, *scale), *schur);
+  approximation->assemble(
+      {schur->coefficients(), {}, fixed.span(), m_i.span(), node.span(), {}, divergence.span(), {}, {}}, *grid,
+      site.span(), *fluid, laplacian_factor(schur->coefficients(), *fluid, *scale), *schur);
 }
 
 template <int Dim>
 void FactorizeVelocity<Dim>::operator()(Read<node::Mass> m_i, Read<matrix::Node> node,
                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                                         Read<SchurOperator<Dim>> schur, Write<VelocityFactors<Dim>> factors) const {
-  factors->prepare({schur->coefficients(), {}, {}, m_i.span(), {}, nullptr, node.span(), {}, {}, viscosity.span()},
-                   *schur);
+  factors->prepare({schur->coefficients(), {}, {}, m_i.span(), node.span(), {}, {}, {}, viscosity.span()}, *schur);
 }
 
 template <int Dim>
@@ -221,23 +204,23 @@ void FactorizePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid,
                                         Read<matrix::StabilizationScale> scale,
                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                                         Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
-                                        Update<WholeFactors> whole, Write<PressureFactors<Dim>> factors) const {
-  const double of_viscosity = viscosity ? viscous_part<Dim>(schur->coefficients(), *grid, *fluid, *scale) : 0;
-  factors->prepare(*approximation, *schur,
-                   {schur->coefficients(), {}, {}, m_i.span(), site.span(), nullptr, node.span(), {}, {}, {}},
-                   of_viscosity, *whole);
+                                        Write<PressureFactors<Dim>> factors) const {
+  factors->prepare(approximation->matrix(), site.span(), m_i.span(), node.span(),
+                   viscosity ? viscous_part<Dim>(schur->coefficients(), *grid, *fluid, *scale) : 0);
 }
 
 template <int Dim>
-void SolveBlock<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
-    Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site,
-    Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-    Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
-    Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
-    Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g, Update<PressureFactors<Dim>> pressure_factors,
-    Update<WholeFactors> whole, Update<BlockWork<Dim>> work, Write<Fallback> fallback,
-    Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p, Write<SolveReport> report) const {
+void SolveBlock<Dim>::operator()(Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
+                                 Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<matrix::Node> node,
+                                 Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
+                                 Read<matrix::Stabilization<Dim>> stabilization,
+                                 Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
+                                 Read<SchurApproximation<Dim>> approximation,
+                                 Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f,
+                                 Read<matrix::Mass> g, Update<PressureFactors<Dim>> pressure_factors,
+                                 Update<BlockWork<Dim>> work, Write<Fallback> fallback,
+                                 Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p,
+                                 Write<SolveReport> report) const {
   const BlockSystem<Dim> system{
       *schur, *approximation, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};
   prepare<Dim>(*schur, *work);
@@ -247,39 +230,34 @@ void SolveBlock<Dim>::operator()(
     // The pressure of the step before is near.
     work->pressure[r] = p_i[node[r]];
   });
-  fallback->is_used = false;
   Gmres::Report done = solve_blocks<Dim>(system, tolerance->relative, Gmres::Start::x);
-  if (!is_solved(done) && pressure_factors->complete(*approximation, *schur, *whole)) {
+  if (!is_solved(done) && pressure_factors->complete(approximation->matrix())) {
     const std::int64_t before = done.iterations;
     done = solve_blocks<Dim>(system, tolerance->relative, Gmres::Start::zero);
     done.iterations += before;
   }
-  if (is_solved(done)) {
+  fallback->is_used = !is_solved(done);
+  if (!fallback->is_used) {
     take_displacement<Dim>(work->displacement, u.span());
     std::copy(work->pressure.begin(), work->pressure.end(), p.begin());
-    *report = {.unknowns = static_cast<std::int64_t>((Dim + 1) * g.size()),
-               .active = static_cast<std::int64_t>(g.size()),
-               .iterations = done.iterations,
-               .residual = done.residual};
-    return;
+    *report = {.unknowns = static_cast<std::int64_t>((Dim + 1) * g.size()), .residual = done.residual};
+  } else {
+    fall_back<Dim>({schur->coefficients(), row.span(), fixed.span(), m_i.span(), node.span(), neighbour.span(),
+                    divergence.span(), stabilization.span(), viscosity.span()},
+                   *fallback);
+    pack<Dim>(f.span(), g.span(), fallback->packed.b);
+    fallback->factors.solve(fallback->packed.b, fallback->packed.x);
+    *report = fallback->factors.report(fallback->packed.b, fallback->packed.x);
+    unpack<Dim>(fallback->packed.x, u.span(), p.span());
   }
-  fallback->is_used = true;
-  fall_back<Dim>({schur->coefficients(), row.span(), fixed.span(), m_i.span(), site.span(), &*rows, node.span(),
-                  divergence.span(), stabilization.span(), viscosity.span()},
-                 *grid, *fallback);
-  pack<Dim>(f.span(), g.span(), fallback->packed.b);
-  fallback->factors.solve(fallback->packed.b, fallback->packed.x);
-  *report = fallback->factors.report(fallback->packed.b, fallback->packed.x);
   report->active = static_cast<std::int64_t>(g.size());
   report->iterations = done.iterations;
-  unpack<Dim>(fallback->packed.x, u.span(), p.span());
 }
 
 template <int Dim>
-void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row,
-                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
-                                       Read<node::Site<Dim>> site, Read<matrix::Node> node,
-                                       Read<matrix::Divergence<Dim>> divergence,
+void SolveVolumeBlock<Dim>::operator()(Read<SolverTolerance> tolerance, Read<node::Row> row,
+                                       Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
+                                       Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
                                        Read<matrix::Stabilization<Dim>> stabilization,
                                        Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
                                        Read<SchurApproximation<Dim>> approximation,
@@ -296,9 +274,9 @@ void SolveVolumeBlock<Dim>::operator()(Read<Grid<Dim>> grid, Read<SolverToleranc
       take_displacement<Dim>(work->displacement, d.span());
       return;
     }
-    fall_back<Dim>({schur->coefficients(), row.span(), fixed.span(), m_i.span(), site.span(), &*rows, node.span(),
+    fall_back<Dim>({schur->coefficients(), row.span(), fixed.span(), m_i.span(), node.span(), neighbour.span(),
                     divergence.span(), stabilization.span(), viscosity.span()},
-                   *grid, *fallback);
+                   *fallback);
   }
   pack<Dim>({}, g.span(), fallback->packed.b);
   fallback->factors.solve(fallback->packed.b, fallback->packed.x);

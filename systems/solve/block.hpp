@@ -1,15 +1,13 @@
 #pragma once
 /// \file
-/// Block elimination: the displacement is eliminated by the velocity block, and GMRES solves for the pressure, with a
-/// factorization of a matrix near its operator as preconditioner. Equal to UMFPACK to the tolerance. The method as a
+/// Block elimination: the displacement is eliminated by the velocity block, and GMRES solves for the pressure, with
+/// factors of a matrix near its operator as preconditioner. Equal to UMFPACK to the tolerance. The method as a
 /// whole: README.md.
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
-#include "components/sites.hpp"
-#include "components/solver.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
@@ -36,7 +34,7 @@ struct Fallback {
 template <int Dim>
 struct BlockWork {
   Gmres gmres;
-  TileVectors products;
+  SchurVectors products;
   typename VelocityFactors<Dim>::Work velocity;
   Values momentum, mass;  ///< right-hand sides
   Values displacement, pressure;
@@ -49,8 +47,8 @@ template <int Dim>
 struct AssembleSchur {
   static constexpr std::string_view doc = "(E55) operator of the pressure";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
-                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
+                  Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                   Write<SchurOperator<Dim>> schur) const;
 };
@@ -58,10 +56,10 @@ struct AssembleSchur {
 template <int Dim>
 struct ApproximateSchur {
   static constexpr std::string_view doc = "(E56) matrix near the operator of the pressure";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Row> row, Read<node::Constraint> fixed,
-                  Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
-                  Read<SchurOperator<Dim>> schur, Write<SchurApproximation<Dim>> approximation) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed, Read<node::Mass> m_i,
+                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::StabilizationScale> scale, Read<SchurOperator<Dim>> schur,
+                  Write<SchurApproximation<Dim>> approximation) const;
 };
 
 template <int Dim>
@@ -74,13 +72,12 @@ struct FactorizeVelocity {
 
 template <int Dim>
 struct FactorizePressure {
-  static constexpr std::string_view doc = "(E56) (E57) factors of the preconditioner of the pressure";
-  /// \throws StepRejected if there are none.
+  static constexpr std::string_view doc = "(E56) (E57) preconditioner of the pressure";
+  /// \throws StepRejected if there are no factors.
   void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Mass> m_i, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::StabilizationScale> scale,
                   Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
-                  Read<SchurApproximation<Dim>> approximation, Update<WholeFactors> whole,
-                  Write<PressureFactors<Dim>> factors) const;
+                  Read<SchurApproximation<Dim>> approximation, Write<PressureFactors<Dim>> factors) const;
 };
 
 /// The operators are read for products with the viscous part, and for the fallback.
@@ -89,14 +86,13 @@ struct SolveBlock {
   static constexpr std::string_view doc = "(E55) block elimination and GMRES";
   /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size, or if iterations for the
   ///   velocities of a stiff liquid do not converge, which shorter steps help.
-  void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<node::Pressure> p_i,
-                  Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
-                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
-                  Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
-                  Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g, Update<PressureFactors<Dim>> pressure_factors,
-                  Update<WholeFactors> whole, Update<BlockWork<Dim>> work, Write<Fallback> fallback,
+  void operator()(Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
+                  Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<matrix::Node> node,
+                  Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                  Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
+                  Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
+                  Update<PressureFactors<Dim>> pressure_factors, Update<BlockWork<Dim>> work, Write<Fallback> fallback,
                   Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p, Write<SolveReport> report) const;
 };
 
@@ -104,14 +100,13 @@ template <int Dim>
 struct SolveVolumeBlock {
   static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
   /// \throws StepRejected as SolveBlock.
-  void operator()(Read<Grid<Dim>> grid, Read<SolverTolerance> tolerance, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
-                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                  Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
-                  Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::VolumeSource> g,
-                  Update<PressureFactors<Dim>> pressure_factors, Update<BlockWork<Dim>> work, Update<Fallback> fallback,
-                  Write<matrix::Shift<Dim>> d) const;
+  void operator()(Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
+                  Read<node::Mass> m_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
+                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
+                  Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
+                  Read<matrix::VolumeSource> g, Update<PressureFactors<Dim>> pressure_factors,
+                  Update<BlockWork<Dim>> work, Update<Fallback> fallback, Write<matrix::Shift<Dim>> d) const;
 };
 
 }  // namespace minamo

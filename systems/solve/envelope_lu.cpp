@@ -7,20 +7,6 @@
 
 namespace minamo {
 
-namespace {
-
-/// term(first) + ... + term(first + Count - 1), the sums of halves first: independent of one another for longest.
-template <std::size_t Count, class Term>
-inline auto pairwise_sum(std::size_t first, const Term& term) {
-  if constexpr (Count == 1) {
-    return term(first).eval();
-  } else {
-    return (pairwise_sum<Count / 2>(first, term) + pairwise_sum<Count / 2>(first + Count / 2, term)).eval();
-  }
-}
-
-}  // namespace
-
 double envelope_cost(std::span<const std::uint32_t> first) {
   double sum = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -30,8 +16,7 @@ double envelope_cost(std::span<const std::uint32_t> first) {
   return sum;
 }
 
-template <class Scalar>
-void EnvelopeLu<Scalar>::start(std::span<const std::uint32_t> first) {
+void EnvelopeLu::start(std::span<const std::uint32_t> first) {
   rows_ = first.size();
   const std::size_t tiles = (rows_ + width - 1) / width;
   first_.resize(tiles);
@@ -39,13 +24,11 @@ void EnvelopeLu<Scalar>::start(std::span<const std::uint32_t> first) {
   place_tiles(first);
   inverse_lower_.resize(tiles);
   inverse_upper_.resize(tiles);
-  least_pivot_.assign(tiles, Lanes::Zero());
   x_.assign(tiles, Lanes::Zero());
   for (std::size_t i = rows_; i < width * tiles; ++i) at(i, i) = 1;  // fills up the last tile
 }
 
-template <class Scalar>
-void EnvelopeLu<Scalar>::place_tiles(std::span<const std::uint32_t> first) {
+void EnvelopeLu::place_tiles(std::span<const std::uint32_t> first) {
   std::fill(first_.begin(), first_.end(), std::numeric_limits<std::uint32_t>::max());
   for (std::size_t i = 0; i < rows_; ++i) {
     std::uint32_t& of_tile = first_[place(i).tile];
@@ -61,28 +44,23 @@ void EnvelopeLu<Scalar>::place_tiles(std::span<const std::uint32_t> first) {
   upper_.assign(size, Tile::Zero());
 }
 
-template <class Scalar>
-inline auto EnvelopeLu<Scalar>::column_of(const Tile& tile, std::size_t j) -> Lanes {
+inline auto EnvelopeLu::column_of(const Tile& tile, std::size_t j) -> Lanes {
   return Eigen::Map<const Lanes>(tile.data() + width * j);
 }
 
 /// c += a b
-template <class Scalar>
-inline void EnvelopeLu<Scalar>::add_product(const Tile& a, const Tile& b, Columns& c) {
+inline void EnvelopeLu::add_product(const Tile& a, const Tile& b, Columns& c) {
   for (std::size_t k = 0; k < width; ++k) {
     const Lanes of_a = column_of(a, k);
     for (std::size_t j = 0; j < width; ++j) c[j] += of_a * b.data()[width * j + k];
   }
 }
 
-template <class Scalar>
-inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Lanes& x) -> Lanes {
-  return pairwise_sum<width>(0,
-                             [&](std::size_t k) -> Lanes { return column_of(a, k) * x[static_cast<Eigen::Index>(k)]; });
+inline auto EnvelopeLu::product(const Tile& a, const Lanes& x) -> Lanes {
+  return (column_of(a, 0) * x[0] + column_of(a, 1) * x[1]) + (column_of(a, 2) * x[2] + column_of(a, 3) * x[3]);
 }
 
-template <class Scalar>
-inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Tile& b) -> Tile {
+inline auto EnvelopeLu::product(const Tile& a, const Tile& b) -> Tile {
   Columns sum;
   sum.fill(Lanes::Zero());
   add_product(a, b, sum);
@@ -92,21 +70,19 @@ inline auto EnvelopeLu<Scalar>::product(const Tile& a, const Tile& b) -> Tile {
 }
 
 /// from -= sum_k lower_k upper_k
-template <class Scalar>
-inline void EnvelopeLu<Scalar>::subtract_products(const Tile* lower, const Tile* upper, std::size_t count, Tile& from) {
+inline void EnvelopeLu::subtract_products(const Tile* lower, const Tile* upper, std::size_t count, Tile& from) {
   Columns sum;
   sum.fill(Lanes::Zero());
   for (std::size_t k = 0; k < count; ++k) add_product(lower[k], upper[k], sum);
   for (std::size_t j = 0; j < width; ++j) from.col(static_cast<Eigen::Index>(j)).array() -= sum[j];
 }
 
-template <class Scalar>
-bool EnvelopeLu<Scalar>::invert_diagonal(std::size_t j) {
+bool EnvelopeLu::invert_diagonal(std::size_t j) {
   Tile& tile = upper_[start_[j] + j - first_[j]];
   constexpr auto size = static_cast<Eigen::Index>(width);
   for (Eigen::Index k = 0; k < size; ++k) {
-    const Scalar pivot = tile(k, k);
-    if (!(std::abs(pivot) > least_pivot_[j][k]) || !std::isfinite(pivot)) return false;
+    const double pivot = tile(k, k);
+    if (pivot == 0 || !std::isfinite(pivot)) return false;
     for (Eigen::Index i = k + 1; i < size; ++i) {
       tile(i, k) /= pivot;
       for (Eigen::Index l = k + 1; l < size; ++l) tile(i, l) -= tile(i, k) * tile(k, l);
@@ -121,7 +97,7 @@ bool EnvelopeLu<Scalar>::invert_diagonal(std::size_t j) {
     }
     upper(c, c) = 1 / tile(c, c);
     for (Eigen::Index i = c; i-- > 0;) {
-      Scalar sum = 0;
+      double sum = 0;
       for (Eigen::Index k = i + 1; k <= c; ++k) sum += tile(i, k) * upper(k, c);
       upper(i, c) = -sum / tile(i, i);
     }
@@ -131,16 +107,8 @@ bool EnvelopeLu<Scalar>::invert_diagonal(std::size_t j) {
   return true;
 }
 
-template <class Scalar>
-void EnvelopeLu<Scalar>::expect_pivots(double least) {
-  for (std::size_t j = 0; j < first_.size(); ++j) {
-    least_pivot_[j] = static_cast<Scalar>(least) * upper_[start_[j] + j - first_[j]].diagonal().array().abs();
-  }
-}
-
 /// What the columns and rows before tile j of the diagonal leave of its row and column.
-template <class Scalar>
-void EnvelopeLu<Scalar>::eliminate_from(std::size_t j) {
+void EnvelopeLu::eliminate_from(std::size_t j) {
   Tile* row_j = lower_.data() + start_[j];
   Tile* column_j = upper_.data() + start_[j];
   for (std::size_t i = first_[j]; i <= j; ++i) {
@@ -158,9 +126,7 @@ void EnvelopeLu<Scalar>::eliminate_from(std::size_t j) {
   }
 }
 
-template <class Scalar>
-bool EnvelopeLu<Scalar>::factorize(double least) {
-  expect_pivots(least);
+bool EnvelopeLu::factorize() {
   for (std::size_t j = 0; j < first_.size(); ++j) {
     eliminate_from(j);
     if (!invert_diagonal(j)) return false;
@@ -169,8 +135,7 @@ bool EnvelopeLu<Scalar>::factorize(double least) {
 }
 
 /// L^-1 x
-template <class Scalar>
-void EnvelopeLu<Scalar>::eliminate() {
+void EnvelopeLu::eliminate() {
   for (std::size_t j = 0; j < first_.size(); ++j) {
     const Tile* row = lower_.data() + start_[j];
     Lanes sum = x_[j];
@@ -180,8 +145,7 @@ void EnvelopeLu<Scalar>::eliminate() {
 }
 
 /// U^-1 x
-template <class Scalar>
-void EnvelopeLu<Scalar>::substitute() {
+void EnvelopeLu::substitute() {
   for (std::size_t j = first_.size(); j-- > 0;) {
     const Tile* column = upper_.data() + start_[j];
     x_[j] = product(inverse_upper_[j], x_[j]);
@@ -190,15 +154,11 @@ void EnvelopeLu<Scalar>::substitute() {
   }
 }
 
-template <class Scalar>
-void EnvelopeLu<Scalar>::solve(Values& b) {
-  for (std::size_t i = 0; i < rows_; ++i) x_[i / width][place(i).within] = static_cast<Scalar>(b[i]);
+void EnvelopeLu::solve(Values& b) {
+  for (std::size_t i = 0; i < rows_; ++i) x_[i / width][place(i).within] = b[i];
   eliminate();
   substitute();
   for (std::size_t i = 0; i < rows_; ++i) b[i] = x_[i / width][place(i).within];
 }
-
-template class EnvelopeLu<float>;
-template class EnvelopeLu<double>;
 
 }  // namespace minamo

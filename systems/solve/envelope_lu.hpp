@@ -2,9 +2,8 @@
 /// \file
 /// LU factorization without pivoting within the envelope of a matrix whose pattern is symmetric: for row i the columns
 /// from the first that has an entry on, in square tiles as wide as a vector register. Needs no symbolic work and
-/// streams through memory, so that it beats sparse factorizations as long as the envelope is narrow; in single
-/// precision in half the time. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems,
-/// Prentice-Hall 1981, ch. 4.
+/// streams through memory, so that it beats sparse factorizations as long as the envelope is narrow. A. George, J. W.
+/// Liu, Computer Solution of Large Sparse Positive Definite Systems, Prentice-Hall 1981, ch. 4.
 
 #include "systems/solve/gmres.hpp"
 
@@ -14,29 +13,27 @@
 
 namespace minamo {
 
-/// \tparam Scalar  of the factors
-template <class Scalar>
 class EnvelopeLu {
  public:
   /// \param first  column of the first entry of every row, at most the row itself
   void start(std::span<const std::uint32_t> first);
   std::size_t rows() const { return rows_; }
   /// Entry of the lower or upper part; \pre within the envelope.
-  Scalar& at(std::size_t row, std::size_t column) {
+  double& at(std::size_t row, std::size_t column) {
     const auto [j, of_row] = place(row);
     const auto [i, of_column] = place(column);
     Tile& tile = i < j ? lower_[start_[j] + i - first_[j]] : upper_[start_[i] + j - first_[i]];
     return tile(of_row, of_column);
   }
-  /// False if a pivot is not finite, or not larger than `least` times what the diagonal was.
-  bool factorize(double least);
+  /// False if a pivot is zero or not finite.
+  bool factorize();
   /// Overwrites b with the solution.
   void solve(Values& b);
 
  private:
-  static constexpr std::size_t width = 32 / sizeof(Scalar);
-  using Tile = Eigen::Matrix<Scalar, width, width>;
-  using Lanes = Eigen::Array<Scalar, width, 1>;
+  static constexpr std::size_t width = 4;
+  using Tile = Eigen::Matrix<double, width, width>;
+  using Lanes = Eigen::Array<double, width, 1>;
   using Columns = std::array<Lanes, width>;
   struct Place {
     std::size_t tile;
@@ -49,7 +46,6 @@ class EnvelopeLu {
   static Tile product(const Tile& a, const Tile& b);
   static Lanes product(const Tile& a, const Lanes& x);
   static void subtract_products(const Tile* lower, const Tile* upper, std::size_t count, Tile& from);
-  void expect_pivots(double least);
   void eliminate_from(std::size_t j);
   void eliminate();
   void substitute();
@@ -62,7 +58,6 @@ class EnvelopeLu {
   std::vector<Tile> upper_;           ///< column by column, up to and with the diagonal
   std::vector<Tile> inverse_lower_;   ///< of the diagonal tiles' factors
   std::vector<Tile> inverse_upper_;
-  std::vector<Lanes> least_pivot_;
   std::vector<Lanes> x_;
 };
 

@@ -1,7 +1,6 @@
 #include "systems/solve/monolithic.hpp"
 
 #include "engine/parallel.hpp"
-#include "systems/assemble/stencil.hpp"
 
 namespace minamo {
 
@@ -20,29 +19,19 @@ bool coupled(const Operators<Dim>& t, std::size_t r_i, std::size_t to_j, std::si
   return false;
 }
 
-template <int Dim>
-bool is_fixed(const Operators<Dim>& t, std::uint32_t i, std::size_t d) {
-  return t.fixed[i] >> d & 1;
-}
-
 /// Calls emit(row, value) for the entries of the column of a displacement component, rows rising.
 template <int Dim, class Emit>
-void displacement_column(const Operators<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, std::size_t d,
-                         const Emit& emit) {
-  const std::uint32_t j = t.node[r_j];
+void displacement_column(const Operators<Dim>& t, std::size_t r_j, std::size_t d, const Emit& emit) {
   const std::size_t column = unknowns_per_row(Dim) * r_j + d;
-  if (is_fixed<Dim>(t, j, d)) return emit(column, 1.0);
-  stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
-    const std::int32_t row = t.row[i];
-    if (row < 0) return;
-    const auto r_i = static_cast<std::size_t>(row);
+  if (t.is_fixed(r_j, d)) return emit(column, 1.0);
+  t.for_each_neighbour(r_j, [&](std::size_t to_i, std::size_t r_i) {
     const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
     if (!coupled<Dim>(t, r_i, to_j, r_j)) return;
     const std::size_t first = unknowns_per_row(Dim) * r_i;
     for (std::size_t e = 0; e < Dim; ++e) {
-      const bool diagonal = i == j && e == d;
-      if (is_fixed<Dim>(t, i, e) || (t.viscosity.empty() && !diagonal)) continue;
-      const double inertia = diagonal ? t.m_i[i] * t.c_a : 0;
+      const bool diagonal = r_i == r_j && e == d;
+      if (t.is_fixed(r_i, e) || (t.viscosity.empty() && !diagonal)) continue;
+      const double inertia = diagonal ? t.m_i[t.node[r_i]] * t.c_a : 0;
       const double friction = t.viscosity.empty() ? 0 : t.c_v * t.viscosity[r_i][Dim * (Dim * to_j + e) + d];
       emit(first + e, inertia + friction);
     }
@@ -52,44 +41,40 @@ void displacement_column(const Operators<Dim>& t, const Stencil<Dim>& stencil, s
 
 /// The same for the column of a pressure.
 template <int Dim, class Emit>
-void pressure_column(const Operators<Dim>& t, const Stencil<Dim>& stencil, std::size_t r_j, const Emit& emit) {
-  const std::uint32_t j = t.node[r_j];
-  stencil.for_each_neighbour(j, [&](std::size_t to_i, std::uint32_t i) {
-    const std::int32_t row = t.row[i];
-    if (row < 0) return;
-    const auto r_i = static_cast<std::size_t>(row);
+void pressure_column(const Operators<Dim>& t, std::size_t r_j, const Emit& emit) {
+  t.for_each_neighbour(r_j, [&](std::size_t to_i, std::size_t r_i) {
     const std::size_t to_j = stencil_size<Dim> - 1 - to_i;
     if (!coupled<Dim>(t, r_i, to_j, r_j)) return;
     const std::size_t first = unknowns_per_row(Dim) * r_i;
     for (std::size_t e = 0; e < Dim; ++e) {
-      if (!is_fixed<Dim>(t, i, e)) emit(first + e, -t.divergence[r_j][Dim * to_i + e]);
+      if (!t.is_fixed(r_i, e)) emit(first + e, -t.divergence[r_j][Dim * to_i + e]);
     }
-    emit(first + Dim, t.stabilization[r_i][(Dim + 1) * to_j + Dim] + (i == j ? t.pressure_per_mass * t.m_i[i] : 0));
+    emit(first + Dim,
+         t.stabilization[r_i][(Dim + 1) * to_j + Dim] + (r_i == r_j ? t.pressure_per_mass * t.m_i[t.node[r_i]] : 0));
   });
 }
 
 template <int Dim, class Emit>
-void column(const Operators<Dim>& t, const Stencil<Dim>& stencil, std::size_t column, const Emit& emit) {
+void column(const Operators<Dim>& t, std::size_t column, const Emit& emit) {
   const std::size_t r = column / unknowns_per_row(Dim);
   const std::size_t d = column % unknowns_per_row(Dim);
   if (d < Dim) {
-    displacement_column<Dim>(t, stencil, r, d, emit);
+    displacement_column<Dim>(t, r, d, emit);
   } else {
-    pressure_column<Dim>(t, stencil, r, emit);
+    pressure_column<Dim>(t, r, emit);
   }
 }
 
 }  // namespace
 
 template <int Dim>
-void fill_monolithic(const Operators<Dim>& t, const Grid<Dim>& grid, matrix::Monolithic& matrix) {
-  const Stencil<Dim> stencil(grid, *t.rows_of_sites, t.site);
+void fill_monolithic(const Operators<Dim>& t, matrix::Monolithic& matrix) {
   auto& [outer, inner, values] = matrix;
   const std::size_t columns = unknowns_per_row(Dim) * t.node.size();
   outer.assign(columns + 1, 0);
   constexpr std::size_t columns_per_task = 256;
   for_each_row(
-      columns, [&](std::size_t c) { column<Dim>(t, stencil, c, [&](std::size_t, double) { ++outer[c + 1]; }); },
+      columns, [&](std::size_t c) { column<Dim>(t, c, [&](std::size_t, double) { ++outer[c + 1]; }); },
       columns_per_task);
   for (std::size_t c = 0; c < columns; ++c) outer[c + 1] += outer[c];
   const auto entries = static_cast<std::size_t>(outer.back());
@@ -100,7 +85,7 @@ void fill_monolithic(const Operators<Dim>& t, const Grid<Dim>& grid, matrix::Mon
       [&](std::size_t c) {
         const auto first = static_cast<std::size_t>(outer[c]);
         auto at = first;
-        column<Dim>(t, stencil, c, [&](std::size_t row, double value) {
+        column<Dim>(t, c, [&](std::size_t row, double value) {
           // Neighbours come with rising rows but across the ends of periodic axes.
           auto place = at++;
           for (; place > first && inner[place - 1] > static_cast<int>(row); --place) {
@@ -117,7 +102,7 @@ void fill_monolithic(const Operators<Dim>& t, const Grid<Dim>& grid, matrix::Mon
 template <int Dim>
 void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates,
                                          Read<node::Row> row, Read<node::Constraint> fixed, Read<node::Mass> m_i,
-                                         Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                         Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                                          Read<matrix::Divergence<Dim>> divergence,
                                          Read<matrix::Stabilization<Dim>> stabilization,
                                          Optional<Read<matrix::Viscosity<Dim>>> viscosity,
@@ -127,17 +112,16 @@ void AssembleMonolithic<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid
                         row.span(),
                         fixed.span(),
                         m_i.span(),
-                        site.span(),
-                        &*rows,
                         node.span(),
+                        neighbour.span(),
                         divergence.span(),
                         stabilization.span(),
                         viscosity.span()},
-                       *grid, *matrix);
+                       *matrix);
 }
 
-template void fill_monolithic<2>(const Operators<2>&, const Grid<2>&, matrix::Monolithic&);
-template void fill_monolithic<3>(const Operators<3>&, const Grid<3>&, matrix::Monolithic&);
+template void fill_monolithic(const Operators<2>&, matrix::Monolithic&);
+template void fill_monolithic(const Operators<3>&, matrix::Monolithic&);
 template struct AssembleMonolithic<2>;
 template struct AssembleMonolithic<3>;
 

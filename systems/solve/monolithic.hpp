@@ -16,7 +16,6 @@
 #include "components/grid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
-#include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
@@ -27,14 +26,14 @@ namespace minamo {
 constexpr std::size_t unknowns_per_row(int dim) { return static_cast<std::size_t>(dim) + 1; }
 
 template <int Dim>
-void fill_monolithic(const Operators<Dim>& operators, const Grid<Dim>& grid, matrix::Monolithic& matrix);
+void fill_monolithic(const Operators<Dim>& operators, matrix::Monolithic& matrix);
 
 template <int Dim>
 struct AssembleMonolithic {
   static constexpr std::string_view doc = "(E25) (E26) (E27) as one matrix";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
-                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<NodeIndex<Dim>> rows,
-                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
+                  Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                   Write<matrix::Monolithic> matrix) const;
 };

@@ -3,7 +3,6 @@
 /// The operators of the equations of a step, as the assembly leaves them.
 
 #include "components/matrix.hpp"
-#include "components/sites.hpp"
 
 #include <span>
 
@@ -28,12 +27,23 @@ struct Operators : Coefficients {
   std::span<const std::int32_t> row;
   std::span<const std::uint8_t> fixed;
   std::span<const double> m_i;
-  std::span<const Index<Dim>> site;    ///< of every node
-  const SiteRows<Dim>* rows_of_sites;  ///< and which node is there
   std::span<const std::uint32_t> node;
+  std::span<const typename matrix::Neighbour<Dim>::value_type> neighbour;
   std::span<const typename matrix::Divergence<Dim>::value_type> divergence;
   std::span<const typename matrix::Stabilization<Dim>::value_type> stabilization;
   std::span<const typename matrix::Viscosity<Dim>::value_type> viscosity;  ///< empty if inviscid
+
+  bool is_fixed(std::size_t r, std::size_t d) const { return fixed[node[r]] >> d & 1; }
+  /// Calls body(place in the stencil, row) for the neighbours of a row that have one.
+  template <class Body>
+  void for_each_neighbour(std::size_t r, const Body& body) const {
+    for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+      const std::int32_t other = neighbour[r][k];
+      if (other == matrix::Neighbour<Dim>::none) continue;
+      const std::int32_t row_of_other = row[static_cast<std::size_t>(other)];
+      if (row_of_other >= 0) body(k, static_cast<std::size_t>(row_of_other));
+    }
+  }
 };
 
 }  // namespace minamo

@@ -3,38 +3,14 @@
 #include "engine/step_control.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace minamo {
 
 namespace {
 
-/// Multiplications up to which single precision saves less than its failures cost, and from which on an envelope is
-/// slower than a sparse factorization, in single and in double precision.
-constexpr double narrowest_single = 1e6;
-constexpr double widest_single = 1e10;
-constexpr double widest_double = 1e9;
-
-/// A pivot that has lost so much of its diagonal has lost it to rounding in single precision. Where few particles have
-/// many nodes, pressures hang on e of (E27), a millionth of the diagonal.
-constexpr double least_pivot = 1e-3;
-
-/// Steps with whole factors after one that needs them: spray does not vanish from one step to the next.
-constexpr int steps_with_whole_factors = 16;
-
-/// Rows from which on, in 3-D, the fill of a complete factorization costs more than the iterations that it saves.
-constexpr std::size_t most_complete = 20000;
-
-constexpr std::size_t rows_per_task = 512;
-
-/// The value of an entry in a list, 0 if it is not there.
-template <class Entries>
-double value_of(const Entries& entries, std::size_t row) {
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.row == row; });
-  return found == entries.end() ? 0 : found->value;
-}
+/// Multiplications from which on an envelope is slower than incomplete factors.
+constexpr double widest = 1e10;
 
 }  // namespace
 
@@ -58,16 +34,16 @@ double viscous_part(const Coefficients& c, const Grid<Dim>& grid, const Fluid& f
 
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
-void PressureFactors<Dim>::find_order(const Operators<Dim>& t) {
-  order_.resize(t.node.size());
-  place_.resize(t.node.size());
+void PressureFactors<Dim>::find_order(std::span<const Index<Dim>> site, std::span<const std::uint32_t> node) {
+  order_.resize(node.size());
+  place_.resize(node.size());
   std::array<std::pair<int, std::size_t>, Dim> axes;
   for (std::size_t d = 0; d < axes.size(); ++d) {
     int low = std::numeric_limits<int>::max();
     int high = 0;
-    for (const std::uint32_t node : t.node) {
-      low = std::min(low, t.site[node][d]);
-      high = std::max(high, t.site[node][d]);
+    for (const std::uint32_t i : node) {
+      low = std::min(low, site[i][d]);
+      high = std::max(high, site[i][d]);
     }
     axes[d] = {low - high, d};
   }
@@ -76,7 +52,7 @@ void PressureFactors<Dim>::find_order(const Operators<Dim>& t) {
   for_each_row(order_.size(), [&](std::size_t r) {
     auto& [key, row] = keys_[r];
     row = static_cast<std::uint32_t>(r);
-    for (std::size_t d = 0; d < axes.size(); ++d) key[d] = t.site[t.node[r]][axes[d].second];
+    for (std::size_t d = 0; d < axes.size(); ++d) key[d] = site[node[r]][axes[d].second];
   });
   if (!std::is_sorted(keys_.begin(), keys_.end())) std::sort(keys_.begin(), keys_.end());
   for (std::uint32_t i = 0; i < order_.size(); ++i) {
@@ -86,151 +62,88 @@ void PressureFactors<Dim>::find_order(const Operators<Dim>& t) {
 }
 
 template <int Dim>
-void PressureFactors<Dim>::find_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles) {
+void PressureFactors<Dim>::find_envelope(const SparseRows& matrix) {
   first_.resize(order_.size());
-  for_each_row(
-      order_.size(),
-      [&](std::size_t r) {
-        std::uint32_t& first = first_[place_[r]] = place_[r];
-        tiles.for_each_neighbour(r, [&](std::size_t, std::size_t r_j) { first = std::min(first, place_[r_j]); });
-      },
-      rows_per_task);
-  // Far entries may have none across from them.
-  const auto include = [&](std::uint32_t row, std::uint32_t column) { first_[row] = std::min(first_[row], column); };
+  for (std::uint32_t i = 0; i < first_.size(); ++i) first_[i] = i;
   for (std::size_t r = 0; r < order_.size(); ++r) {
-    for (const auto& entry : compact.far_entries(r)) {
-      include(place_[r], place_[entry.row]);
-      include(place_[entry.row], place_[r]);
+    const std::uint32_t own = place_[r];
+    for (std::uint32_t e = matrix.begin[r]; e < matrix.begin[r + 1]; ++e) {
+      // Some entries have none across from them.
+      const auto [low, high] = std::minmax(own, place_[matrix.column[e]]);
+      first_[high] = std::min(first_[high], low);
     }
   }
 }
 
 template <int Dim>
-template <class Scalar>
-bool PressureFactors<Dim>::factorize_envelope(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles,
-                                              double least, EnvelopeLu<Scalar>& factors) {
-  factors.start(first_);
-  for_each_row(
-      order_.size(),
-      [&](std::size_t r) {
-        const auto add = [&](std::size_t r_j, double value) {
-          factors.at(place_[r], place_[r_j]) += static_cast<Scalar>(value);
-        };
-        compact.for_each_near(tiles, r, add);
-        for (const auto& entry : compact.far_entries(r)) add(entry.row, entry.value);
-      },
-      rows_per_task);
-  return factors.factorize(least);
-}
-
-template <int Dim>
-bool PressureFactors<Dim>::factorize_narrow(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles,
-                                            WholeFactors& whole) {
-  const double cost = envelope_cost(first_);
-  if (whole.steps == 0 && cost > narrowest_single && cost < widest_single) {
-    kind_ = Kind::single_envelope;
-    if (factorize_envelope(compact, tiles, least_pivot, single_)) return true;
-    whole.steps = steps_with_whole_factors;
-  }
-  kind_ = Kind::double_envelope;
-  return cost < widest_double && factorize_envelope(compact, tiles, 0, double_);
-}
-
-/// Entries beyond the stencil above the diagonal that have none across from them, by the row across: a
-/// partially filled row has some, a full one none.
-template <int Dim>
-void PressureFactors<Dim>::find_one_sided(const SchurApproximation<Dim>& compact) {
-  one_sided_.clear();
-  for (std::size_t r = 0; r < order_.size(); ++r) {
-    for (const auto& entry : compact.far_entries(r)) {
-      const auto& across = compact.far_entries(entry.row);
-      const auto is_back = [r](const auto& back) { return back.row == r; };
-      if (entry.row > r && std::none_of(across.begin(), across.end(), is_back)) {
-        one_sided_.push_back({entry.row, r, entry.value});
-      }
-    }
-  }
-  std::sort(one_sided_.begin(), one_sided_.end(),
-            [](const auto& a, const auto& b) { return std::tie(a.row, a.column) < std::tie(b.row, b.column); });
-}
-
-/// The symmetric part of the compact matrix.
-template <int Dim>
-bool PressureFactors<Dim>::factorize_symmetric(const SchurApproximation<Dim>& compact, const StencilTiles<Dim>& tiles) {
-  find_one_sided(compact);
-  auto next = one_sided_.begin();
-  sparse_.start(order_.size());
-  for (std::size_t r = 0; r < order_.size(); ++r) {
-    compact.for_each_near_pair(tiles, r, [&](std::size_t r_j, double value, double back) {
-      if (r_j <= r) sparse_.add(r, r_j, (value + back) / 2);
-    });
-    for (const auto& entry : compact.far_entries(r)) {
-      if (entry.row < r) sparse_.add(r, entry.row, (entry.value + value_of(compact.far_entries(entry.row), r)) / 2);
-    }
-    for (; next != one_sided_.end() && next->row == r; ++next) sparse_.add(r, next->column, next->value / 2);
-  }
-  return sparse_.factorize(is_incomplete() ? SparseCholesky::Kind::incomplete : SparseCholesky::Kind::complete);
-}
-
-/// T + e, with as much of the diagonal as e: never indefinite, and no larger where e alone holds a pressure.
-template <int Dim>
-bool PressureFactors<Dim>::factorize_pressure(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur) {
-  sparse_.start(order_.size());
-  for (std::size_t r = 0; r < order_.size(); ++r) {
-    const double more = 1e-6 / (compact.scale()[r] * compact.scale()[r]);
-    schur.divergence_entries().for_each_neighbour(schur.tiles(), r, Dim, Dim + 1,
-                                                  [&](std::size_t, std::size_t r_j, double value) {
-                                                    if (r_j <= r && value != 0)
-                                                      sparse_.add(r, r_j, value + (r_j == r ? more : 0));
-                                                  });
-  }
-  return sparse_.factorize(is_incomplete() ? SparseCholesky::Kind::incomplete : SparseCholesky::Kind::complete);
-}
-
-template <int Dim>
-void PressureFactors<Dim>::factorize_sparse(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur) {
-  // The symmetric part can be indefinite in spray.
-  if (factorize_symmetric(compact, schur.tiles()) || factorize_pressure(compact, schur)) return;
-  throw StepRejected("solve: the pressure matrix is not positive definite");
-}
-
-template <int Dim>
-void PressureFactors<Dim>::prepare(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur,
-                                   const Operators<Dim>& terms, double viscous_part, WholeFactors& whole) {
-  find_order(terms);
-  find_envelope(compact, schur.tiles());
+bool PressureFactors<Dim>::factorize_envelope(const SparseRows& matrix) {
+  find_envelope(matrix);
+  if (envelope_cost(first_) > widest) return false;
+  envelope_.start(first_);
   ordered_.resize(order_.size());
-  const bool has_whole = whole.steps > 0;
-  const bool is_narrow = factorize_narrow(compact, schur.tiles(), whole);
-  if (has_whole) --whole.steps;
-  if (!is_narrow) {
-    kind_ = Dim == 3 && order_.size() > most_complete && !has_whole ? Kind::incomplete : Kind::complete;
-    factorize_sparse(compact, schur);
+  for (std::size_t r = 0; r < order_.size(); ++r) {
+    for (std::uint32_t e = matrix.begin[r]; e < matrix.begin[r + 1]; ++e) {
+      envelope_.at(place_[r], place_[matrix.column[e]]) += matrix.value[e];
+    }
   }
-  of_mass_.clear();
-  if (viscous_part == 0) return;
-  for (std::size_t r = 0; r < order_.size(); ++r) of_mass_.push_back(viscous_part / terms.m_i[terms.node[r]]);
+  return envelope_.factorize();
+}
+
+/// The lower triangle of the symmetric part, from two rows with rising columns.
+template <int Dim>
+bool PressureFactors<Dim>::factorize_symmetric(const SparseRows& matrix, SparseCholesky::Kind kind) {
+  transpose(matrix, transposed_);
+  sparse_.start(matrix.rows());
+  for (std::size_t r = 0; r < matrix.rows(); ++r) {
+    std::uint32_t a = matrix.begin[r];
+    std::uint32_t b = transposed_.begin[r];
+    const auto column_of = [r](const SparseRows& from, std::uint32_t e) {
+      return e < from.begin[r + 1] ? from.column[e] : ~std::uint32_t{0};
+    };
+    while (true) {
+      const std::uint32_t in_a = column_of(matrix, a);
+      const std::uint32_t in_b = column_of(transposed_, b);
+      const std::uint32_t column = std::min(in_a, in_b);
+      if (column > r) break;
+      const double sum = (in_a == column ? matrix.value[a++] : 0) + (in_b == column ? transposed_.value[b++] : 0);
+      sparse_.add(r, column, sum / 2);
+    }
+  }
+  return sparse_.factorize(kind);
 }
 
 template <int Dim>
-bool PressureFactors<Dim>::complete(const SchurApproximation<Dim>& compact, const SchurOperator<Dim>& schur,
-                                    WholeFactors& whole) {
-  if (!is_incomplete()) return false;
+void PressureFactors<Dim>::prepare(const SparseRows& matrix, std::span<const Index<Dim>> site,
+                                   std::span<const double> m_i, std::span<const std::uint32_t> node,
+                                   double viscous_part) {
+  find_order(site, node);
+  kind_ = Kind::envelope;
+  if (!factorize_envelope(matrix)) {
+    kind_ = Kind::incomplete;
+    if (!factorize_symmetric(matrix, SparseCholesky::Kind::incomplete)) {
+      throw StepRejected("solve: the pressure matrix has no factors");
+    }
+  }
+  of_mass_.resize(viscous_part == 0 ? 0 : node.size());
+  for_each_row(of_mass_.size(), [&](std::size_t r) { of_mass_[r] = viscous_part / m_i[node[r]]; });
+}
+
+template <int Dim>
+bool PressureFactors<Dim>::complete(const SparseRows& matrix) {
+  if (kind_ != Kind::incomplete) return false;
   kind_ = Kind::complete;
-  factorize_sparse(compact, schur);
-  whole.steps = steps_with_whole_factors;
-  return true;
+  return factorize_symmetric(matrix, SparseCholesky::Kind::complete);
 }
 
 template <int Dim>
 void PressureFactors<Dim>::solve(const Values& r, Values& out) {
-  if (kind_ == Kind::complete || is_incomplete()) {
+  if (kind_ == Kind::envelope) {
+    for (std::size_t i = 0; i < order_.size(); ++i) ordered_[i] = r[order_[i]];
+    envelope_.solve(ordered_);
+    for (std::size_t i = 0; i < order_.size(); ++i) out[order_[i]] = ordered_[i];
+  } else {
     out = r;
     sparse_.solve(out);
-  } else {
-    for (std::size_t i = 0; i < order_.size(); ++i) ordered_[i] = r[order_[i]];
-    kind_ == Kind::single_envelope ? single_.solve(ordered_) : double_.solve(ordered_);
-    for (std::size_t i = 0; i < order_.size(); ++i) out[order_[i]] = ordered_[i];
   }
   for (std::size_t i = 0; i < of_mass_.size(); ++i) out[i] += of_mass_[i] * r[i];
 }

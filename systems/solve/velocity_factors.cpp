@@ -75,8 +75,9 @@ void VelocityFactors<Dim>::add_row(const Matrix& matrix, std::size_t i) {
   const std::size_t own = viscous_[i];
   const std::size_t r = own / Dim;
   const double* of_row = matrix.viscosity[r].data() + Dim * (own % Dim);
-  matrix.schur.tiles().for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
-    for (std::size_t d = 0; d < Dim; ++d) {
+  for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+    const std::size_t r_j = matrix.schur.neighbours(r)[k];
+    for (std::size_t d = 0; d < Dim && r_j < matrix.schur.rows(); ++d) {
       const std::size_t unknown = Dim * r_j + d;
       const double value = c_v_ * of_row[Dim * Dim * k + d] + (unknown == own ? inertia_[r] : 0);
       if (value == 0 || matrix.schur.inverse_diagonal()[unknown] == 0) continue;
@@ -86,7 +87,7 @@ void VelocityFactors<Dim>::add_row(const Matrix& matrix, std::size_t i) {
         factors_.add(i, static_cast<std::size_t>(place_[unknown]), value);
       }
     }
-  });
+  }
 }
 
 template <int Dim>
@@ -129,15 +130,16 @@ template <int Dim>
 void VelocityFactors<Dim>::times_viscosity(const Matrix& matrix, const Values& u, Values& out) const {
   using Entries = Eigen::Map<const Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>>;
   using Vector = Eigen::Map<const Eigen::Matrix<double, Dim, 1>>;
-  const auto& blocks = matrix.schur.tiles();
   for_each_row(
-      blocks.rows(),
+      matrix.schur.rows(),
       [&](std::size_t r) {
         const double* of_row = matrix.viscosity[r].data();
         Vec<Dim> sum = Vec<Dim>::Zero();
-        blocks.for_each_neighbour(r, [&](std::size_t k, std::size_t r_j) {
+        for (std::size_t k = 0; k < stencil_size<Dim>; ++k) {
+          const std::size_t r_j = matrix.schur.neighbours(r)[k];
+          if (r_j == matrix.schur.rows()) continue;
           sum += Entries(of_row + Dim * Dim * k).lazyProduct(Vector(u.data() + Dim * r_j));
-        });
+        }
         Eigen::Map<Eigen::Matrix<double, Dim, 1>>(out.data() + Dim * r) = sum;
       },
       256);

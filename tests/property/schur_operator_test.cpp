@@ -46,17 +46,17 @@ double difference(const Values& a, const Values& b) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("products with the tiles of (E55) are those of the matrix", "[property]", ((int Dim), Dim), 2,
+TEMPLATE_TEST_CASE_SIG("products with the rows of (E55) are those of the matrix", "[property]", ((int Dim), Dim), 2,
                        3) {
   const std::string quadrature = GENERATE("mixed", "particles");
   CAPTURE(quadrature);
   SceneRun run(with(water<Dim>(), {R"(/quadrature={"scheme": ")" + quadrature + "\"}"}));
   run.step(2);
   SchurOperator<Dim> schur;
-  schur.assemble(dense::terms_of_step<Dim>(run.world()), run.world().template resource<Grid<Dim>>());
+  schur.assemble(dense::terms_of_step<Dim>(run.world()));
   // What liquid that fills its cells saves is used there, and nowhere else.
-  CHECK((schur.inner_tiles() > 0) == (quadrature == "mixed"));
-  CHECK(schur.inner_tiles() < schur.rows() / 8);
+  CHECK((schur.alike_rows() > 0) == (quadrature == "mixed"));
+  CHECK(schur.alike_rows() < schur.rows() / 2);
 
   const Eigen::MatrixXd matrix = dense::as_assembled<Dim>(run.world()).matrix;
   const Values p = random_values(schur.rows(), 1);
@@ -80,8 +80,7 @@ TEMPLATE_TEST_CASE_SIG("products with the tiles of (E55) are those of the matrix
       }
     }
   }
-  TileVectors work;
-  schur.start(work);
+  SchurVectors work;
   schur.apply_divergence(w, p, work, spread);
   schur.apply_gradient(p, work, gradient);
   for (std::size_t i = 0; i < w.size(); ++i) {

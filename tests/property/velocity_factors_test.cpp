@@ -59,7 +59,7 @@ template <int Dim>
 struct FactorsOfStep {
   FactorsOfStep(World& world, ViscousSolver solver) {
     const auto terms = dense::terms_of_step<Dim>(world);
-    schur.assemble(terms, world.resource<Grid<Dim>>());
+    schur.assemble(terms);
     block.prepare(terms, schur, solver);
     viscosity = terms.viscosity;
   }

@@ -273,9 +273,8 @@ Operators<Dim> terms_of_step(World& world) {
           world.column<node::Row>(),
           world.column<node::Constraint>(),
           world.column<node::Mass>(),
-          world.column<node::Site<Dim>>(),
-          &world.resource<NodeIndex<Dim>>(),
           world.column<matrix::Node>(),
+          world.column<matrix::Neighbour<Dim>>(),
           world.column<matrix::Divergence<Dim>>(),
           world.column<matrix::Stabilization<Dim>>(),
           world.column<matrix::Viscosity<Dim>>()};

@@ -23,8 +23,7 @@ endif()
 # Nobody reads errno after sqrt; without it the call becomes one instruction.
 set(minamo_private_options -fno-math-errno)
 
-# Its roundings are corrected by an iteration, and its speed is that of fused multiply-add: a
-# factorization of 52 000 rows takes 48 ms with it and 72 ms without.
+# Its roundings are corrected by an iteration, and its speed is that of fused multiply-add.
 set_source_files_properties(systems/solve/envelope_lu.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)
 # Likewise: 12 800 rows within 80 of the diagonal take 2.5 ms with it, 3.0 ms without.
 set_source_files_properties(systems/conforming/envelope_cholesky.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)
