@@ -23,9 +23,14 @@ HEAD = """# Speed
   the runs.
 - *Systems*: the three that take the largest shares of the time of all systems.
 - *Peak memory*: that of the process, libraries and work space of the solvers included.
-- *Method*, unless a section says something else: TPIC, midpoint rule, PSPG, volume projection, corrected inertia, block
-  solver. Particles per cell: 2 x 2, in three dimensions 3 x 3 x 3, in the large tank 4 x 4. Dynamic viscosity: 1e-3
-  Pa s.
+- *Method* of the first section: conforming (minamo's default) and equal order with their defaults, both with TPIC. Of
+  the others: equal order, TPIC, midpoint rule, PSPG, volume projection, corrected inertia, block solver. Particles per
+  cell, unless a label says something else: 2 x 2, in three dimensions 3 x 3 x 3, in the large tank 4 x 4. Dynamic
+  viscosity: 1e-3 Pa s.
+"""
+BUSY_TEXT = """\
+Other programs used the processors while {cases} ran (load before they began: up to {load:.0f} on {cpus}
+processors): compare times only within a case, whose runs take turns.
 """
 
 
@@ -67,6 +72,16 @@ def machine_lines(results: Results) -> str:
     return "".join(f"- {', '.join(names)}: {machine}.\n" for machine, names in cases_of.items())
 
 
+def busy_lines(results: Results) -> str:
+    """Which cases had to share the processors; empty if none."""
+    busy = {name: result for name, result in results.items()
+            if result.get("load", 0) > 0.5 * int(result["machine"]["cpus"])}
+    if not busy:
+        return ""
+    cpus = next(iter(busy.values()))["machine"]["cpus"]
+    return "\n" + BUSY_TEXT.format(cases=", ".join(busy), load=max(r["load"] for r in busy.values()), cpus=cpus)
+
+
 def section(name: str, results: Results) -> str:
     """Empty if nothing of it has been measured."""
     rows = [row for case in CASES if case.section == name and case.name in results
@@ -80,4 +95,4 @@ def section(name: str, results: Results) -> str:
 
 
 def page(results: Results) -> str:
-    return HEAD + f"\n{machine_lines(results)}" + "".join(section(name, results) for name in SECTIONS)
+    return HEAD + f"\n{machine_lines(results)}" + busy_lines(results) + "".join(section(name, results) for name in SECTIONS)
