@@ -158,7 +158,7 @@ def draw(parameters, rows, title, error, out):
     label_axis(axes.yaxis, [row["y"] for row in rows])
     machine = f"{rows[0].get('cpu_model', '')}, threads: {rows[0].get('threads', '?')}"
     axes.set_xlabel(f"wall time of the time loop [s]\n({machine})")
-    axes.set_ylabel(textwrap.fill(f"{error} [1]", 40))
+    axes.set_ylabel(textwrap.fill(f"{error} [1]", 60))
     axes.set_title(title)
     axes.grid(which="major", color="0.85")
     axes.grid(which="minor", color="0.93", linewidth=0.5)

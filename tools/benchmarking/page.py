@@ -29,8 +29,8 @@ HEAD = """# Speed
   viscosity: 1e-3 Pa s.
 """
 BUSY_TEXT = """\
-Other programs used the processors while {cases} ran (load before they began: up to {load:.0f} on {cpus}
-processors): compare times only within a case, whose runs take turns.
+Other programs used the processors while these sections were measured: {titles} (load before a case up to {load:.0f} on
+{cpus} processors). Compare times only within a case, whose runs take turns, and CPU rather than wall time.
 """
 
 
@@ -73,13 +73,14 @@ def machine_lines(results: Results) -> str:
 
 
 def busy_lines(results: Results) -> str:
-    """Which cases had to share the processors; empty if none."""
-    busy = {name: result for name, result in results.items()
-            if result.get("load", 0) > 0.5 * int(result["machine"]["cpus"])}
+    """Sections with cases that had to share the processors; empty if there are none."""
+    busy = [(case, results[case.name]) for case in CASES if case.name in results
+            and results[case.name].get("load", 0) > 0.5 * int(results[case.name]["machine"]["cpus"])]
     if not busy:
         return ""
-    cpus = next(iter(busy.values()))["machine"]["cpus"]
-    return "\n" + BUSY_TEXT.format(cases=", ".join(busy), load=max(r["load"] for r in busy.values()), cpus=cpus)
+    titles = ", ".join(dict.fromkeys(TITLES[case.section] for case, _ in busy))
+    most = max((result for _, result in busy), key=lambda result: result["load"])
+    return "\n" + BUSY_TEXT.format(titles=titles, load=most["load"], cpus=most["machine"]["cpus"])
 
 
 def section(name: str, results: Results) -> str:
