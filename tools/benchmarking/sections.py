@@ -52,11 +52,12 @@ def below_both(rows: list[Row]) -> str:
         at = "0.8" if "0.8" in times else None
         lines.append([conforming["label"].removesuffix(", conforming"),
                       *(digits(per_simulated_second(row)) for row in (conforming, equal)),
-                      f"{equal['cpu_s'] / conforming['cpu_s']:.1f}",
+                      *(f"{equal[key] / conforming[key]:.1f}" for key in ("cpu_s", "step_s")),
                       *(f"{row['distances'][at]:.3f}" if at else "" for row in (conforming, equal))])
-    head = ["run", "conforming: CPU per simulated second [s]", "equal order", "ratio",
+    head = ["run", "conforming: CPU per simulated second [s]", "equal order", "ratio", "ratio of a step",
             "conforming: distance from interFoam at 0.8 s", "equal order"]
-    text = ("Conforming beside equal order. The ratio is by how many times equal order takes longer:\n\n"
+    text = ("Conforming beside equal order. The ratios are by how many times equal order takes\n"
+            "longer: CPU time of the run with start and output, wall time of a step.\n\n"
             + table(head, lines))
     by_label = {row["label"]: row for row in rows}
     for name in ("conforming", "equal order"):
