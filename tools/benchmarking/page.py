@@ -73,9 +73,10 @@ def machine_lines(results: Results) -> str:
 
 
 def busy_lines(results: Results) -> str:
-    """Sections with cases that had to share the processors; empty if there are none."""
+    """Sections with cases that had to share the processors; empty if there are none. The case before may have used all
+    of them."""
     busy = [(case, results[case.name]) for case in CASES if case.name in results
-            and results[case.name].get("load", 0) > 0.5 * int(results[case.name]["machine"]["cpus"])]
+            and results[case.name].get("load", 0) > 1.25 * int(results[case.name]["machine"]["cpus"])]
     if not busy:
         return ""
     titles = ", ".join(dict.fromkeys(TITLES[case.section] for case, _ in busy))

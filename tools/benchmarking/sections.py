@@ -56,8 +56,8 @@ def below_both(rows: list[Row]) -> str:
                       *(f"{row['distances'][at]:.3f}" if at else "" for row in (conforming, equal))])
     head = ["run", "conforming: CPU per simulated second [s]", "equal order", "ratio", "ratio of a step",
             "conforming: distance from interFoam at 0.8 s", "equal order"]
-    text = ("Conforming beside equal order. The ratios are by how many times equal order takes\n"
-            "longer: CPU time of the run with start and output, wall time of a step.\n\n"
+    text = ("Conforming beside equal order. The ratios are by how many times equal order takes longer: CPU time of the run with\n"
+            "start and output, wall time of a step.\n\n"
             + table(head, lines))
     by_label = {row["label"]: row for row in rows}
     for name in ("conforming", "equal order"):
