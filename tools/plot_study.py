@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Draws study.csv of `minamo study` as study.png: error against wall time, one line per method.
 
+The parameter with the most values is shown by colours, the next by dashes, a third by markers.
+
 plot_study.py study.csv [--out study.png] [--title TITLE] [--error LABEL]
 """
 
@@ -58,27 +60,63 @@ def text(name, value):
     return f"{head(name)} {value}" if value[:1] in "0123456789-[" else value
 
 
-def style(rows, parameters, line):
-    """Colour by the first parameter, dashes and marker by the second, further ones by the marker."""
-    places = [different(rows, name).index(value) for name, value in zip(parameters, line)] + [0, 0]
-    # One parameter only: markers differ as well, for prints without colour.
-    marker = places[0] if len(parameters) == 1 else places[1] + 2 * sum(places[2:])
-    return {
-        "color": COLOURS[places[0] % len(COLOURS)],
-        "linestyle": DASHES[places[1] % len(DASHES)],
-        "marker": MARKERS[marker % len(MARKERS)],
-    }
+def ranked(rows, methods):
+    """Parameters of a line, that with the most values first: it gets the colours."""
+    return sorted(methods, key=lambda name: -len(different(rows, name)))
+
+
+def looks(rows, methods):
+    """Per parameter and value what shows it: colour, dashes, marker, in the order of ranked(); further ones share the
+    marker."""
+    palettes = [("color", COLOURS), ("linestyle", DASHES), ("marker", MARKERS)]
+    found = {}
+    for place, name in enumerate(ranked(rows, methods)):
+        what, palette = palettes[min(place, 2)]
+        values = different(rows, name)
+        if len(values) > len(palette):
+            sys.exit(f"{name} has {len(values)} values, but there are {len(palette)} to show them by {what}")
+        found[name] = {value: {what: palette[k]} for k, value in enumerate(values)}
+    return found
+
+
+def style(line, look, methods, rows):
+    """Where nothing else needs the markers, they repeat the colour, for prints without."""
+    chosen = {"color": COLOURS[0], "linestyle": DASHES[0], "marker": MARKERS[0]}
+    order = ranked(rows, methods)
+    if order and len(order) < 3:
+        colours = list(look[order[0]])
+        chosen["marker"] = MARKERS[colours.index(line[methods.index(order[0])])]
+    for name, value in zip(methods, line):
+        chosen |= look[name][value]
+    return chosen
 
 
 def draw_lines(axes, parameters, rows):
     methods = [name for name in parameters if name != resolution(parameters, rows)]
+    look = looks(rows, methods)
     lines = {}
     for row in rows:
         lines.setdefault(tuple(row[name] for name in methods), []).append(row)
     for line, points in lines.items():
-        label = ", ".join(text(name, value) for name, value in zip(methods, line)) or "all"
-        axes.plot([p["x"] for p in points], [p["y"] for p in points], linewidth=1.4, markersize=5.5, label=label,
-                  **style(rows, methods, line))
+        axes.plot([p["x"] for p in points], [p["y"] for p in points], linewidth=1.4, markersize=5.5,
+                  **style(line, look, methods, rows))
+
+
+def keys(parameters, rows):
+    """Lines of the legend: a heading per parameter, below it what shows each value."""
+    from matplotlib.lines import Line2D
+
+    methods = [name for name in parameters if name != resolution(parameters, rows)]
+    look = looks(rows, methods)
+    entries = []
+    for place, name in enumerate(ranked(rows, methods)):
+        entries.append(Line2D([], [], linestyle="none", label=f"$\\bf{{{head(name).replace('_', chr(92) + '_')}}}$"))
+        for value, shown in look[name].items():
+            base = {"color": "0.25", "linestyle": "none" if place >= 2 else "-", "marker": "none"}
+            if place == 0 and len(methods) < 3:
+                base["marker"] = MARKERS[list(look[name]).index(value)]
+            entries.append(Line2D([], [], linewidth=1.4, markersize=5.5, label=text(name, value), **base | shown))
+    return entries
 
 
 def draw_frontier(axes, parameters, rows):
@@ -120,14 +158,15 @@ def draw(parameters, rows, title, error, out):
     label_axis(axes.yaxis, [row["y"] for row in rows])
     machine = f"{rows[0].get('cpu_model', '')}, threads: {rows[0].get('threads', '?')}"
     axes.set_xlabel(f"wall time of the time loop [s]\n({machine})")
-    axes.set_ylabel(textwrap.fill(f"{error} [1]", 40))
+    axes.set_ylabel(textwrap.fill(f"{error} [1]", 60))
     axes.set_title(title)
     axes.grid(which="major", color="0.85")
     axes.grid(which="minor", color="0.93", linewidth=0.5)
     axes.set_axisbelow(True)
     along = resolution(parameters, rows)
     note = f"\nnumbers at rings: {head(along)}" + (" along x" if along == "cells" else "") if along else ""
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, fontsize=9, title="method" + note,
+    frontier = axes.get_legend_handles_labels()[0]  # the lines have no label of their own
+    axes.legend(handles=keys(parameters, rows) + frontier, loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, fontsize=9, title=note.strip() or None,
                 title_fontsize=9, alignment="left")
     figure.savefig(out, dpi=150)
 

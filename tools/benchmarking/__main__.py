@@ -96,11 +96,13 @@ def measure_all(cases: list[Case], options: argparse.Namespace) -> dict:
     with tempfile.TemporaryDirectory(prefix="minamo_bench_") as folder:
         for case in cases:
             print(case.name, file=sys.stderr, flush=True)
+            load_before = os.getloadavg()[0]
             if case.name == KERNELS:
                 rows = measure_kernels(options.build / "minamo_bench", options.quick)
             else:
                 rows = measure(case, options.build / "minamo", 1 if options.quick else options.runs, Path(folder))
-            results[case.name] = {"machine": machine(options.build), "rows": rows}
+            results[case.name] = {"machine": machine(options.build), "load": load_before,
+                                  "rows": rows}
     return results
 
 

@@ -5,15 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-# The defaults, but TPIC of first order, with which the figures of others were measured; the scenes below name another
-# method.
+# Equal order with its defaults, but TPIC of first order, with which the figures of others were measured; some of the
+# scenes below name another method.
 DEFAULTS = {
+    "/discretization": {"scheme": "equal_order"},
     "/transfer": {"scheme": "tpic"},
     "/integrator": {"scheme": "midpoint"},
     "/quadrature": {"scheme": "mixed"},
     "/volume": {"scheme": "projection"},
     "/solver": {"scheme": "block"},
 }
+# The first is minamo's default.
+BOTH = {"conforming": {"/discretization": {"scheme": "conforming"}}, "equal order": DEFAULTS}
 NO_FRAMES = {"/output/every": 1e6}  # but the first and the last
 DAM_BREAK = "paper/dam_break_tpic"
 KERNELS = "kernels"  # the case that the program of the micro-benchmarks measures
@@ -50,6 +53,34 @@ def dam_break(cells: int, per_cell: int, step: float, **more: Any) -> dict[str, 
     return DEFAULTS | {"/grid/cells": [cells, cells], "/particles/0/per_cell": per_cell, "/time/step": step} | more
 
 
+def both(name: str, label: str, scene: str, overrides: dict[str, Any], repeat: int | None = None, **more: Any) -> Case:
+    """A run with either discretization, with TPIC."""
+    runs = [Run(f"{label}, {discretization}", scene, method | {"/transfer": {"scheme": "tpic"}} | overrides, **more)
+            for discretization, method in BOTH.items()]
+    return Case(name, "both", runs, repeat)
+
+
+def both_cases() -> list[Case]:
+    made = []
+    for cells, ms, repeat in ((40, 2, None), (40, 8, None), (80, 1, 1), (80, 4, None)):
+        of_scene = {"/grid/cells": [cells, cells], "/particles/0/per_cell": 2, "/time/step": 1e-3 * ms,
+                    "/output/every": 0.1}
+        made.append(both(f"both_{cells}_{ms}ms", f"{cells} x {cells}, {ms} ms", "dam_break", of_scene, repeat,
+                         compare=True))
+    for cells, ms, steps in ((160, 0.5, 60), (320, 0.25, 20)):
+        of_scene = {"/grid/cells": [cells, cells], "/particles/0/per_cell": 4, "/time/step": 1e-3 * ms}
+        made.append(both(f"both_{cells}", f"{cells} x {cells}, {ms} ms, 4 x 4", "dam_break", of_scene | NO_FRAMES,
+                         steps=steps))
+    for threads in (1, 2):
+        made.append(both(f"both_large_{threads}", f"large, {threads} thread{'s' * (threads > 1)}", "dam_break_large",
+                         NO_FRAMES, threads=threads, steps=250))
+    for cells, steps, repeat in ((32, 10, None), (68, 5, 1)):
+        of_scene = NO_FRAMES | {"/grid/cells": [cells, cells // 2, cells], "/time/step": 0.056 / cells}
+        made.append(both(f"both_space_{cells}", f"{cells} x {cells // 2} x {cells}", "dam_break_3d", of_scene, repeat,
+                         threads=2, steps=steps))
+    return made
+
+
 def paper_cases() -> list[Case]:
     made = []
     for cells, ms in ((40, 2), (40, 8), (80, 1), (80, 4)):
@@ -59,9 +90,9 @@ def paper_cases() -> list[Case]:
 
 
 def thread_cases() -> list[Case]:
-    runs = [Run(f"large, {n} thread{'s' * (n > 1)}", "dam_break_large", NO_FRAMES, threads=n, steps=250)
+    runs = [Run(f"large, {n} thread{'s' * (n > 1)}", "dam_break_large", DEFAULTS | NO_FRAMES, threads=n, steps=250)
             for n in (1, 2)]
-    whole = Run("large, 2 threads, to 7 s", "dam_break_large", {}, threads=2)
+    whole = Run("large, 2 threads, to 7 s", "dam_break_large", DEFAULTS, threads=2)
     return [Case("threads_250_steps", "threads", runs), Case("threads_whole", "threads", [whole])]
 
 
@@ -96,6 +127,6 @@ def space_cases() -> list[Case]:
     return made
 
 
-CASES = [*paper_cases(), *thread_cases(), *solver_cases(), *size_cases(), *assembly_cases(), *space_cases(),
-         Case(KERNELS, KERNELS)]
+CASES = [*both_cases(), *paper_cases(), *thread_cases(), *solver_cases(), *size_cases(), *assembly_cases(),
+         *space_cases(), Case(KERNELS, KERNELS)]
 SECTIONS = list(dict.fromkeys(case.section for case in CASES))

@@ -23,9 +23,14 @@ HEAD = """# Speed
   the runs.
 - *Systems*: the three that take the largest shares of the time of all systems.
 - *Peak memory*: that of the process, libraries and work space of the solvers included.
-- *Method*, unless a section says something else: TPIC, midpoint rule, PSPG, volume projection, corrected inertia, block
-  solver. Particles per cell: 2 x 2, in three dimensions 3 x 3 x 3, in the large tank 4 x 4. Dynamic viscosity: 1e-3
-  Pa s.
+- *Method* of the first section: conforming (minamo's default) and equal order with their defaults, both with TPIC. Of
+  the others: equal order, TPIC, midpoint rule, PSPG, volume projection, corrected inertia, block solver. Particles per
+  cell, unless a label says something else: 2 x 2, in three dimensions 3 x 3 x 3, in the large tank 4 x 4. Dynamic
+  viscosity: 1e-3 Pa s.
+"""
+BUSY_TEXT = """\
+Other programs used the processors while these sections were measured: {titles} (load before a case up to {load:.0f} on
+{cpus} processors). Compare times only within a case, whose runs take turns, and CPU rather than wall time.
 """
 
 
@@ -67,6 +72,18 @@ def machine_lines(results: Results) -> str:
     return "".join(f"- {', '.join(names)}: {machine}.\n" for machine, names in cases_of.items())
 
 
+def busy_lines(results: Results) -> str:
+    """Sections with cases that had to share the processors; empty if there are none. The case before may have used all
+    of them."""
+    busy = [(case, results[case.name]) for case in CASES if case.name in results
+            and results[case.name].get("load", 0) > 1.25 * int(results[case.name]["machine"]["cpus"])]
+    if not busy:
+        return ""
+    titles = ", ".join(dict.fromkeys(TITLES[case.section] for case, _ in busy))
+    most = max((result for _, result in busy), key=lambda result: result["load"])
+    return "\n" + BUSY_TEXT.format(titles=titles, load=most["load"], cpus=most["machine"]["cpus"])
+
+
 def section(name: str, results: Results) -> str:
     """Empty if nothing of it has been measured."""
     rows = [row for case in CASES if case.section == name and case.name in results
@@ -80,4 +97,4 @@ def section(name: str, results: Results) -> str:
 
 
 def page(results: Results) -> str:
-    return HEAD + f"\n{machine_lines(results)}" + "".join(section(name, results) for name in SECTIONS)
+    return HEAD + f"\n{machine_lines(results)}" + busy_lines(results) + "".join(section(name, results) for name in SECTIONS)

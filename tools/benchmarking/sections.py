@@ -10,7 +10,8 @@ from layout import digits, table
 Row = dict[str, Any]
 
 TITLES = {
-    "dam_break": "Dam break",
+    "both": "Conforming and equal order",
+    "dam_break": "Dam break with equal order, beside other codes",
     "threads": "Two threads",
     "solvers": "Block solver and UMFPACK",
     "size": "Cost against size",
@@ -42,6 +43,29 @@ ASSEMBLY = ("find_full_nodes", "find_filled_nodes", "moments", "moments_mixed", 
 
 def per_simulated_second(row: Row) -> float:
     return row["cpu_s"] / row["time"]
+
+
+def below_both(rows: list[Row]) -> str:
+    lines = []
+    for conforming, equal in zip(rows[::2], rows[1::2]):
+        times = sorted(set(conforming.get("distances", {})) & set(equal.get("distances", {})), key=float)
+        at = "0.8" if "0.8" in times else None
+        lines.append([conforming["label"].removesuffix(", conforming"),
+                      *(digits(per_simulated_second(row)) for row in (conforming, equal)),
+                      *(f"{equal[key] / conforming[key]:.1f}" for key in ("cpu_s", "step_s")),
+                      *(f"{row['distances'][at]:.3f}" if at else "" for row in (conforming, equal))])
+    head = ["run", "conforming: CPU per simulated second [s]", "equal order", "ratio", "ratio of a step",
+            "conforming: distance from interFoam at 0.8 s", "equal order"]
+    text = ("Conforming beside equal order. The ratios are by how many times equal order takes longer: CPU time of the run with\n"
+            "start and output, wall time of a step.\n\n"
+            + table(head, lines))
+    by_label = {row["label"]: row for row in rows}
+    for name in ("conforming", "equal order"):
+        pair = [by_label.get(f"large, {threads}, {name}") for threads in ("1 thread", "2 threads")]
+        if all(pair):
+            text += (f"\nWith {name} a step of the large tank is {pair[0]['step_s'] / pair[1]['step_s']:.2f} times as "
+                     "fast on two threads as on one.\n")
+    return text
 
 
 def below_dam_break(rows: list[Row]) -> str:
@@ -119,8 +143,8 @@ def below_space(rows: list[Row]) -> str:
     return table(["run", "particles", "seconds per step", "us per particle and step"], lines)
 
 
-BELOW = {"dam_break": below_dam_break, "threads": below_threads, "solvers": below_solvers, "size": below_size,
-         "assembly": below_assembly, "space": below_space}
+BELOW = {"both": below_both, "dam_break": below_dam_break, "threads": below_threads, "solvers": below_solvers,
+         "size": below_size, "assembly": below_assembly, "space": below_space}
 KERNEL_HEAD = """
 The bytes and operations that a kernel needs at least, by the formulas in [work.hpp](work.hpp), over its time. *Of
 triad*: share of the bandwidth of a = b + s c over as many bytes. *Of peak*: share of the peak of fused multiply-adds.
