@@ -18,11 +18,11 @@ void add_body_force(SystemRegistry& registry);      // time/
 void add_transfer(SystemRegistry& registry);        // transfer/
 void add_integrator(SystemRegistry& registry);      // time/
 void add_solver(SystemRegistry& registry);          // solve/
-void add_extension(SystemRegistry& registry);       // bodies/
 void add_stabilization(SystemRegistry& registry);   // assemble/
 void add_volume(SystemRegistry& registry);          // volume/
 void add_time(SystemRegistry& registry);            // setup/
 void add_conservation(SystemRegistry& registry);    // measure/
+void add_behind_bodies(SystemRegistry& registry);   // bodies/
 void add_probes(SystemRegistry& registry);          // measure/
 void add_exact(SystemRegistry& registry);           // measure/
 void add_output(SystemRegistry& registry);          // output/

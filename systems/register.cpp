@@ -17,11 +17,11 @@ void register_parts(SystemRegistry& registry) {
   add_transfer(registry);
   add_integrator(registry);
   add_solver(registry);
-  add_extension(registry);
   add_stabilization(registry);
   add_volume(registry);
   add_time(registry);
   add_conservation(registry);
+  add_behind_bodies(registry);
   add_probes(registry);
   add_exact(registry);
   add_output(registry);

@@ -7,6 +7,7 @@
 #include "systems/bodies/keep_out.hpp"
 #include "systems/bodies/motion.hpp"
 #include "systems/bodies/motion_table.hpp"
+#include "systems/conforming/friction_choice.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/scene_checks.hpp"
@@ -133,6 +134,16 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
   set.bodies.push_back(std::move(body));
 }
 
+/// What is solved with friction in the balances, or by UMFPACK, does not know of open shares.
+void check_solver(const Scene& scene, SeedProblems& problems) {
+  if (friction_of(scene) == Friction::in_balances) {
+    problems.note("/fluid/viscosity", "too large beside bodies", "nu dt/h^2 up to 0.01, and no slip length",
+                  fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
+  }
+  if (scene.schemes.at("solver") == "umfpack")
+    problems.note("/solver/scheme", "not with bodies", R"("block")", R"("umfpack")");
+}
+
 template <int Dim>
 void seed_bodies(const BodySet<Dim>& set, World& world) {
   world.resource<BodySet<Dim>>() = set;
@@ -162,7 +173,10 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   recipe.add("measure", "measure_bodies_at_start", When::standing);
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
-    recipe.seed([set = bodies.of<Dim>()](const Scene&, World& world, SeedProblems&) { seed_bodies<Dim>(set, world); });
+    recipe.seed([set = bodies.of<Dim>()](const Scene& of, World& world, SeedProblems& problems) {
+      check_solver(of, problems);
+      seed_bodies<Dim>(set, world);
+    });
   });
 }
 
@@ -180,10 +194,13 @@ Contribution read_bodies(Input& input, Scene& scene) {
   return [bodies](const Scene& of, Recipe& recipe) { add_systems_of_bodies(bodies, of, recipe); };
 }
 
-/// Behind the solver, in standing steps too: what particles take from them is a force gradient.
-Contribution extend_velocities(Input&, Scene&) {
+/// What comes behind the systems of other parts in a slot. Velocities are extended in standing steps, too: particles
+/// take a force gradient from them.
+Contribution read_nothing(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
-    if (scene.facts.find<BodiesOfScene>()) recipe.add("solve", "extend_balance_velocity");
+    if (!scene.facts.find<BodiesOfScene>()) return;
+    recipe.add("solve", "extend_balance_velocity");
+    recipe.add("measure", "measure_energy_balance");
   };
 }
 
@@ -203,9 +220,10 @@ void add_bodies(SystemRegistry& registry) {
   registry.add(Part{"bodies", "solids in the liquid", read_bodies});
 }
 
-void add_extension(SystemRegistry& registry) {
+void add_behind_bodies(SystemRegistry& registry) {
   registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
-  registry.add(Part{"extension", "velocities of the faces that bodies close; no key", extend_velocities});
+  registry.add<MeasureEnergyBalance>("measure_energy_balance");
+  registry.add(Part{"behind_bodies", "velocities of faces that bodies close, balance of energy; no key", read_nothing});
 }
 
 }  // namespace minamo

@@ -49,7 +49,12 @@ RunTotals added(RunTotals totals, const Clock& clock, const measure::Energy& ene
   if (is_start) totals.first = totals.last;
   if (is_start) totals.columns = static_cast<std::int64_t>(further.columns.size());
   require_known(further, totals.columns);
-  if (energy.potential) watch(is_start, clock, energy.kinetic, *energy.potential, totals.energy);
+  if (energy.potential) {
+    // Bodies that move give and take energy, too.
+    const double* balance = further.find("energy_balance");
+    const double beside_kinetic = balance ? *balance - energy.kinetic : *energy.potential;
+    watch(is_start, clock, energy.kinetic, beside_kinetic, totals.energy);
+  }
   keep_measured(further, "error_velocity", totals.error_velocity);
   keep_measured(further, "error_pressure", totals.error_pressure);
   ++totals.rows;
