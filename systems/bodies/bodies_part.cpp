@@ -51,7 +51,8 @@ Prescribed<Dim> read_prescribed(Input& input, const Scene& scene, BodyScene<Dim>
     if constexpr (Dim == 2) {
       motion.axis[0] = 1;
     } else {
-      const Vec<3> axis = vec<3>(in.numbers("axis", 3, {.doc = "of any length but zero"}));
+      const auto given = in.optional_numbers("axis", 3, {.doc = "of any length but zero; [0, 0, 1] unless given"});
+      const Vec<3> axis = given ? vec<3>(*given) : Vec<3>::UnitZ();
       if (in.sound("axis") && !in.describing() && axis.norm() == 0) {
         in.problem("axis", "no direction", "a vector that is not zero");
       } else {

@@ -34,7 +34,7 @@ Tabulated<Dim> read_motion_table(const std::filesystem::path& file) {
   const std::string expected = Dim == 2 ? "lines \"time, x, y\" or \"time, x, y, angle\", at rising times"
                                         : "lines \"time, x, y, z\" or \"time, x, y, z, angle\", at rising times";
   std::ifstream text(file);
-  if (!text) throw MotionTableError("cannot be read", "a CSV file", file.string());
+  if (!text) throw MotionTableError("cannot be read", "a CSV file", file.filename().string());
   Tabulated<Dim> table;
   int count = 0;
   for (std::string line; std::getline(text, line);) {

@@ -113,7 +113,10 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& prob
   if (const auto* bodies = scene.facts.find<BodiesOfScene>()) {
     std::vector<double> size;
     for (const ParticleScene& region : scene.particles) size.push_back(grid.spacing / region.per_cell);
+    const std::size_t before = seeds.position.size();
     cut_away<Dim>(bodies->of<Dim>(), grid, size, seeds);
+    if (before > 0 && seeds.position.empty())
+      problems.note("/bodies", "no liquid is left", "bodies with liquid beside them", "all of it lies in bodies");
   }
   return seeds;
 }

@@ -25,6 +25,10 @@ Input::Document described() {
 std::vector<Json> schemas_of(const Json& schema, const std::string& key) {
   std::vector<Json> found;
   if (!schema.is_object()) return found;
+  if (schema.contains("$ref")) {  // a shape made of shapes
+    static const Json root = described().schema();
+    return schemas_of(root.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1))), key);
+  }
   if (schema.contains("properties") && schema["properties"].value(key, Json(false)).is_object()) {
     found.push_back(schema["properties"][key]);
   } else if (schema.contains("additionalProperties") && schema["additionalProperties"].is_object()) {
