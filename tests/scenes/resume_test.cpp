@@ -70,6 +70,8 @@ const std::vector<Case> cases{
     {"elliptical_drop.json", {"/grid/cells=[20, 20]", "/output/every=0.02", conforming}},
     {"dam_break_3d.json", {"/grid/cells=[14, 7, 14]", "/output/every=0.01", conforming}},
     {"poiseuille.json", {"/output/every=0.1"}},
+    {"paddle.json", {"/output/every=0.02", "/grid/cells=[80, 15]"}},
+    {"mixer.json", {"/output/every=0.01", "/grid/cells=[20, 20]"}},
     {"dam_break_3d.json", {"/grid/cells=[14, 7, 14]", "/output/every=0.01"}},
 };
 
