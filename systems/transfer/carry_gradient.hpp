@@ -30,4 +30,12 @@ struct CarryGradient {
                   Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 
+/// (E62) in the conforming discretization, at the end of a step and on to the middle of the next.
+template <int Dim>
+struct CarryGradientByFaces {
+  static constexpr std::string_view doc = "(E62) velocity gradient, carried on by a step";
+  void operator()(Read<Clock> clock, Read<GridCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
+                  Update<particle::VelocityGradient<Dim>> grad_v_p) const;
+};
+
 }  // namespace minamo

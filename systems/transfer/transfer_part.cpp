@@ -30,6 +30,7 @@ void correct_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
 /// The same on faces.
 void correct_face_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
   recipe.add("assemble", "add_face_inertia");
+  if (integrator.gradients_move) recipe.add("advect", "carry_gradient_by_faces", When::step);
   recipe.add("advect", "g2p_face_force_gradient", When::step);
   recipe.add_standing_step(integrator.configure_beside,
                            {recipe.make("correct_faces_backward_euler"), recipe.make("g2p_face_force_gradient")});
@@ -100,6 +101,7 @@ void add_transfer(SystemRegistry& registry) {
   registry.add<FindLiquidCells>("find_liquid_cells");
   registry.add<CarryGradient>("carry_gradient_to_middle");
   registry.add<CarryGradient>("carry_gradient_to_end");
+  registry.add<CarryGradientByFaces>("carry_gradient_by_faces");
   registry.add<AddInertiaCorrection>("add_inertia_correction");
   registry.add<G2PForceGradient>("g2p_force_gradient");
   registry.add<Advect>("advect");
