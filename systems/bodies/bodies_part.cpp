@@ -93,20 +93,6 @@ void read_motion(Input& input, const Scene& scene, BodyScene<Dim>& body) {
 }
 
 template <int Dim>
-void check_name(Input& input, const BodyScene<Dim>& body, const BodySet<Dim>& earlier) {
-  const auto is_twin = [&](const auto& other) { return other.name == body.name; };
-  const bool can_name = !body.name.empty() && std::all_of(body.name.begin(), body.name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_';
-  });
-  if (std::any_of(earlier.bodies.begin(), earlier.bodies.end(), is_twin)) {
-    input.problem("name", "name is taken by an earlier body", "a name for each body", shown(Json(body.name)));
-  } else if (!can_name || body.name == "error") {
-    input.problem("name", "cannot name columns of the history", "letters, digits and _, and not \"error\"",
-                  shown(Json(body.name)));
-  }
-}
-
-template <int Dim>
 void check_inside(Input& input, const BodyScene<Dim>& body, const GridScene& grid) {
   const Bounds<Dim> bounds = body.shape->bounds();
   if (!bounds.finite() || body.moves()) return;
@@ -130,7 +116,10 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
   body.pivot = middle_of<Dim>(body.shape);
   read_motion<Dim>(input, scene, body);
   if (input.describing() || !body.shape) return;
-  if (input.sound("name")) check_name<Dim>(input, body, set);
+  if (input.sound("name")) {
+    const auto is_twin = [&](const auto& other) { return other.name == body.name; };
+    check_column_name(input, body.name, "body", std::any_of(set.bodies.begin(), set.bodies.end(), is_twin));
+  }
   check_inside<Dim>(input, body, scene.grid);
   set.bodies.push_back(std::move(body));
 }

@@ -141,26 +141,10 @@ template <int Dim>
 StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines) {
   StaticCut<Dim> cut;
   cut.sites = splines.sites();
-  std::vector<Vec<Dim>> position;
-  std::vector<Mat<Dim>> rotation;
-  bool rests = false;
-  for (const auto& body : set.bodies) {
-    position.push_back(body.pivot);
-    rotation.push_back(Mat<Dim>::Identity());
-    rests = rests || !body.moves();
-  }
-  if (!rests) return cut;
-  const PlacedBodies<Dim> bodies(set, position, rotation);
+  if (std::all_of(set.bodies.begin(), set.bodies.end(), [](const auto& body) { return body.moves(); })) return cut;
+  const auto bodies = PlacedBodies<Dim>::at_start(set);
   const SitePlaces<Dim> places(grid, splines);
   const auto at_rest = [&](const Vec<Dim>& x) { return bodies.distance(x, false); };
-  const auto index = [](std::size_t row, const Index<Dim>& count) {
-    Index<Dim> at;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      at[d] = static_cast<int>(row % static_cast<std::size_t>(count[d]));
-      row /= static_cast<std::size_t>(count[d]);
-    }
-    return at;
-  };
   std::size_t sites = 1;
   std::size_t cells = 1;
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -168,12 +152,13 @@ StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
     cells *= static_cast<std::size_t>(grid.cells[d]);
   }
   cut.of.resize(sites);
-  for_each_row(
-      sites, [&](std::size_t i) { cut.of[i] = cut_site<Dim>(places, index(i, cut.sites), bodies.bounded(), at_rest); });
+  for_each_row(sites, [&](std::size_t i) {
+    cut.of[i] = cut_site<Dim>(places, index_in<Dim>(cut.sites, i), bodies.bounded(), at_rest);
+  });
   cut.near.resize(cells);
   const double half_diagonal = 0.5 * grid.spacing * std::sqrt(static_cast<double>(Dim));
   for_each_row(cells, [&](std::size_t c) {
-    const Vec<Dim> x = grid.position(index(c, grid.cells)) + Vec<Dim>::Constant(0.5 * grid.spacing);
+    const Vec<Dim> x = grid.position(index_in<Dim>(grid.cells, c)) + Vec<Dim>::Constant(0.5 * grid.spacing);
     cut.near[c] = bodies.bounded() && at_rest(x) > 1.1 * half_diagonal ? 0 : 1;
   });
   return cut;
@@ -190,6 +175,13 @@ PlacedBodies<Dim>::PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim
     if (body.moves()) moving_bounds_.push_back(placement_.back().bounds(body.shape->bounds()));
     bounded_ = bounded_ && body.shape->is_bounded_by_distance();
   }
+}
+
+template <int Dim>
+PlacedBodies<Dim> PlacedBodies<Dim>::at_start(const BodySet<Dim>& set) {
+  std::vector<Vec<Dim>> position;
+  for (const auto& body : set.bodies) position.push_back(body.pivot);
+  return {set, position, std::vector<Mat<Dim>>(set.bodies.size(), Mat<Dim>::Identity())};
 }
 
 template <int Dim>

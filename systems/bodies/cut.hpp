@@ -13,6 +13,24 @@ namespace minamo {
 /// Faces less open than this are closed.
 inline constexpr double least_open = 1e-3;
 
+/// Place of an index among `count` per direction, x fastest, and the index at a place.
+template <int Dim>
+std::size_t row_in(const Index<Dim>& count, const Index<Dim>& index) {
+  std::size_t row = 0;
+  for (std::size_t d = Dim; d-- > 0;)
+    row = row * static_cast<std::size_t>(count[d]) + static_cast<std::size_t>(index[d]);
+  return row;
+}
+template <int Dim>
+Index<Dim> index_in(const Index<Dim>& count, std::size_t row) {
+  Index<Dim> index;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    index[d] = static_cast<int>(row % static_cast<std::size_t>(count[d]));
+    row /= static_cast<std::size_t>(count[d]);
+  }
+  return index;
+}
+
 /// Where faces and multipliers are: between the Greville points of neighbouring faces lies a multiplier.
 template <int Dim>
 class SitePlaces {
@@ -39,8 +57,6 @@ template <int Dim>
 struct SiteCut {
   Vec<Dim> open = Vec<Dim>::Ones();  ///< of its faces [1]
   double share = 1;                  ///< of the volume of its multiplier, weighted with its spline [1]
-
-  bool is_whole() const { return share == 1 && (open.array() == 1).all(); }
 };
 
 /// The cut of a site by a region, of which `distance` is the signed distance, negative inside.
@@ -56,22 +72,18 @@ struct StaticCut {
   std::vector<std::uint8_t> near;  ///< cells of the grid, x fastest, whose points may lie in a body
   static constexpr ComponentInfo info{"bodies.static_cut", "a_f", "1", Lifetime::constant};
 
-  const SiteCut<Dim>& at(const Index<Dim>& site) const {
-    std::size_t row = 0;
-    for (std::size_t d = Dim; d-- > 0;)
-      row = row * static_cast<std::size_t>(sites[d]) + static_cast<std::size_t>(site[d]);
-    return of[row];
-  }
+  const SiteCut<Dim>& at(const Index<Dim>& site) const { return of[row_in<Dim>(sites, site)]; }
 };
 
 template <int Dim>
 StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines);
 
-/// The bodies of a scene, where they are in the middle of the step.
+/// The bodies of a scene at some place each.
 template <int Dim>
 class PlacedBodies {
  public:
   PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim>> position, std::span<const Mat<Dim>> rotation);
+  static PlacedBodies at_start(const BodySet<Dim>& set);
 
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();  ///< [m]
@@ -85,7 +97,6 @@ class PlacedBodies {
   bool may_be_near(const Vec<Dim>& x, double reach) const;
   bool bounded() const { return bounded_; }
   const Placement<Dim>& placement(std::size_t b) const { return placement_[b]; }
-  const BodySet<Dim>& set() const { return set_; }
 
  private:
   const BodySet<Dim>& set_;

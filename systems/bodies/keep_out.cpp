@@ -1,5 +1,6 @@
 #include "systems/bodies/keep_out.hpp"
 
+#include "systems/setup/lattice.hpp"
 #include "systems/transfer/advect.hpp"
 
 #include <atomic>
@@ -13,26 +14,14 @@ namespace {
 constexpr double gap = 1e-3;
 constexpr int most_tries = 4;
 
-/// Row of the cell of a point inside the box, x fastest.
-template <int Dim>
-std::size_t row_of_cell(const Grid<Dim>& grid, const Vec<Dim>& x) {
-  std::size_t row = 0;
-  for (int d = Dim; d-- > 0;) {
-    const int count = grid.cells[static_cast<std::size_t>(d)];
-    const int cell = std::clamp(static_cast<int>((x[d] - grid.low[d]) / grid.spacing), 0, count - 1);
-    row = row * static_cast<std::size_t>(count) + static_cast<std::size_t>(cell);
-  }
-  return row;
-}
-
 }  // namespace
 
 template <int Dim>
-void KeepOutOfBodies<Dim>::operator()(Read<Clock>, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
-                                      Read<StaticCut<Dim>> at_rest, Read<body::Position<Dim>> c_b,
-                                      Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
-                                      Read<body::Spin<Dim>> omega_b, Update<particle::Position<Dim>> x_p,
-                                      Update<particle::Velocity<Dim>> v_p, Update<Clamped> clamped) const {
+void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
+                                      Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b,
+                                      Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,
+                                      Update<particle::Position<Dim>> x_p, Update<particle::Velocity<Dim>> v_p,
+                                      Update<Clamped> clamped) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const double least = gap * grid->spacing;
   std::atomic<std::int64_t> count = 0;
@@ -58,7 +47,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Clock>, Read<Grid<Dim>> grid, Read<Bo
   };
   const bool rests = !at_rest->of.empty();
   for_each_row(x_p.size(), [&](std::size_t p) {
-    if (rests && at_rest->near[row_of_cell<Dim>(*grid, x_p[p])] != 0) keep_out(p, false);
+    if (rests && at_rest->near[row_in<Dim>(grid->cells, cell_of<Dim>(*grid, x_p[p]))] != 0) keep_out(p, false);
     if (bodies.may_be_near(x_p[p], least)) keep_out(p, true);
   });
   clamped->count += count;

@@ -51,13 +51,7 @@ Piece<Dim> piece_outside(const PlacedBodies<Dim>& bodies, const Vec<Dim>& x, dou
 
 template <int Dim>
 void cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<double>& size, Seeds<Dim>& seeds) {
-  std::vector<Vec<Dim>> position;
-  std::vector<Mat<Dim>> rotation;
-  for (const auto& body : set.bodies) {
-    position.push_back(body.pivot);
-    rotation.push_back(Mat<Dim>::Identity());
-  }
-  const PlacedBodies<Dim> bodies(set, position, rotation);
+  const auto bodies = PlacedBodies<Dim>::at_start(set);
   std::vector<Piece<Dim>> pieces(seeds.position.size());
   for_each_row(pieces.size(), [&](std::size_t p) {
     pieces[p] = piece_outside<Dim>(bodies, seeds.position[p], size[seeds.region[p]]);

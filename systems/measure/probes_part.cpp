@@ -14,24 +14,6 @@ namespace minamo {
 
 namespace {
 
-/// Whether a history can have columns that begin with the name.
-bool can_name_columns(const std::string& name) {
-  return !name.empty() && name != "error" && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  });
-}
-
-void check_name(Input& input, const std::string& name, const ProbeScenes& earlier) {
-  const bool is_twin =
-      std::any_of(earlier.begin(), earlier.end(), [&](const auto& other) { return other.name == name; });
-  if (is_twin) {
-    input.problem("name", "name is taken by an earlier probe", "a name for each probe", shown(Json(name)));
-  } else if (!can_name_columns(name)) {
-    input.problem("name", "cannot name columns of the history", "letters, digits and _, and not \"error\"",
-                  shown(Json(name)));
-  }
-}
-
 template <int Dim>
 measure::Probes<Dim> make_probes(const ProbeScenes& scene) {
   measure::Probes<Dim> probes;
@@ -53,7 +35,10 @@ Contribution read_probes(Input& input, Scene& scene) {
     ProbeScene probe;
     probe.name = in.text("name", {.doc = "its columns are NAME_pressure, NAME_velocity_x, ..."});
     probe.at = in.numbers("at", static_cast<std::size_t>(scene.dimension), {.unit = "m", .doc = "place"});
-    if (in.sound("name") && !in.describing()) check_name(in, probe.name, probes);
+    if (in.sound("name") && !in.describing()) {
+      const auto is_twin = [&](const auto& other) { return other.name == probe.name; };
+      check_column_name(in, probe.name, "probe", std::any_of(probes.begin(), probes.end(), is_twin));
+    }
     if (in.sound("at")) check_probe(in, probe.at, scene.grid);
     probes.push_back(std::move(probe));
   });

@@ -192,4 +192,24 @@ void check_probe(Input& input, const std::vector<double>& at, const GridScene& g
   input.problem("at", "outside the grid", box_text(grid), fmt::format("[{}] m", fmt::join(at, ", ")));
 }
 
+namespace {
+
+/// Whether a history can have columns that begin with the name.
+bool can_name_columns(const std::string& name) {
+  return !name.empty() && name != "error" && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+}  // namespace
+
+void check_column_name(Input& input, const std::string& name, const std::string& thing, bool is_taken) {
+  if (is_taken) {
+    input.problem("name", "name is taken by an earlier " + thing, "a name for each " + thing, shown(Json(name)));
+  } else if (!can_name_columns(name)) {
+    input.problem("name", "cannot name columns of the history", "letters, digits and _, and not \"error\"",
+                  shown(Json(name)));
+  }
+}
+
 }  // namespace minamo
