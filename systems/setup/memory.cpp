@@ -1,5 +1,6 @@
 #include "systems/setup/memory.hpp"
 
+#include "systems/conforming/friction_choice.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 
@@ -15,12 +16,15 @@ double spread(const Scene& scene) { return scene.dimension == 3 ? 2.5 : 1 + 6.0 
 /// Columns of faces and multipliers, what cells know of their sites, factors in the plane and multigrid in space.
 double bytes_per_site(const Scene& scene) { return scene.dimension == 2 ? 2500 : 2000; }
 
+/// Friction in the balances: matrices of cells and the vectors of its iteration.
+double bytes_of_friction(const Scene& scene) { return friction_of(scene) == Friction::in_balances ? 800 : 0; }
+
 double bytes_per_node_of(const Scene& scene, double nodes) {
   const auto& solver = scene.facts.get<LinearSolver>();
   if (!is_conforming(scene)) return solver.bytes_per_node(scene, nodes);
   // All equations at once have about as many entries as with equal order.
   const bool is_whole = solver.name == "umfpack";
-  return bytes_per_site(scene) + (is_whole ? solver.bytes_per_node(scene, nodes) : 0);
+  return bytes_per_site(scene) + bytes_of_friction(scene) + (is_whole ? solver.bytes_per_node(scene, nodes) : 0);
 }
 
 }  // namespace
