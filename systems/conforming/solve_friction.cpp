@@ -10,7 +10,7 @@ namespace minamo {
 
 namespace {
 
-constexpr std::int64_t most_iterations = 2000;
+constexpr std::int64_t most_friction_iterations = 2000;
 
 /// The matrices of a solve.
 template <int Dim>
@@ -71,7 +71,7 @@ struct FrictionSystem {
     double left = project();
     work.direction = work.z;
     for (std::int64_t k = 0;; ++k) {
-      if (left <= target * target || k == most_iterations || !std::isfinite(left)) return k;
+      if (left <= target * target || k == most_friction_iterations || !std::isfinite(left)) return k;
       apply(work.direction, work.product);
       const double step = left / dot(work.direction, work.product);
       add_scaled(step, work.direction, work.v);

@@ -99,7 +99,7 @@ double extent(const SharedShape<Dim>& shape, const GridScene& grid) {
   return extent;
 }
 
-bool is_name(const std::string& text) {
+bool can_be_a_name(const std::string& text) {
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   return !text.empty() && is_letter(text[0]) &&
@@ -171,7 +171,7 @@ void check_constants(Input& input, const std::map<std::string, double>& constant
     const std::string key = fmt::format("constants/{}", pointer_token(name));
     if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
       input.problem(key, "name is taken", "a name other than x, y, z, t, pi and those of functions", shown(Json(name)));
-    } else if (!is_name(name)) {
+    } else if (!can_be_a_name(name)) {
       input.problem(key, "not a name", "letters, digits and _, not a digit first", shown(Json(name)));
     }
   }
@@ -182,7 +182,7 @@ void check_ode_name(Input& input, const std::string& key, const std::string& nam
   if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
     input.problem(key, "name is taken", "a name other than x, y, z, t, pi and those of constants and functions",
                   shown(Json(name)));
-  } else if (!is_name(name)) {
+  } else if (!can_be_a_name(name)) {
     input.problem(key, "not a name", "letters, digits and _, not a digit first", shown(Json(name)));
   }
 }

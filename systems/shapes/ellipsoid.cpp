@@ -10,9 +10,9 @@ namespace {
 /// The point of an ellipsoid about the origin that is nearest to a point y >= 0. It is x_i = e_i^2 y_i / (e_i^2 + t),
 /// with the largest t for which it lies on the ellipsoid; s = t + (least e)^2 here, which does not cancel.
 template <int Dim>
-class Nearest {
+class NearestOnEllipsoid {
  public:
-  Nearest(const Vec<Dim>& radii, const Vec<Dim>& y) : e_(radii), y_(y), least_(radii.minCoeff()) {
+  NearestOnEllipsoid(const Vec<Dim>& radii, const Vec<Dim>& y) : e_(radii), y_(y), least_(radii.minCoeff()) {
     for (int i = 0; i < Dim; ++i) beyond_[i] = (e_[i] - least_) * (e_[i] + least_);
   }
 
@@ -85,7 +85,7 @@ class Nearest {
 /// The nearest point to any y: it lies in the same orthant.
 template <int Dim>
 Vec<Dim> nearest_point(const Vec<Dim>& radii, const Vec<Dim>& y) {
-  Vec<Dim> x = Nearest<Dim>(radii, y.cwiseAbs()).point();
+  Vec<Dim> x = NearestOnEllipsoid<Dim>(radii, y.cwiseAbs()).point();
   for (int i = 0; i < Dim; ++i) {
     if (y[i] < 0) x[i] = -x[i];
   }

@@ -9,10 +9,10 @@ namespace minamo::shapes {
 
 namespace {
 
-using Box = Eigen::AlignedBox3d;
+using AlignedBox = Eigen::AlignedBox3d;
 
 /// Of a triangle the part that a point of it belongs to.
-struct Foot {
+struct FootOnTriangle {
   Vec<3> point = Vec<3>::Zero();
   Vec<3> normal = Vec<3>::Zero();  ///< of the triangle, edge or corner that the point is on
   double squared = std::numeric_limits<double>::infinity();
@@ -20,13 +20,13 @@ struct Foot {
 };
 
 /// The nearest point of a triangle (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
-Foot foot_on(const ClosedSurface& surface, std::uint32_t t, const Vec<3>& x) {
+FootOnTriangle foot_on(const ClosedSurface& surface, std::uint32_t t, const Vec<3>& x) {
   const auto& corners = surface.triangle[t];
   const Vec<3>&a = surface.corner[corners[0]], &b = surface.corner[corners[1]], &c = surface.corner[corners[2]];
   const Vec<3> ab = b - a;
   const Vec<3> ac = c - a;
   const auto at = [&](const Vec<3>& point, const Vec<3>& normal, bool is_on_triangle = false) {
-    return Foot{point, normal, (x - point).squaredNorm(), is_on_triangle};
+    return FootOnTriangle{point, normal, (x - point).squaredNorm(), is_on_triangle};
   };
   const auto at_corner = [&](std::size_t k) {
     return at(surface.corner[corners[k]], surface.corner_normal[corners[k]]);
@@ -56,21 +56,21 @@ Foot foot_on(const ClosedSurface& surface, std::uint32_t t, const Vec<3>& x) {
 }
 
 /// What Eigen's search asks.
-struct Nearest {
+struct NearestTriangle {
   using Scalar = double;
   const ClosedSurface& surface;
   Vec<3> x;
-  Foot best = {};
+  FootOnTriangle best = {};
 
-  double minimumOnVolume(const Box& box) const { return box.squaredExteriorDistance(Eigen::Vector3d(x)); }
+  double minimumOnVolume(const AlignedBox& box) const { return box.squaredExteriorDistance(Eigen::Vector3d(x)); }
   double minimumOnObject(std::uint32_t triangle) {
-    const Foot foot = foot_on(surface, triangle, x);
+    const FootOnTriangle foot = foot_on(surface, triangle, x);
     if (foot.squared < best.squared) best = foot;  // not so a foot that is not a number, of a triangle without area
     return best.squared;
   }
 };
 
-double sign(const Foot& foot, const Vec<3>& x) { return foot.normal.dot(x - foot.point) < 0 ? -1 : 1; }
+double sign(const FootOnTriangle& foot, const Vec<3>& x) { return foot.normal.dot(x - foot.point) < 0 ? -1 : 1; }
 
 }  // namespace
 
@@ -79,7 +79,7 @@ struct Mesh::Tree {
 
   explicit Tree(const ClosedSurface& surface) {
     std::vector<std::uint32_t> triangles;
-    std::vector<Box> box;
+    std::vector<AlignedBox> box;
     for (std::uint32_t t = 0; t < surface.triangle.size(); ++t) {
       triangles.push_back(t);
       box.emplace_back();
@@ -88,8 +88,8 @@ struct Mesh::Tree {
     boxes.init(triangles.begin(), triangles.end(), box.begin(), box.end());
   }
 
-  Foot nearest(const ClosedSurface& surface, const Vec<3>& x) const {
-    Nearest search{surface, x};
+  FootOnTriangle nearest(const ClosedSurface& surface, const Vec<3>& x) const {
+    NearestTriangle search{surface, x};
     Eigen::BVMinimize(boxes, search);
     return search.best;
   }
@@ -99,12 +99,12 @@ Mesh::Mesh(ClosedSurface surface) : surface_(std::move(surface)), tree_(std::mak
 Mesh::~Mesh() = default;
 
 double Mesh::distance(const Vec<3>& x) const {
-  const Foot foot = tree_->nearest(surface_, x);
+  const FootOnTriangle foot = tree_->nearest(surface_, x);
   return sign(foot, x) * std::sqrt(foot.squared);
 }
 
 Vec<3> Mesh::gradient(const Vec<3>& x) const {
-  const Foot foot = tree_->nearest(surface_, x);
+  const FootOnTriangle foot = tree_->nearest(surface_, x);
   // The difference of two close points has no direction to speak of.
   const double size = std::max(x.cwiseAbs().maxCoeff(), foot.point.cwiseAbs().maxCoeff());
   if (foot.is_on_triangle || foot.squared < std::pow(1e-9 * size, 2)) return foot.normal;

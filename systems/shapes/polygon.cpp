@@ -25,15 +25,15 @@ double twice_area(std::span<const Vec<2>> corners) {
 /// The next one around a ring.
 std::size_t after(std::size_t k, std::size_t count) { return k + 1 < count ? k + 1 : 0; }
 
-struct Foot {
+struct FootOnEdge {
   double squared = std::numeric_limits<double>::infinity();  ///< distance
   Vec<2> point = Vec<2>::Zero();
   std::size_t side = 0;
   bool is_corner = false;
 };
 
-Foot nearest(std::span<const Vec<2>> corners, const Vec<2>& x) {
-  Foot best;
+FootOnEdge nearest(std::span<const Vec<2>> corners, const Vec<2>& x) {
+  FootOnEdge best;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec<2> along = corners[after(k, corners.size())] - corners[k];
     const double share = std::clamp((x - corners[k]).dot(along) / along.squaredNorm(), 0.0, 1.0);
@@ -149,7 +149,7 @@ bool Polygon::contains(const Vec<2>& x) const {
 }
 
 Vec<2> Polygon::gradient(const Vec<2>& x) const {
-  const Foot foot = nearest(corners_, x);
+  const FootOnEdge foot = nearest(corners_, x);
   const Vec<2>&from = corners_[foot.side], &to = corners_[after(foot.side, corners_.size())];
   // The difference of two close points has no direction to speak of; that of a side is known.
   if (!foot.is_corner || foot.squared == 0) return outward(from, to);

@@ -9,13 +9,13 @@ namespace minamo {
 
 namespace {
 
-constexpr std::size_t rows_per_task = 128;
+constexpr std::size_t table_rows_per_task = 128;
 
 /// Rows of liquid that fills its cells are sums of the same numbers, in orders of their own: what they may differ by,
 /// of the largest entry.
-constexpr double roundings = 1e-14;
+constexpr double least_difference = 1e-14;
 
-/// Whether the components of two lists of entries differ by roundings.
+/// Whether the components of two lists of entries differ by roundings only.
 template <class Entries>
 bool are_near(const Entries& a, const Entries& b) {
   for (std::size_t d = 0; d < 4; ++d) {
@@ -25,7 +25,7 @@ bool are_near(const Entries& a, const Entries& b) {
       largest = std::max(largest, std::abs(a[k][d]));
       difference = std::max(difference, std::abs(a[k][d] - b[k][d]));
     }
-    if (difference > roundings * largest) return false;
+    if (difference > least_difference * largest) return false;
   }
   return true;
 }
@@ -84,7 +84,7 @@ void SchurOperator<Dim>::find_alike() {
         const bool is_alike = first + 1 < rows() && are_alike(r, first);
         like_[r] = static_cast<std::uint32_t>(is_alike ? first : r);
       },
-      rows_per_task);
+      table_rows_per_task);
 }
 
 template <int Dim>
@@ -104,7 +104,7 @@ void SchurOperator<Dim>::assemble(const Operators<Dim>& t) {
   pressure_of_mass_.resize(rows());
   inverse_diagonal_.resize(Dim * rows());
   for_each_row(
-      rows(), [&](std::size_t r) { fill_row(t, r); }, rows_per_task);
+      rows(), [&](std::size_t r) { fill_row(t, r); }, table_rows_per_task);
   find_alike();
 }
 
@@ -133,7 +133,7 @@ void SchurOperator<Dim>::find_divergence(const SchurVectors& work, Values& out) 
             stencil_sum<Dim>([&](std::size_t k) { return entries[k] * work.velocity_and_pressure[neighbours_[r][k]]; });
         out[r] = (sum[0] + sum[1]) + (sum[2] + sum[3]) + pressure_of_mass_[r] * work.pressure[r];
       },
-      rows_per_task);
+      table_rows_per_task);
 }
 
 template <int Dim>
@@ -145,7 +145,7 @@ void SchurOperator<Dim>::apply_gradient(const Values& p, SchurVectors& work, Val
         const Four sum = gradient_at(r, work);
         for (std::size_t d = 0; d < Dim; ++d) out[Dim * r + d] = sum[d];
       },
-      rows_per_task);
+      table_rows_per_task);
 }
 
 template <int Dim>
@@ -170,7 +170,7 @@ void SchurOperator<Dim>::apply_with_diagonal(const Values& p, SchurVectors& work
         sum[Dim] = p[r];
         work.velocity_and_pressure[r] = sum;
       },
-      rows_per_task);
+      table_rows_per_task);
   find_divergence(work, out);
 }
 

@@ -30,7 +30,7 @@ double most_friction_of_iteration(std::size_t viscous) {
 /// that.
 constexpr double error_of_iteration = 1e-5;
 constexpr double least_rest = 0.01 * error_of_iteration;
-constexpr std::int64_t most_iterations = 2000;
+constexpr std::int64_t most_velocity_iterations = 2000;
 
 }  // namespace
 
@@ -158,7 +158,7 @@ void VelocityFactors<Dim>::solve_iteratively(const Matrix& matrix, Values& v, do
   work.left.resize(v.size());
   for_each_row(v.size(), [&](std::size_t i) { work.left[i] = inverse_diagonal[i] == 0 ? 0 : v[i]; });
   const auto report =
-      work.iteration.solve(apply, inverse_diagonal, std::max(target, least), most_iterations, work.left, v);
+      work.iteration.solve(apply, inverse_diagonal, std::max(target, least), most_velocity_iterations, work.left, v);
   if (!report.converged) throw StepRejected("solve: the velocities of a viscous liquid do not converge");
 }
 
