@@ -59,16 +59,28 @@ struct MiddleRotation : Column<Bodies, Mat<Dim>> {
   static constexpr ComponentInfo info{"body.middle_rotation", "R_b", "1", Lifetime::scratch};
 };
 
-/// Displacement over the length of the step. [m/s]
+/// Displacement over the length of the step; of free bodies V_b^n until they are coupled to the liquid. [m/s]
 template <int Dim>
 struct MeanVelocity : Column<Bodies, Vec<Dim>> {
   static constexpr ComponentInfo info{"body.mean_velocity", "V_b", "m/s", Lifetime::scratch};
 };
 
-/// Turn over the length of the step. [1/s]
+/// Turn over the length of the step; of free bodies omega_b^n until they are coupled to the liquid. [1/s]
 template <int Dim>
 struct MeanSpin : Column<Bodies, Vec<rotations<Dim>>> {
   static constexpr ComponentInfo info{"body.mean_spin", "omega_b", "1/s", Lifetime::scratch};
+};
+
+/// Velocity at the end of the step, of free bodies by their balance. [m/s]
+template <int Dim>
+struct EndVelocity : Column<Bodies, Vec<Dim>> {
+  static constexpr ComponentInfo info{"body.end_velocity", "V_b^{n+1}", "m/s", Lifetime::scratch};
+};
+
+/// Angular velocity at the end of the step, of free bodies by their balance. [1/s]
+template <int Dim>
+struct EndSpin : Column<Bodies, Vec<rotations<Dim>>> {
+  static constexpr ComponentInfo info{"body.end_spin", "omega_b^{n+1}", "1/s", Lifetime::scratch};
 };
 
 /// Force of the pressure on the body, at the instant of the balances. [N; N/m in 2-D]

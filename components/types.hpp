@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 #include <cstring>
 
 namespace minamo {
@@ -35,6 +36,12 @@ inline Vector as_vector(const Four& four) {
 /// base^exponent.
 constexpr std::size_t power(std::size_t base, int exponent) {
   return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
+
+/// The first numbers of a list.
+template <int Dim>
+Vec<Dim> vec_of(const std::vector<double>& numbers) {
+  return Eigen::Map<const Vec<Dim>>(numbers.data());
 }
 
 /// Nodes that carry a particle: 3 per direction.

@@ -1,5 +1,6 @@
 #include "systems/bodies/bodies_part.hpp"
 
+#include "systems/bodies/couple.hpp"
 #include "systems/bodies/cut.hpp"
 #include "systems/bodies/extension.hpp"
 #include "systems/bodies/fill.hpp"
@@ -7,6 +8,8 @@
 #include "systems/bodies/keep_out.hpp"
 #include "systems/bodies/motion.hpp"
 #include "systems/bodies/motion_table.hpp"
+#include "systems/bodies/read_free.hpp"
+#include "systems/bodies/solid.hpp"
 #include "systems/conforming/friction_choice.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
@@ -23,11 +26,6 @@ namespace minamo {
 namespace {
 
 ExpressionScope of_time(const Scene& scene) { return {{"t"}, scene.constants}; }
-
-template <int Dim>
-Vec<Dim> vec(const std::vector<double>& numbers) {
-  return Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(numbers.data());
-}
 
 /// The middle of the shape; of an endless one the origin.
 template <int Dim>
@@ -47,12 +45,12 @@ Prescribed<Dim> read_prescribed(Input& input, const Scene& scene, BodyScene<Dim>
     const auto center =
         in.optional_numbers("center", Dim, {.unit = "m", .doc = "at the start; else the middle of the shape"});
     motion.rate = in.expression("rate", of_time(scene), {.unit = "1/s", .doc = "angular velocity, counter-clockwise"});
-    if (center) body.pivot = vec<Dim>(*center);
+    if (center) body.pivot = vec_of<Dim>(*center);
     if constexpr (Dim == 2) {
       motion.axis[0] = 1;
     } else {
       const auto given = in.optional_numbers("axis", 3, {.doc = "of any length but zero; [0, 0, 1] unless given"});
-      const Vec<3> axis = given ? vec<3>(*given) : Vec<3>::UnitZ();
+      const Vec<3> axis = given ? vec_of<3>(*given) : Vec<3>::UnitZ();
       if (in.sound("axis") && !in.describing() && axis.norm() == 0) {
         in.problem("axis", "no direction", "a vector that is not zero");
       } else {
@@ -82,13 +80,17 @@ template <int Dim>
 void read_motion(Input& input, const Scene& scene, BodyScene<Dim>& body) {
   input.object(
       "motion", "how the body moves; without it, not at all", Input::Presence::only_if_present, [&](Input& motion) {
-        motion.one_of("velocities, or a table",
+        motion.one_of("velocities, a table, or what the liquid does to it",
                       {{"prescribed",
                         [&](Input& in) {
                           in.object("prescribed", "moves with a given velocity", Input::Presence::required,
                                     [&](Input& given) { body.motion = read_prescribed<Dim>(given, scene, body); });
                         }},
-                       {"table", [&](Input& in) { body.motion = read_table<Dim>(in); }}});
+                       {"table", [&](Input& in) { body.motion = read_table<Dim>(in); }},
+                       {"free", [&](Input& in) {
+                          in.object("free", "moves with the liquid", Input::Presence::required,
+                                    [&](Input& given) { body.motion = read_free<Dim>(given, scene.grid, body); });
+                        }}});
       });
 }
 
@@ -125,20 +127,27 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
 }
 
 /// What is solved with friction in the balances, or by UMFPACK, does not know of open shares.
-void check_solver(const Scene& scene, SeedProblems& problems) {
+void check_solver(bool any_is_free, const Scene& scene, SeedProblems& problems) {
   if (friction_of(scene) == Friction::in_balances) {
     problems.note("/fluid/viscosity", "too large beside bodies", "nu dt/h^2 up to 0.01, and no slip length",
                   fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
   }
+  if (any_is_free && scene.schemes.at("integrator") == "newmark")
+    problems.note("/integrator/scheme", "not with free bodies", R"("midpoint")", R"("newmark")");
   if (scene.schemes.at("solver") == "umfpack")
     problems.note("/solver/scheme", "not with bodies", R"("block")", R"("umfpack")");
 }
 
 template <int Dim>
-void seed_bodies(const BodySet<Dim>& set, World& world) {
+void seed_bodies(BodySet<Dim> set, World& world) {
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  if (set.any_is_free()) {
+    for (auto& body : set.bodies) {
+      if (body.shape->bounds().finite()) body.surface = surface_points<Dim>(*body.shape, 0.5 * grid.spacing);
+    }
+  }
   world.resource<BodySet<Dim>>() = set;
-  world.resource<StaticCut<Dim>>() =
-      cut_by_bodies_at_rest<Dim>(set, world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>());
+  world.resource<StaticCut<Dim>>() = cut_by_bodies_at_rest<Dim>(set, grid, world.resource<Splines<Dim>>());
   world.resize<Bodies>(set.bodies.size());
   for (std::size_t b = 0; b < set.bodies.size(); ++b) {
     world.column<body::Position<Dim>>()[b] = set.bodies[b].pivot;
@@ -164,7 +173,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
     recipe.seed([set = bodies.of<Dim>()](const Scene& of, World& world, SeedProblems& problems) {
-      check_solver(of, problems);
+      check_solver(set.any_is_free(), of, problems);
       seed_bodies<Dim>(set, world);
     });
   });
@@ -181,6 +190,8 @@ Contribution read_bodies(Input& input, Scene& scene) {
     input.problem("bodies", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
   }
   scene.facts.set(bodies);
+  if (bodies.in_plane.any_is_free() || bodies.in_space.any_is_free())
+    scene.facts.set(CompletesMultipliers{{"couple_free_bodies"}});
   return [bodies](const Scene& of, Recipe& recipe) { add_systems_of_bodies(bodies, of, recipe); };
 }
 
@@ -202,6 +213,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<FindFaceExtension>("find_face_extension");
   registry.add<ExtendOldVelocity>("extend_old_velocity");
   registry.add<FillBesideBodies>("fill_beside_bodies");
+  registry.add<CoupleFreeBodies>("couple_free_bodies");
   registry.add<PushBodies>("push_bodies");
   registry.add<MoveBodies>("move_bodies");
   registry.add<KeepOutOfBodies>("keep_out_of_bodies");

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <string>
 #include <variant>
 #include <vector>
@@ -34,14 +35,35 @@ struct Tabulated {
   std::vector<double> angle;       ///< counter-clockwise, in space about z, the same count [rad]
 };
 
+/// Draws the centre of mass of a body to a point.
+template <int Dim>
+struct Spring {
+  Vec<Dim> to = Vec<Dim>::Zero();  ///< [m]
+  double stiffness = 0;            ///< [N/m; N/m^2 in 2-D]
+  double damping = 0;              ///< force per velocity [N s/m; N s/m^2 in 2-D]
+};
+
+/// A rigid body that the liquid, the body force and a spring move. Its pivot is its centre of mass.
+template <int Dim>
+struct Free {
+  double mass = 0;                                              ///< [kg; kg/m in 2-D]
+  Mat<rotations<Dim>> inertia = Mat<rotations<Dim>>::Zero();    ///< about the pivot, at the start [kg m^2; kg m in 2-D]
+  Vec<Dim> velocity = Vec<Dim>::Zero();                         ///< at the start [m/s]
+  Vec<rotations<Dim>> spin = Vec<rotations<Dim>>::Zero();       ///< at the start [1/s]
+  std::array<bool, Dim + rotations<Dim>> locked{};              ///< directions and turns that it does not take part in
+  Spring<Dim> spring;
+};
+
 template <int Dim>
 struct BodyScene {
   std::string name;
   SharedShape<Dim> shape;             ///< at the start
   Vec<Dim> pivot = Vec<Dim>::Zero();  ///< the point that it turns about, at the start [m]
-  std::variant<Fixed, Prescribed<Dim>, Tabulated<Dim>> motion;
+  std::variant<Fixed, Prescribed<Dim>, Tabulated<Dim>, Free<Dim>> motion;
+  std::vector<Vec<Dim>> surface;  ///< points of the surface at the start, where bodies touch; of finite shapes [m]
 
   bool moves() const { return !std::holds_alternative<Fixed>(motion); }
+  const Free<Dim>* free() const { return std::get_if<Free<Dim>>(&motion); }
 };
 
 template <int Dim>
@@ -54,6 +76,9 @@ struct BodySet {
       if (body.moves()) return true;
     }
     return false;
+  }
+  bool any_is_free() const {
+    return std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.free() != nullptr; });
   }
 };
 

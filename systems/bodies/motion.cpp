@@ -18,9 +18,6 @@ struct Twist {
   Vec<rotations<Dim>> spin = Vec<rotations<Dim>>::Zero();
 };
 
-Mat<2> turned_by(const Vec<1>& angle) { return rotation(angle[0]); }
-Mat<3> turned_by(const Vec<3>& angle) { return angle.norm() == 0 ? Mat<3>::Identity() : rotation(angle.norm(), angle); }
-
 template <int Dim>
 Twist<Dim> twist_at(const Prescribed<Dim>& motion, double time) {
   Twist<Dim> twist;
@@ -69,6 +66,8 @@ std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body,
   Twist<Dim> twist;
   if (const auto* prescribed = std::get_if<Prescribed<Dim>>(&body.motion)) {
     twist = twist_at<Dim>(*prescribed, time);
+  } else if (const auto* free = body.free()) {
+    twist = {free->velocity, free->spin};
   } else {
     constexpr double moment = 1e-6;
     twist = mean_twist<Dim>(body, time, moment);
@@ -78,30 +77,39 @@ std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body,
 
 template <int Dim>
 void PlaceBodies<Dim>::operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
-                                  Read<body::Rotation<Dim>> R_b, Write<body::MiddlePosition<Dim>> c_middle,
+                                  Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_old,
+                                  Read<body::Spin<Dim>> omega_old, Write<body::MiddlePosition<Dim>> c_middle,
                                   Write<body::MiddleRotation<Dim>> R_middle, Write<body::MeanVelocity<Dim>> V_b,
                                   Write<body::MeanSpin<Dim>> omega_b) const {
   const double half = 0.5 * clock->step;
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
-    const Twist<Dim> mean = mean_twist<Dim>(set->bodies[b], clock->time, clock->step);
+    const BodyScene<Dim>& body = set->bodies[b];
+    const Twist<Dim> mean = body.free() != nullptr ? Twist<Dim>{V_old[b], omega_old[b]}
+                                                   : mean_twist<Dim>(body, clock->time, clock->step);
     V_b[b] = mean.velocity;
     omega_b[b] = mean.spin;
     c_middle[b] = c_b[b] + half * mean.velocity;
-    R_middle[b] = turned_by(Vec<rotations<Dim>>(half * mean.spin)) * R_b[b];
+    R_middle[b] = rotation_by(Vec<rotations<Dim>>(half * mean.spin)) * R_b[b];
   }
 }
 
 template <int Dim>
 void MoveBodies<Dim>::operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::MeanVelocity<Dim>> V_mean,
-                                 Read<body::MeanSpin<Dim>> omega_mean, Update<body::Position<Dim>> c_b,
+                                 Read<body::MeanSpin<Dim>> omega_mean, Optional<Read<body::EndVelocity<Dim>>> V_end,
+                                 Optional<Read<body::EndSpin<Dim>>> omega_end, Update<body::Position<Dim>> c_b,
                                  Update<body::Rotation<Dim>> R_b, Update<body::Angle<Dim>> alpha_b,
                                  Update<body::Velocity<Dim>> V_b, Update<body::Spin<Dim>> omega_b) const {
   const double dt = clock->step;
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     c_b[b] += dt * V_mean[b];
     alpha_b[b] += dt * omega_mean[b];
-    if (omega_mean[b].norm() > 0) R_b[b] = turned_by(Vec<rotations<Dim>>(dt * omega_mean[b])) * R_b[b];
-    std::tie(V_b[b], omega_b[b]) = velocity_at<Dim>(set->bodies[b], clock->time + dt);
+    if (omega_mean[b].norm() > 0) R_b[b] = rotation_by(Vec<rotations<Dim>>(dt * omega_mean[b])) * R_b[b];
+    if (set->bodies[b].free() != nullptr) {
+      V_b[b] = V_end[b];
+      omega_b[b] = omega_end[b];
+    } else {
+      std::tie(V_b[b], omega_b[b]) = velocity_at<Dim>(set->bodies[b], clock->time + dt);
+    }
   }
 }
 

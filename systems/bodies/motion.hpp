@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E88) Motion of bodies whose place is given: where they are in the middle of the step, and at its end.
+/// (E88) Motion of bodies: where they are in the middle of the step, and at its end.
 
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
@@ -8,18 +8,20 @@
 
 namespace minamo {
 
-/// Velocity and angular velocity of a body at an instant; of a tabulated one the mean over a moment.
+/// Velocity and angular velocity of a body at an instant; of a tabulated one the mean over a moment, of a free one those
+/// at the start.
 template <int Dim>
 std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body, double time);
 
-/// (E88)  c_b and R_b in the middle of the step, and the mean of V_b and omega_b over it, by Simpson's rule.
+/// (E88)  c_b and R_b in the middle of the step, and the mean of V_b and omega_b over it, by Simpson's rule; free bodies
+/// as if they kept their velocities.
 /// \throws StepRejected if a velocity is not finite
 template <int Dim>
 struct PlaceBodies {
   static constexpr std::string_view doc = "(E88) bodies in the middle of the step";
   void operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
-                  Read<body::Rotation<Dim>> R_b, Write<body::MiddlePosition<Dim>> c_middle,
-                  Write<body::MiddleRotation<Dim>> R_middle, Write<body::MeanVelocity<Dim>> V_b,
+                  Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
+                  Write<body::MiddlePosition<Dim>> c_middle, Write<body::MiddleRotation<Dim>> R_middle, Write<body::MeanVelocity<Dim>> V_b,
                   Write<body::MeanSpin<Dim>> omega_b) const;
 };
 
@@ -28,7 +30,8 @@ template <int Dim>
 struct MoveBodies {
   static constexpr std::string_view doc = "(E88) bodies at the end of the step";
   void operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::MeanVelocity<Dim>> V_mean,
-                  Read<body::MeanSpin<Dim>> omega_mean, Update<body::Position<Dim>> c_b,
+                  Read<body::MeanSpin<Dim>> omega_mean, Optional<Read<body::EndVelocity<Dim>>> V_end,
+                  Optional<Read<body::EndSpin<Dim>>> omega_end, Update<body::Position<Dim>> c_b,
                   Update<body::Rotation<Dim>> R_b, Update<body::Angle<Dim>> alpha_b, Update<body::Velocity<Dim>> V_b,
                   Update<body::Spin<Dim>> omega_b) const;
 };

@@ -39,13 +39,20 @@ struct LinearSolver {
   std::vector<std::string> prepare;       ///< what they write, solve and solve_volume read
   std::vector<std::string> solve;         ///< matrix.displacement, matrix.pressure from matrix.momentum, matrix.mass
   std::vector<std::string> solve_volume;  ///< matrix.shift from matrix.volume_source
-  /// What solves the equations of the conforming discretization, and then those with friction in the balances.
-  std::vector<std::string> solve_on_faces = {"prepare_multipliers", "solve_multipliers", "project_faces"};
+  /// What solves the equations of the conforming discretization, what makes velocities of the multipliers, and what
+  /// solves those with friction in the balances.
+  std::vector<std::string> solve_on_faces = {"prepare_multipliers", "solve_multipliers"};
+  std::vector<std::string> project_on_faces = {"project_faces"};
   std::vector<std::string> solve_friction_on_faces = {"solve_friction"};
   std::function<Contribution(Input&, Scene&)> read = {};  ///< its options; may be empty
   /// Largest memory that matrices and factors take per node with a row. [byte]
   std::function<double(const Scene&, double nodes)> bytes_per_node;
   std::string leaner = {};  ///< name of a solver that needs less memory
+};
+
+/// Systems of other parts that complete the multipliers before velocities are made of them.
+struct CompletesMultipliers {
+  std::vector<std::string> systems;
 };
 
 /// What an integrator asks of the start and of the transfer.

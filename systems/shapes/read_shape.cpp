@@ -110,10 +110,8 @@ class ShapeReader {
   /// Whether a shape can be made of what was read.
   static bool can_make(Input& input) { return !input.describing() && input.sound(""); }
 
-  static Vec<Dim> vec(const std::vector<double>& numbers) { return Eigen::Map<const Vec<Dim>>(numbers.data()); }
-
   static Vec<Dim> place(Input& input, std::string_view key, std::string_view doc) {
-    return vec(input.numbers(key, Dim, {.unit = "m", .doc = doc}));
+    return vec_of<Dim>(input.numbers(key, Dim, {.unit = "m", .doc = doc}));
   }
 
   static double radius(Input& input) { return input.number("radius", {.unit = "m", .doc = "radius", .above = 0}); }
@@ -126,7 +124,7 @@ class ShapeReader {
       return angle == 0 ? Mat<2>(Mat<2>::Identity()) : rotation(radians);
     } else {
       const auto axis = input.optional_numbers("axis", 3, {.doc = "about which it is turned; [0, 0, 1] unless given"});
-      const Vec<3> about = axis ? vec(*axis) : Vec<3>(0, 0, 1);
+      const Vec<3> about = axis ? vec_of<Dim>(*axis) : Vec<3>(0, 0, 1);
       if (about.isZero(0)) input.problem("axis", "no direction", "an axis of any length but zero");
       return angle == 0 || about.isZero(0) ? Mat<3>(Mat<3>::Identity()) : rotation(radians, about);
     }
@@ -137,8 +135,8 @@ class ShapeReader {
     const auto high = input.numbers("high", Dim, {.unit = "m", .doc = "opposite corner"});
     const Mat<Dim> turned = turn(input);
     if (!can_make(input)) return nullptr;
-    if ((vec(low).array() < vec(high).array()).all())
-      return std::make_shared<shapes::Box<Dim>>(vec(low), vec(high), turned);
+    if ((vec_of<Dim>(low).array() < vec_of<Dim>(high).array()).all())
+      return std::make_shared<shapes::Box<Dim>>(vec_of<Dim>(low), vec_of<Dim>(high), turned);
     input.problem("", "the box is empty", "high above low in every direction",
                   fmt::format("low [{}], high [{}] m", fmt::join(low, ", "), fmt::join(high, ", ")));
     return nullptr;
@@ -152,7 +150,7 @@ class ShapeReader {
 
   SharedShape<Dim> ellipsoid(Input& input) {
     const Vec<Dim> center = place(input, "center", "center");
-    const Vec<Dim> radii = vec(input.numbers("radii", Dim, {.unit = "m", .doc = "half of its axes", .above = 0}));
+    const Vec<Dim> radii = vec_of<Dim>(input.numbers("radii", Dim, {.unit = "m", .doc = "half of its axes", .above = 0}));
     const Mat<Dim> turned = turn(input);
     return can_make(input) ? std::make_shared<shapes::Ellipsoid<Dim>>(center, radii, turned) : nullptr;
   }
@@ -183,7 +181,7 @@ class ShapeReader {
   SharedShape<Dim> half_space(Input& input) {
     const Vec<Dim> point = place(input, "point", "of the line or plane");
     const Vec<Dim> normal =
-        vec(input.numbers("normal", Dim, {.doc = "out of the half space, which it leaves; of any length"}));
+        vec_of<Dim>(input.numbers("normal", Dim, {.doc = "out of the half space, which it leaves; of any length"}));
     if (!can_make(input)) return nullptr;
     if (!normal.isZero(0)) return std::make_shared<shapes::HalfSpace<Dim>>(point, normal);
     input.problem("normal", "no direction", "a normal of any length but zero");
@@ -194,7 +192,7 @@ class ShapeReader {
     if constexpr (Dim == 2) {
       std::vector<Vec<2>> corners;
       for (const auto& corner : input.points("vertices", 2, 3, {.unit = "m", .doc = "corners, one after the other"}))
-        corners.push_back(vec(corner));
+        corners.push_back(vec_of<Dim>(corner));
       if (!can_make(input)) return nullptr;
       const auto wrong = shapes::what_is_wrong(corners);
       if (!wrong) return std::make_shared<shapes::Polygon>(std::move(corners));
@@ -208,7 +206,7 @@ class ShapeReader {
     if constexpr (Dim == 3) {
       const auto file = input.path("file", "STL or OBJ; relative to the folder of the scene");
       const double scale = input.number("scale", {.doc = "of its coordinates", .fallback = 1.0, .above = 0});
-      const Vec<3> move = vec(input.numbers("move", 3, {.unit = "m", .doc = "after they are scaled", .fallback = 0.0}));
+      const Vec<3> move = vec_of<Dim>(input.numbers("move", 3, {.unit = "m", .doc = "after they are scaled", .fallback = 0.0}));
       if (!can_make(input)) return nullptr;
       try {
         return std::make_shared<shapes::Mesh>(shapes::close_surface(shapes::read_mesh(file), scale, move));

@@ -25,4 +25,10 @@ inline Mat<3> rotation(double angle, const Vec<3>& axis) {
   return Mat<3>::Identity() + std::sin(angle) * cross + (1 - std::cos(angle)) * cross * cross;
 }
 
+/// By a vector along the axis, as long as the angle. [rad]
+inline Mat<2> rotation_by(const Vec<1>& turn) { return rotation(turn[0]); }
+inline Mat<3> rotation_by(const Vec<3>& turn) {
+  return turn.norm() == 0 ? Mat<3>::Identity() : rotation(turn.norm(), turn);
+}
+
 }  // namespace minamo

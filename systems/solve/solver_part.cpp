@@ -47,19 +47,22 @@ Contribution read_tolerance(Input& input, Scene&) {
   return [tolerance](const Scene&, Recipe& recipe) { recipe.constant(tolerance); };
 }
 
+void add_all(Recipe& recipe, const std::vector<std::string>& systems) {
+  for (const std::string& system : systems) recipe.add("solve", system);
+}
+
 Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene) {
   scene.facts.set(solver);
   const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
   return [solver, options](const Scene& of, Recipe& recipe) {
     if (is_conforming(of)) {
-      for (const std::string& system : solver.solve_on_faces) recipe.add("solve", system);
-      if (friction_of(of) == Friction::in_balances) {
-        for (const std::string& system : solver.solve_friction_on_faces) recipe.add("solve", system);
-      }
+      add_all(recipe, solver.solve_on_faces);
+      if (const auto* completes = of.facts.find<CompletesMultipliers>()) add_all(recipe, completes->systems);
+      add_all(recipe, solver.project_on_faces);
+      if (friction_of(of) == Friction::in_balances) add_all(recipe, solver.solve_friction_on_faces);
     } else {
-      for (const auto* systems : {&solver.prepare, &solver.solve}) {
-        for (const std::string& system : *systems) recipe.add("solve", system);
-      }
+      add_all(recipe, solver.prepare);
+      add_all(recipe, solver.solve);
       recipe.add("solve", "unpack_solution");
     }
     recipe.constant(SolverTolerance{});
@@ -95,6 +98,7 @@ void add_solver(SystemRegistry& registry) {
                             .solve = {"solve_umfpack"},
                             .solve_volume = {"solve_volume_umfpack"},
                             .solve_on_faces = {"solve_faces_umfpack"},
+                            .project_on_faces = {},
                             .solve_friction_on_faces = {"solve_face_friction_umfpack"},
                             .bytes_per_node = umfpack_bytes_per_node,
                             .leaner = "block"});

@@ -1,0 +1,258 @@
+#include "systems/bodies/couple.hpp"
+
+#include "engine/step_control.hpp"
+#include "systems/bodies/contact.hpp"
+#include "systems/bodies/cut.hpp"
+#include "systems/conforming/incidence.hpp"
+#include "systems/shapes/rotation.hpp"
+
+#include <Eigen/Dense>
+#include <spdlog/fmt/fmt.h>
+
+namespace minamo {
+
+namespace {
+
+using unknown::Which;
+
+/// Columns over the unknowns, one for each motion of free bodies, three to an array as the solver takes them.
+class MotionColumns {
+ public:
+  MotionColumns(Eigen::Index count, std::size_t rows)
+      : count_(count), blocks_(static_cast<std::size_t>((count + width - 1) / width), Block(rows, Sources{})) {}
+
+  using Block = std::vector<Sources>;
+  Eigen::Index count() const { return count_; }
+  std::size_t blocks() const { return blocks_.size(); }
+  Block& block(std::size_t k) { return blocks_[k]; }
+  const Block& block(std::size_t k) const { return blocks_[k]; }
+  double& at(Eigen::Index k, std::size_t row) {
+    return blocks_[static_cast<std::size_t>(k / width)][row][static_cast<std::size_t>(k % width)];
+  }
+  double at(Eigen::Index k, std::size_t row) const {
+    return blocks_[static_cast<std::size_t>(k / width)][row][static_cast<std::size_t>(k % width)];
+  }
+
+ private:
+  static constexpr Eigen::Index width = most_sources;
+  Eigen::Index count_;
+  std::vector<Block> blocks_;
+};
+
+/// U = B C: what a unit of every motion adds to the divergence around an unknown.
+struct Fluxes {
+  MotionColumns columns;
+  std::vector<std::size_t> touched;  ///< unknowns beside free bodies
+
+  /// U^T x, with x by unknown.
+  template <class At>
+  Eigen::VectorXd transposed_times(const At& x) const {
+    Eigen::VectorXd product = Eigen::VectorXd::Zero(columns.count());
+    for (const std::size_t l : touched) {
+      for (Eigen::Index k = 0; k < columns.count(); ++k) product[k] += columns.at(k, l) * x(l);
+    }
+    return product;
+  }
+};
+
+template <int Dim>
+Mat<rotations<Dim>> turned_inertia(const Free<Dim>& free, const Mat<Dim>& R) {
+  if constexpr (Dim == 2) {
+    return free.inertia;
+  } else {
+    return R * free.inertia * R.transpose();
+  }
+}
+
+/// What of the balances of free bodies does not depend on the liquid.
+struct BodyBalances {
+  Eigen::MatrixXd mass;     ///< M [kg, kg m^2]
+  Eigen::MatrixXd springs;  ///< what springs and dampers add to it
+  Eigen::VectorXd impulse;  ///< tau f of the body force, of springs, and of the turn of the inertia [N s, N m s]
+};
+
+template <int Dim>
+BodyBalances balances_of(const BodySet<Dim>& set, const FreeMotions<Dim>& motions, const BodyStates<Dim>& at,
+                         std::span<const Mat<Dim>> R_middle, std::span<const Vec<Dim>> body_force, double tau) {
+  const Eigen::Index n = motions.count();
+  BodyBalances of{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    const Free<Dim>* free = set.bodies[b].free();
+    if (free == nullptr) continue;
+    const auto I_middle = turned_inertia<Dim>(*free, R_middle[b]);
+    const Vec<rotations<Dim>> turn = (turned_inertia<Dim>(*free, at.rotation[b]) - I_middle) * at.spin[b];
+    const Spring<Dim>& spring = free->spring;
+    const double drag = spring.stiffness * tau + spring.damping;
+    const Vec<Dim> pull = spring.stiffness * (spring.to - at.position[b]) - drag * at.velocity[b];
+    motions.for_each_of(b, [&](Eigen::Index k, int c) {
+      if (c < Dim) {
+        of.mass(k, k) = free->mass;
+        of.springs(k, k) = tau * drag;
+        of.impulse[k] = tau * (free->mass * body_force[b][c] + pull[c]);
+        return;
+      }
+      motions.for_each_of(b, [&](Eigen::Index j, int e) {
+        if (e >= Dim) of.mass(k, j) = I_middle(c - Dim, e - Dim);
+      });
+      of.impulse[k] = turn[c - Dim];
+    });
+  }
+  return of;
+}
+
+/// How far the points of every body may go within a step, with a margin. [m]
+template <int Dim>
+std::vector<double> reach_of(const BodySet<Dim>& set, const BodyStates<Dim>& at, double step, double margin) {
+  std::vector<double> reach;
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    double radius = 0;
+    for (const Vec<Dim>& X : set.bodies[b].surface) radius = std::max(radius, (X - set.bodies[b].pivot).norm());
+    reach.push_back(margin + 2 * step * (at.velocity[b].norm() + at.spin[b].norm() * radius));
+  }
+  return reach;
+}
+
+/// The least speeds with which contacts move apart: in the balances so that no gap becomes negative, and one that is so
+/// opens slowly; at the end of the step, where a gap is used up, none.
+std::vector<double> least_in_balances(const std::vector<Contact>& contacts, double step) {
+  constexpr double opened_share = 0.2;
+  std::vector<double> least;
+  for (const Contact& contact : contacts) least.push_back(-(contact.gap < 0 ? opened_share : 1) * contact.gap / step);
+  return least;
+}
+std::vector<double> least_at_end(const std::vector<Contact>& contacts, const Eigen::VectorXd& q,
+                                 std::vector<double> least, double margin) {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const bool is_used_up = contacts[k].gradient.dot(q) + contacts[k].apart <= least[k] + margin;
+    least[k] = is_used_up ? 0 : -std::numeric_limits<double>::infinity();
+  }
+  return least;
+}
+
+}  // namespace
+
+template <int Dim>
+void CoupleFreeBodies<Dim>::operator()(
+    Read<Clock> clock, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+    Read<SolverTolerance> tolerance, Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode,
+    Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b,
+    Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle, Read<staggered::Site<Dim>> site,
+    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
+    Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
+    Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::Conductance<Dim>> conductance,
+    Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Update<MultiplierSolver<Dim>> solver,
+    Update<unknown::Solution> solution, Update<SolveReport> report, Update<body::MeanVelocity<Dim>> V_mean,
+    Update<body::MeanSpin<Dim>> omega_mean, Write<body::EndVelocity<Dim>> V_end,
+    Write<body::EndSpin<Dim>> omega_end) const {
+  const FreeMotions<Dim> motions(*set);
+  const std::vector<Vec<Dim>> V(V_mean.begin(), V_mean.end());
+  const std::vector<Vec<rotations<Dim>>> omega(omega_mean.begin(), omega_mean.end());
+  const BodyStates<Dim> at{c_b.span(), R_b.span(), V, omega};
+
+  const auto find_fluxes = [&] {
+    Fluxes fluxes{MotionColumns(motions.count(), solution.size()), {}};
+    const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+    const SitePlaces<Dim> places(*grid, *splines);
+    for (std::size_t l = 0; l < solution.size(); ++l) {
+      bool is_touched = false;
+      const auto add = [&](std::size_t f, std::size_t d, double per_width) {
+        if (closer[f][d][1] < 0) return;
+        const auto b = static_cast<std::size_t>(closer[f][d][1]);
+        const Vec<Dim> r = places.face(site[f], d) - c_middle[b];
+        motions.for_each_at(b, r, Vec<Dim>::Unit(static_cast<Eigen::Index>(d)), [&](Eigen::Index k, double weight) {
+          fluxes.columns.at(k, l) += per_width * closed[f][d][1] * weight;
+          is_touched = true;
+        });
+      };
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const double per_width = incidence.per_width(of_unknown[l], d);
+        add(incidence.above(of_unknown[l], d), d, per_width);
+        add(of_unknown[l], d, -per_width);
+      }
+      if (is_touched) fluxes.touched.push_back(l);
+    }
+    return fluxes;
+  };
+  const Fluxes fluxes = find_fluxes();
+
+  /// S^-1 U.
+  const auto find_response = [&] {
+    const auto matrix =
+        laplacian_of<Dim>(*splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(), diagonal.span());
+    MotionColumns response(motions.count(), solution.size());
+    for (std::size_t k = 0; k < response.blocks(); ++k) {
+      const SolveReport done = solver->solve(matrix, null_vector.span(), tolerance->relative, fluxes.columns.block(k),
+                                             response.block(k));
+      report->iterations += done.iterations;
+      report->residual = std::max(report->residual, done.residual);
+    }
+    return response;
+  };
+  const MotionColumns response = find_response();
+  const auto transposed_times = [&](Which which) {
+    return fluxes.transposed_times([&](std::size_t l) { return solution[l][which]; });
+  };
+  const auto correct = [&](Which which, const Eigen::VectorXd& change) {
+    for_each_row(solution.size(), [&](std::size_t l) {
+      for (Eigen::Index k = 0; k < motions.count(); ++k) solution[l][which] += response.at(k, l) * change[k];
+    });
+  };
+
+  std::vector<Vec<Dim>> body_force;
+  const Instant now = instant_of(ode, rates);
+  Arguments arguments(now);
+  for (std::size_t b = 0; b < set->bodies.size(); ++b)
+    body_force.push_back(vector_at<Dim>(force->of_place_and_time, arguments.at<Dim>(c_middle[b])));
+  const double tau = rates->velocity / rates->acceleration;
+  const BodyBalances balances = balances_of<Dim>(*set, motions, at, R_middle.span(), body_force, tau);
+  // G = M + U^T S^-1 U: the mass of the bodies, and of the liquid that they carry along.
+  Eigen::MatrixXd G = balances.mass;
+  for (Eigen::Index k = 0; k < motions.count(); ++k)
+    G.col(k) += fluxes.transposed_times([&](std::size_t l) { return response.at(k, l); });
+  G = (0.5 * (G + G.transpose())).eval();
+  const Eigen::MatrixXd inverse = (G + balances.springs).inverse();
+
+  const Eigen::VectorXd damping = -G.ldlt().solve(transposed_times(unknown::damping));
+  correct(unknown::damping, damping);
+  const Eigen::VectorXd start = motions.gather(V, omega) + damping;
+  const Eigen::VectorXd change = inverse * (balances.impulse - transposed_times(unknown::balance));
+  const std::vector<Contact> contacts =
+      find_contacts<Dim>(*grid, *set, motions, at, reach_of<Dim>(*set, at, clock->step, 0.1 * grid->spacing));
+  const auto least = least_in_balances(contacts, clock->step);
+  const Eigen::VectorXd pushed = push_apart(contacts, inverse, start + change, least);
+  correct(unknown::balance, change + pushed);
+  const Eigen::VectorXd middle = start + change + pushed;
+  if (!middle.allFinite())
+    throw StepRejected(fmt::format("bodies: a velocity is not finite at t = {:.6g} s", clock->time));
+
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    if (set->bodies[b].free() == nullptr) continue;
+    V_mean[b] = motions.velocity_in(middle, b);
+    omega_mean[b] = motions.spin_in(middle, b);
+  }
+  Eigen::VectorXd end = start + 2 * change;
+  if constexpr (Dim == 3) {
+    // The angular momentum changes by twice of what it does up to the middle: I (2 omega - w) - I^n omega^n.
+    for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+      const Free<3>* free = set->bodies[b].free();
+      if (free == nullptr) continue;
+      const Vec<3> momentum = turned_inertia<3>(*free, R_middle[b]) * (omega[b] + motions.spin_in(end, b)) -
+                              turned_inertia<3>(*free, R_b[b]) * omega[b];
+      const Mat<3> R_end = rotation_by(Vec<3>(clock->step * omega_mean[b])) * R_b[b];
+      const Vec<3> spin = turned_inertia<3>(*free, R_end).inverse() * momentum;
+      motions.for_each_of(b, [&](Eigen::Index k, int c) {
+        if (c >= 3) end[k] = spin[c - 3];
+      });
+    }
+  }
+  end += push_apart(contacts, inverse, end, least_at_end(contacts, middle, least, 1e-6 * grid->spacing / clock->step));
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    V_end[b] = motions.velocity_in(end, b);
+    omega_end[b] = motions.spin_in(end, b);
+  }
+}
+
+template struct CoupleFreeBodies<2>;
+template struct CoupleFreeBodies<3>;
+
+}  // namespace minamo
