@@ -142,7 +142,7 @@ void CoupleFreeBodies<Dim>::operator()(
     Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::Conductance<Dim>> conductance,
     Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Update<MultiplierSolver<Dim>> solver,
     Update<unknown::Solution> solution, Update<SolveReport> report, Update<body::MeanVelocity<Dim>> V_mean,
-    Update<body::MeanSpin<Dim>> omega_mean, Write<body::EndVelocity<Dim>> V_end,
+    Update<body::MeanSpin<Dim>> omega_mean, Update<body::Work> W_b, Write<body::EndVelocity<Dim>> V_end,
     Write<body::EndSpin<Dim>> omega_end) const {
   const FreeMotions<Dim> motions(*set);
   const std::vector<Vec<Dim>> V(V_mean.begin(), V_mean.end());
@@ -227,6 +227,9 @@ void CoupleFreeBodies<Dim>::operator()(
 
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     if (set->bodies[b].free() == nullptr) continue;
+    // Of the work of the impulse J = M w, J (V + w/2), push_bodies knows the first part.
+    const Eigen::VectorXd impulse = balances.mass * damping;
+    motions.for_each_of(b, [&](Eigen::Index k, int) { W_b[b] += 0.5 * impulse[k] * damping[k]; });
     V_mean[b] = motions.velocity_in(middle, b);
     omega_mean[b] = motions.spin_in(middle, b);
   }

@@ -30,7 +30,8 @@ struct CoupleFreeBodies {
                   Read<unknown::NullVector> null_vector, Update<MultiplierSolver<Dim>> solver,
                   Update<unknown::Solution> solution, Update<SolveReport> report,
                   Update<body::MeanVelocity<Dim>> V_mean, Update<body::MeanSpin<Dim>> omega_mean,
-                  Write<body::EndVelocity<Dim>> V_end, Write<body::EndSpin<Dim>> omega_end) const;
+                  Update<body::Work> W_b, Write<body::EndVelocity<Dim>> V_end,
+                  Write<body::EndSpin<Dim>> omega_end) const;
 };
 
 }  // namespace minamo

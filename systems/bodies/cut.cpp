@@ -77,6 +77,33 @@ Vec<Dim> middle(const Bounds<Dim>& box) {
   return 0.5 * (box.low + box.high);
 }
 
+/// Closes faces of gaps between a moving body and a wall, or another body: what flows through one that is thinner than
+/// a fraction of a cell is so fast, and weighs so little, that particles beside the gap would gain energy from it.
+/// \param by_rest  cut of a row by the bodies at rest, whose gaps stay
+template <int Dim, class ByRest>
+void close_gaps(const ByRest& by_rest, std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
+                std::span<Vec<Dim>> open) {
+  const auto is_gap = [&](std::size_t i, std::size_t d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    if (open[i][axis] == 0 || open[i][axis] >= sliver || open[i][axis] == by_rest(i).open[axis]) return false;
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      const std::int32_t j = neighbour[i][side];
+      if (side / 2 == d || j == staggered::none) continue;
+      if (open[static_cast<std::size_t>(j)][axis] >= sliver) return false;
+    }
+    return true;
+  };
+  std::vector<std::array<bool, static_cast<std::size_t>(Dim)>> gaps(open.size());
+  for_each_row(open.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) gaps[i][d] = is_gap(i, d);
+  });
+  for_each_row(open.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (gaps[i][d]) open[i][static_cast<Eigen::Index>(d)] = 0;
+    }
+  });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -215,8 +242,11 @@ void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                Update<multiplier::Capacity> capacity) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const SitePlaces<Dim> places(*grid, *splines);
+  const auto by_rest = [&](std::size_t i) {
+    return at_rest->of.empty() ? SiteCut<Dim>{} : at_rest->at(site[i]);
+  };
   for_each_row(site.size(), [&](std::size_t i) {
-    const SiteCut<Dim> by_resting = at_rest->of.empty() ? SiteCut<Dim>{} : at_rest->at(site[i]);
+    const SiteCut<Dim> by_resting = by_rest(i);
     SiteCut<Dim> cut = by_resting;
     if (bodies.may_be_near(middle<Dim>(places.box(site[i])), places.reach())) {
       cut = cut_site<Dim>(places, site[i], bodies.bounded(), [&](const Vec<Dim>& x) { return bodies.distance(x); });
@@ -226,13 +256,17 @@ void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
     open[i] = cut.open;
     share[i] = cut.share;
     capacity[i] *= cut.share;
+  });
+  close_gaps<Dim>(by_rest, neighbour.span(), open.span());
+  for_each_row(site.size(), [&](std::size_t i) {
     flux[i].setZero();
     old_flux[i].setZero();
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      closed[i][d] = {1 - by_resting.open[axis], by_resting.open[axis] - cut.open[axis]};
+      const double by_resting = by_rest(i).open[axis];
+      closed[i][d] = {1 - by_resting, by_resting - open[i][axis]};
       closer[i][d] = {-1, -1};
-      if (cut.open[axis] == 1) continue;
+      if (open[i][axis] == 1) continue;
       const Vec<Dim> x = places.face(site[i], d);
       for (const bool moving : {false, true}) {
         if (closed[i][d][moving] == 0) continue;

@@ -56,7 +56,7 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
   extension->targets.clear();
   for (std::size_t i = 0; i < site.size(); ++i) {
     for (int d = 0; d < Dim; ++d) {
-      if (open[i][d] > 0 || (held[i] & (1U << d)) != 0) continue;
+      if (open[i][d] > sliver || (held[i] & (1U << d)) != 0) continue;
       extension->targets.push_back({static_cast<std::uint32_t>(i), d, extension->targets.size() * most, 0});
     }
   }
@@ -87,7 +87,7 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
       }
       if (!inside || !splines->has_face(at, direction)) continue;
       const auto row = rows->find(at);
-      if (!row || open[*row][target.direction] == 0) continue;
+      if (!row || open[*row][target.direction] <= sliver) continue;
       const Vec<Dim> y = places.face(at, direction);
       for (std::size_t d = 0; d < Dim; ++d) {
         const auto axis = static_cast<Eigen::Index>(d);

@@ -47,8 +47,10 @@ template <int Dim>
 void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                  Read<BodySet<Dim>> set, Read<staggered::Site<Dim>> site,
                                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
+                                 Read<multiplier::Row> row, Read<unknown::Solution> solution,
                                  Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed,
                                  Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
+                                 Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
                                  Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
                                  Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
                                  Update<body::Work> W_b) const {
@@ -59,20 +61,27 @@ void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<S
     T_b[b].setZero();
   }
   const auto at = [&](std::size_t l) { return lambda[l]; };
+  // The impulse that takes divergence at the start of the step acts on bodies, too.
+  const auto damping = [&](std::size_t l) {
+    return row[l] == staggered::none ? 0 : -solution[static_cast<std::size_t>(row[l])][unknown::damping];
+  };
   // One after the other: the same sums on any number of threads.
   for (std::size_t i = 0; i < site.size(); ++i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       if (open[i][axis] == 1) continue;
       const double drop = incidence.gradient(i, d, at);
-      if (drop == 0) continue;
+      const double damped = incidence.gradient(i, d, damping);
+      if (drop == 0 && damped == 0) continue;
       const Vec<Dim> x = places.face(site[i], d);
       for (const std::size_t moving : {0, 1}) {
         if (closer[i][d][moving] < 0) continue;
         const auto b = static_cast<std::size_t>(closer[i][d][moving]);
+        const Vec<Dim> r = x - c_b[b];
         const Vec<Dim> force = closed[i][d][moving] * drop * Vec<Dim>::Unit(axis);
         F_b[b] += force;
-        T_b[b] += moment_of(Vec<Dim>(x - c_b[b]), force);
+        T_b[b] += moment_of(r, force);
+        W_b[b] += closed[i][d][moving] * damped * rigid_velocity(V_old[b], omega_old[b], r)[axis];
       }
     }
   }
