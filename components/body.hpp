@@ -133,6 +133,18 @@ struct Closer : Column<Staggered, std::array<std::array<std::int16_t, 2>, static
   static constexpr ComponentInfo info{"face.closer", "b", "1", Lifetime::scratch};
 };
 
+/// Mass of the liquid between a body and a face that the face does not see, to its direction alone; less than zero where
+/// the body reaches into what the face stands for. [kg]
+template <int Dim>
+struct AttachedMass : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"face.attached_mass", "m_fb", "kg", Lifetime::scratch};
+};
+/// The body that it moves with, by direction. [1]
+template <int Dim>
+struct AttachedTo : Column<Staggered, std::array<std::int16_t, static_cast<std::size_t>(Dim)>> {
+  static constexpr ComponentInfo info{"face.attached_to", "b", "1", Lifetime::scratch};
+};
+
 }  // namespace face
 
 namespace multiplier {

@@ -137,7 +137,8 @@ void CoupleFreeBodies<Dim>::operator()(
     Read<SolverTolerance> tolerance, Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode,
     Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b,
     Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle, Read<staggered::Site<Dim>> site,
-    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
+    Read<staggered::Neighbour<Dim>> neighbour, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
+    Read<face::AttachedTo<Dim>> attached_to, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
     Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
     Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::Conductance<Dim>> conductance,
     Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Update<MultiplierSolver<Dim>> solver,
@@ -204,7 +205,22 @@ void CoupleFreeBodies<Dim>::operator()(
   for (std::size_t b = 0; b < set->bodies.size(); ++b)
     body_force.push_back(vector_at<Dim>(force->of_place_and_time, arguments.at<Dim>(c_middle[b])));
   const double tau = rates->velocity / rates->acceleration;
-  const BodyBalances balances = balances_of<Dim>(*set, motions, at, R_middle.span(), body_force, tau);
+  BodyBalances balances = balances_of<Dim>(*set, motions, at, R_middle.span(), body_force, tau);
+  const SitePlaces<Dim> places(*grid, *splines);
+  Eigen::VectorXd along(motions.count());
+  for (std::size_t i = 0; i < site.size(); ++i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      if (attached_to[i][d] < 0) continue;
+      const auto b = static_cast<std::size_t>(attached_to[i][d]);
+      if (set->bodies[b].free() == nullptr || attached[i][axis] == 0) continue;
+      along.setZero();
+      motions.for_each_at(b, places.face(site[i], d) - c_middle[b], Vec<Dim>::Unit(axis),
+                          [&](Eigen::Index k, double weight) { along[k] = weight; });
+      balances.mass += attached[i][axis] * along * along.transpose();
+      balances.impulse += tau * attached[i][axis] * b_f[i][axis] * along;
+    }
+  }
   // G = M + U^T S^-1 U: the mass of the bodies, and of the liquid that they carry along.
   Eigen::MatrixXd G = balances.mass;
   for (Eigen::Index k = 0; k < motions.count(); ++k)

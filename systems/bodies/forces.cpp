@@ -47,6 +47,8 @@ template <int Dim>
 void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                  Read<BodySet<Dim>> set, Read<staggered::Site<Dim>> site,
                                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
+                                 Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
+                                 Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
                                  Read<multiplier::Row> row, Read<unknown::Solution> solution,
                                  Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed,
                                  Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
@@ -65,10 +67,21 @@ void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<S
   const auto damping = [&](std::size_t l) {
     return row[l] == staggered::none ? 0 : -solution[static_cast<std::size_t>(row[l])][unknown::damping];
   };
+  const double per_tau = rates->acceleration / rates->velocity;
+  const auto push = [&](std::size_t b, const Vec<Dim>& r, const Vec<Dim>& force) {
+    F_b[b] += force;
+    T_b[b] += moment_of(r, force);
+  };
   // One after the other: the same sums on any number of threads.
   for (std::size_t i = 0; i < site.size(); ++i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
+      if (attached_to[i][d] >= 0) {
+        const auto b = static_cast<std::size_t>(attached_to[i][d]);
+        const Vec<Dim> r = places.face(site[i], d) - c_b[b];
+        const Vec<Dim> change = rigid_velocity(V_b[b], omega_b[b], r) - rigid_velocity(V_old[b], omega_old[b], r);
+        push(b, r, attached[i][axis] * (b_f[i][axis] - per_tau * change[axis]) * Vec<Dim>::Unit(axis));
+      }
       if (open[i][axis] == 1) continue;
       const double drop = incidence.gradient(i, d, at);
       const double damped = incidence.gradient(i, d, damping);
@@ -78,9 +91,7 @@ void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<S
         if (closer[i][d][moving] < 0) continue;
         const auto b = static_cast<std::size_t>(closer[i][d][moving]);
         const Vec<Dim> r = x - c_b[b];
-        const Vec<Dim> force = closed[i][d][moving] * drop * Vec<Dim>::Unit(axis);
-        F_b[b] += force;
-        T_b[b] += moment_of(r, force);
+        push(b, r, closed[i][d][moving] * drop * Vec<Dim>::Unit(axis));
         W_b[b] += closed[i][d][moving] * damped * rigid_velocity(V_old[b], omega_old[b], r)[axis];
       }
     }

@@ -20,7 +20,8 @@ struct PushBodies {
   static constexpr std::string_view doc = "(E90) force, torque and work of the pressure on bodies";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<multiplier::Force> lambda, Read<multiplier::Row> row, Read<unknown::Solution> solution,
+                  Read<multiplier::Force> lambda, Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
+                  Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
                   Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old,
                   Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Write<body::Force<Dim>> F_b,

@@ -1,0 +1,44 @@
+#include "systems/bodies/attached.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+template <int Dim>
+void FindAttachedMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                       Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b,
+                                       Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
+                                       Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open,
+                                       Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+                                       Read<multiplier::FillFraction> phi, Write<face::AttachedMass<Dim>> mass,
+                                       Write<face::AttachedTo<Dim>> body) const {
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const SitePlaces<Dim> places(*grid, *splines);
+  const double full_cell = fluid->density * std::pow(grid->spacing, Dim);
+  // Of the two multipliers of a face the one that bodies leave more of tells whether there is liquid.
+  const auto fill = [&](std::size_t i, std::size_t d) {
+    const std::int32_t below = neighbour[i][2 * d];
+    const bool is_below = below != staggered::none && share[static_cast<std::size_t>(below)] > share[i];
+    return std::min(1.0, 2 * phi[is_below ? static_cast<std::size_t>(below) : i]);
+  };
+  for_each_row(site.size(), [&](std::size_t i) {
+    mass[i].setZero();
+    body[i].fill(-1);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const double attached = open_volume[i][axis] - open[i][axis];
+      if (attached == 0 || !splines->has_face(site[i], d)) continue;
+      const Vec<Dim> x = places.face(site[i], d);
+      const auto resting = bodies.nearest(x, false);
+      const auto moving = bodies.nearest(x, true);
+      body[i][d] = static_cast<std::int16_t>(moving.distance < resting.distance ? moving.body : resting.body);
+      mass[i][axis] = full_cell * splines->face_integral(site[i], d) * attached * fill(i, d);
+    }
+  });
+}
+
+template struct FindAttachedMass<2>;
+template struct FindAttachedMass<3>;
+
+}  // namespace minamo
