@@ -111,6 +111,12 @@ struct OpenVolume : Column<Staggered, Vec<Dim>> {
   static constexpr ComponentInfo info{"face.open_volume", "", "1", Lifetime::scratch};
 };
 
+/// Mass that the particles around a face would have if bodies cut nothing away. [kg]
+template <int Dim>
+struct UncutMass : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"face.uncut_mass", "m_f/a_f", "kg", Lifetime::scratch};
+};
+
 /// What moving bodies let through a face, the share that they close times their velocity. [m/s]
 template <int Dim>
 struct WallFlux : Column<Staggered, Vec<Dim>> {

@@ -166,6 +166,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   recipe.add("sort", "find_face_extension");
   recipe.add("boundaries", "extend_old_velocity");
   recipe.add("material", "fill_beside_bodies");
+  recipe.add("material", "find_uncut_mass");
   recipe.add("material", "find_attached_mass");
   recipe.add("correct", "push_bodies", When::step);
   recipe.add("advect", "move_bodies", When::step);
@@ -215,6 +216,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<FindFaceExtension>("find_face_extension");
   registry.add<ExtendOldVelocity>("extend_old_velocity");
   registry.add<FillBesideBodies>("fill_beside_bodies");
+  registry.add<FindUncutMass>("find_uncut_mass");
   registry.add<FindAttachedMass>("find_attached_mass");
   registry.add<CoupleFreeBodies>("couple_free_bodies");
   registry.add<PushBodies>("push_bodies");

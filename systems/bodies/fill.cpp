@@ -8,6 +8,7 @@ namespace {
 
 /// Open share from which on a multiplier tells whether the liquid around it is full: in less few particles tell little.
 constexpr double telling_from = 0.4;
+constexpr double least_open_liquid = 1e-2;
 /// Open share below which a multiplier lies inside a body.
 constexpr double inside_below = 1e-6;
 
@@ -86,6 +87,43 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
   });
 }
 
+template <int Dim>
+void FindUncutMass<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour,
+                                    Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+                                    Read<multiplier::FillFraction> phi, Read<face::Mass<Dim>> m_f,
+                                    Write<face::UncutMass<Dim>> uncut) const {
+  // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
+  const auto open_liquid = [&](std::size_t i, std::size_t d) {
+    constexpr double of_empty = 1e-3;
+    double liquid = phi[i] + of_empty;
+    double open = liquid * share[i];
+    if (const std::int32_t below = neighbour[i][2 * d]; below != staggered::none) {
+      const double under = phi[static_cast<std::size_t>(below)] + of_empty;
+      liquid += under;
+      open += under * share[static_cast<std::size_t>(below)];
+    }
+    return open / liquid;
+  };
+  for_each_row(m_f.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      uncut[i][axis] = m_f[i][axis];
+      if (open_volume[i][axis] == 1) continue;
+      double open = open_liquid(i, d);
+      const double from_beside = 1 - open;
+      for (std::size_t side = 0; side < 2 * Dim; ++side) {
+        if (side / 2 == d || neighbour[i][side] == staggered::none) continue;
+        const auto j = static_cast<std::size_t>(neighbour[i][side]);
+        open += from_beside * open_liquid(j, d);
+        uncut[i][axis] += from_beside * m_f[j][axis];
+      }
+      uncut[i][axis] /= std::max(open, least_open_liquid);
+    }
+  });
+}
+
+template struct FindUncutMass<2>;
+template struct FindUncutMass<3>;
 template struct FillBesideBodies<2>;
 template struct FillBesideBodies<3>;
 

@@ -33,14 +33,6 @@ double cell_volume(const Grid<Dim>& grid) {
   return Dim == 2 ? grid.spacing * grid.spacing : grid.spacing * grid.spacing * grid.spacing;
 }
 
-/// Mass that the particles around a face would have, were nothing of it cut away by bodies, (E85).
-constexpr double least_open_volume = 1e-2;
-template <int Dim>
-double uncut_mass(std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> open_volume, std::size_t i, std::size_t d) {
-  const auto axis = static_cast<Eigen::Index>(d);
-  return open_volume.empty() ? m_f[i][axis] : m_f[i][axis] / std::max(open_volume[i][axis], least_open_volume);
-}
-
 /// 1/mass, zero where a wall holds the face.
 template <int Dim, class MassOf>
 void invert_masses(double full_cell, const Splines<Dim>& splines, std::span<const Index<Dim>> site,
@@ -140,11 +132,12 @@ void FindLiquidCellsByMultipliers<Dim>::operator()(Read<Splines<Dim>> splines, R
 template <int Dim>
 void FindMobility<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                    Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                                   Optional<Read<face::OpenVolume<Dim>>> open_volume,
+                                   Optional<Read<face::UncutMass<Dim>>> uncut,
                                    Write<face::Mobility<Dim>> mobility) const {
+  const auto of_particles = uncut ? uncut.span() : m_f.span();
   invert_masses<Dim>(
       fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
-      [&](std::size_t i, std::size_t d, double) { return uncut_mass<Dim>(m_f.span(), open_volume.span(), i, d); });
+      [&](std::size_t i, std::size_t d, double) { return of_particles[i][static_cast<Eigen::Index>(d)]; });
 }
 
 template <int Dim>
@@ -152,8 +145,9 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                         Read<face::Held> held, Read<face::Mass<Dim>> m_f,
                                         Read<multiplier::LeastFill> least,
-                                        Optional<Read<face::OpenVolume<Dim>>> open_volume,
+                                        Optional<Read<face::UncutMass<Dim>>> uncut,
                                         Write<face::Mobility<Dim>> mobility) const {
+  const auto of_particles = uncut ? uncut.span() : m_f.span();
   // Of the multipliers below and above a face; at a wall there is one.
   const auto fill_of_face = [&](std::size_t i, std::size_t d) {
     const double above = splines->has_multiplier(site[i]) ? least[i] : 1;
@@ -164,8 +158,7 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
   invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
                      [&](std::size_t i, std::size_t d, double full) {
                        const double theta = filled_indicator(fill_of_face(i, d));
-                       const double of_particles = uncut_mass<Dim>(m_f.span(), open_volume.span(), i, d);
-                       return (1 - theta) * of_particles + theta * full;
+                       return (1 - theta) * of_particles[i][static_cast<Eigen::Index>(d)] + theta * full;
                      });
 }
 

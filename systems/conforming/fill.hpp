@@ -47,7 +47,7 @@ template <int Dim>
 struct FindMobility {
   static constexpr std::string_view doc = "1/m_f, by particles";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
-                  Read<face::Held> held, Read<face::Mass<Dim>> m_f, Optional<Read<face::OpenVolume<Dim>>> open_volume,
+                  Read<face::Held> held, Read<face::Mass<Dim>> m_f, Optional<Read<face::UncutMass<Dim>>> uncut,
                   Write<face::Mobility<Dim>> mobility) const;
 };
 
@@ -57,7 +57,7 @@ struct FindMobilityMixed {
   static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                  Read<multiplier::LeastFill> least, Optional<Read<face::OpenVolume<Dim>>> open_volume,
+                  Read<multiplier::LeastFill> least, Optional<Read<face::UncutMass<Dim>>> uncut,
                   Write<face::Mobility<Dim>> mobility) const;
 };
 
