@@ -10,7 +10,7 @@ namespace {
 
 /// Samples of the volume around a multiplier, per cell and direction.
 template <int Dim>
-constexpr int volume_samples = Dim == 2 ? 4 : 2;
+constexpr int volume_samples = Dim == 2 ? 8 : 2;
 
 double polynomial_at(const CellSplines::Polynomial& of, double xi) {
   double value = 0;
@@ -242,28 +242,29 @@ void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                Update<multiplier::Capacity> capacity) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const SitePlaces<Dim> places(*grid, *splines);
-  const auto by_rest = [&](std::size_t i) {
-    return at_rest->of.empty() ? SiteCut<Dim>{} : at_rest->at(site[i]);
+  const auto by_rest = [&](const Index<Dim>& at) { return at_rest->of.empty() ? SiteCut<Dim>{} : at_rest->at(at); };
+  const auto by_all = [&](const Index<Dim>& at) {
+    const SiteCut<Dim> by_resting = by_rest(at);
+    if (!bodies.may_be_near(middle<Dim>(places.box(at)), places.reach())) return by_resting;
+    SiteCut<Dim> cut =
+        cut_site<Dim>(places, at, bodies.bounded(), [&](const Vec<Dim>& x) { return bodies.distance(x); });
+    cut.open = cut.open.cwiseMin(by_resting.open);
+    cut.share = std::min(cut.share, by_resting.share);
+    return cut;
   };
   for_each_row(site.size(), [&](std::size_t i) {
-    const SiteCut<Dim> by_resting = by_rest(i);
-    SiteCut<Dim> cut = by_resting;
-    if (bodies.may_be_near(middle<Dim>(places.box(site[i])), places.reach())) {
-      cut = cut_site<Dim>(places, site[i], bodies.bounded(), [&](const Vec<Dim>& x) { return bodies.distance(x); });
-      cut.open = cut.open.cwiseMin(by_resting.open);
-      cut.share = std::min(cut.share, by_resting.share);
-    }
+    const SiteCut<Dim> cut = by_all(site[i]);
     open[i] = cut.open;
     share[i] = cut.share;
     capacity[i] *= cut.share;
   });
-  close_gaps<Dim>(by_rest, neighbour.span(), open.span());
+  close_gaps<Dim>([&](std::size_t i) { return by_rest(site[i]); }, neighbour.span(), open.span());
   for_each_row(site.size(), [&](std::size_t i) {
     flux[i].setZero();
     old_flux[i].setZero();
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const double by_resting = by_rest(i).open[axis];
+      const double by_resting = by_rest(site[i]).open[axis];
       closed[i][d] = {1 - by_resting, by_resting - open[i][axis]};
       closer[i][d] = {-1, -1};
       if (open[i][axis] == 1) continue;
@@ -281,8 +282,14 @@ void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
   });
   for_each_row(site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
-      const std::int32_t below = neighbour[i][2 * d];
-      const double of_below = below == staggered::none ? share[i] : share[static_cast<std::size_t>(below)];
+      double of_below = share[i];
+      if (const std::int32_t below = neighbour[i][2 * d]; below != staggered::none) {
+        of_below = share[static_cast<std::size_t>(below)];
+      } else if (site[i][d] > 0) {  // where no particle is
+        Index<Dim> at = site[i];
+        --at[d];
+        of_below = by_all(at).share;
+      }
       open_volume[i][static_cast<Eigen::Index>(d)] = 0.5 * (share[i] + of_below);
     }
   });
