@@ -139,8 +139,8 @@ struct Closer : Column<Staggered, std::array<std::array<std::int16_t, 2>, static
   static constexpr ComponentInfo info{"face.closer", "b", "1", Lifetime::scratch};
 };
 
-/// Mass of the liquid between a body and a face that the face does not see, to its direction alone; less than zero where
-/// the body reaches into what the face stands for. [kg]
+/// Mass of the liquid between a body and a face that the face does not see, to its direction alone; less than zero
+/// where the body reaches into what the face stands for. [kg]
 template <int Dim>
 struct AttachedMass : Column<Staggered, Vec<Dim>> {
   static constexpr ComponentInfo info{"face.attached_mass", "m_fb", "kg", Lifetime::scratch};

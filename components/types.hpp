@@ -7,8 +7,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 #include <cstring>
+#include <vector>
 
 namespace minamo {
 

@@ -46,11 +46,11 @@ struct Spring {
 /// A rigid body that the liquid, the body force and a spring move. Its pivot is its centre of mass.
 template <int Dim>
 struct Free {
-  double mass = 0;                                              ///< [kg; kg/m in 2-D]
-  Mat<rotations<Dim>> inertia = Mat<rotations<Dim>>::Zero();    ///< about the pivot, at the start [kg m^2; kg m in 2-D]
-  Vec<Dim> velocity = Vec<Dim>::Zero();                         ///< at the start [m/s]
-  Vec<rotations<Dim>> spin = Vec<rotations<Dim>>::Zero();       ///< at the start [1/s]
-  std::array<bool, Dim + rotations<Dim>> locked{};              ///< directions and turns that it does not take part in
+  double mass = 0;                                            ///< [kg; kg/m in 2-D]
+  Mat<rotations<Dim>> inertia = Mat<rotations<Dim>>::Zero();  ///< about the pivot, at the start [kg m^2; kg m in 2-D]
+  Vec<Dim> velocity = Vec<Dim>::Zero();                       ///< at the start [m/s]
+  Vec<rotations<Dim>> spin = Vec<rotations<Dim>>::Zero();     ///< at the start [1/s]
+  std::array<bool, Dim + rotations<Dim>> locked{};            ///< directions and turns that it does not take part in
   Spring<Dim> spring;
 };
 

@@ -134,9 +134,9 @@ std::vector<double> least_at_end(const std::vector<Contact>& contacts, const Eig
 template <int Dim>
 void CoupleFreeBodies<Dim>::operator()(
     Read<Clock> clock, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-    Read<SolverTolerance> tolerance, Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode,
-    Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b,
-    Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle, Read<staggered::Site<Dim>> site,
+    Read<SolverTolerance> tolerance, Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode, Read<BodySet<Dim>> set,
+    Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::MiddlePosition<Dim>> c_middle,
+    Read<body::MiddleRotation<Dim>> R_middle, Read<staggered::Site<Dim>> site,
     Read<staggered::Neighbour<Dim>> neighbour, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
     Read<face::AttachedTo<Dim>> attached_to, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
     Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
@@ -182,8 +182,8 @@ void CoupleFreeBodies<Dim>::operator()(
         laplacian_of<Dim>(*splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(), diagonal.span());
     MotionColumns response(motions.count(), solution.size());
     for (std::size_t k = 0; k < response.blocks(); ++k) {
-      const SolveReport done = solver->solve(matrix, null_vector.span(), tolerance->relative, fluxes.columns.block(k),
-                                             response.block(k));
+      const SolveReport done =
+          solver->solve(matrix, null_vector.span(), tolerance->relative, fluxes.columns.block(k), response.block(k));
       report->iterations += done.iterations;
       report->residual = std::max(report->residual, done.residual);
     }

@@ -88,10 +88,9 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
 }
 
 template <int Dim>
-void FindUncutMass<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour,
-                                    Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
-                                    Read<multiplier::FillFraction> phi, Read<face::Mass<Dim>> m_f,
-                                    Write<face::UncutMass<Dim>> uncut) const {
+void FindUncutMass<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<face::OpenVolume<Dim>> open_volume,
+                                    Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+                                    Read<face::Mass<Dim>> m_f, Write<face::UncutMass<Dim>> uncut) const {
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {
     constexpr double of_empty = 1e-3;

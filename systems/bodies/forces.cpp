@@ -44,18 +44,15 @@ void set_columns(measure::Columns& columns, const std::string& name, const BodyR
 }  // namespace
 
 template <int Dim>
-void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                 Read<BodySet<Dim>> set, Read<staggered::Site<Dim>> site,
-                                 Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
-                                 Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
-                                 Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
-                                 Read<multiplier::Row> row, Read<unknown::Solution> solution,
-                                 Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed,
-                                 Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
-                                 Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-                                 Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
-                                 Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
-                                 Update<body::Work> W_b) const {
+void PushBodies<Dim>::operator()(
+    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
+    Read<Rates> rates, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
+    Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
+    Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
+    Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
+    Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Write<body::Force<Dim>> F_b,
+    Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {

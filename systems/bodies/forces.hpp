@@ -21,11 +21,12 @@ struct PushBodies {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<multiplier::Force> lambda, Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
-                  Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
-                  Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old,
-                  Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Write<body::Force<Dim>> F_b,
-                  Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
+                  Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
+                  Read<multiplier::Row> row, Read<unknown::Solution> solution, Read<face::Open<Dim>> open,
+                  Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
+                  Read<body::MeanSpin<Dim>> omega_b, Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
+                  Update<body::Work> W_b) const;
 };
 
 /// Columns of the history: NAME_force_x, ..., NAME_torque, NAME_position_x, ..., NAME_velocity_x, ..., NAME_angle,

@@ -84,8 +84,8 @@ void PlaceBodies<Dim>::operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Rea
   const double half = 0.5 * clock->step;
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     const BodyScene<Dim>& body = set->bodies[b];
-    const Twist<Dim> mean = body.free() != nullptr ? Twist<Dim>{V_old[b], omega_old[b]}
-                                                   : mean_twist<Dim>(body, clock->time, clock->step);
+    const Twist<Dim> mean =
+        body.free() != nullptr ? Twist<Dim>{V_old[b], omega_old[b]} : mean_twist<Dim>(body, clock->time, clock->step);
     V_b[b] = mean.velocity;
     omega_b[b] = mean.spin;
     c_middle[b] = c_b[b] + half * mean.velocity;

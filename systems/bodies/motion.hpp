@@ -8,21 +8,20 @@
 
 namespace minamo {
 
-/// Velocity and angular velocity of a body at an instant; of a tabulated one the mean over a moment, of a free one those
-/// at the start.
+/// Velocity and angular velocity of a body at an instant; of a tabulated one the mean over a moment, of a free one
+/// those at the start.
 template <int Dim>
 std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body, double time);
 
-/// (E88)  c_b and R_b in the middle of the step, and the mean of V_b and omega_b over it, by Simpson's rule; free bodies
-/// as if they kept their velocities.
-/// \throws StepRejected if a velocity is not finite
+/// (E88)  c_b and R_b in the middle of the step, and the mean of V_b and omega_b over it, by Simpson's rule; free
+/// bodies as if they kept their velocities. \throws StepRejected if a velocity is not finite
 template <int Dim>
 struct PlaceBodies {
   static constexpr std::string_view doc = "(E88) bodies in the middle of the step";
   void operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
                   Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-                  Write<body::MiddlePosition<Dim>> c_middle, Write<body::MiddleRotation<Dim>> R_middle, Write<body::MeanVelocity<Dim>> V_b,
-                  Write<body::MeanSpin<Dim>> omega_b) const;
+                  Write<body::MiddlePosition<Dim>> c_middle, Write<body::MiddleRotation<Dim>> R_middle,
+                  Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b) const;
 };
 
 /// (E88)  c_b, R_b, V_b and omega_b at the end of the step.

@@ -28,7 +28,8 @@ void read_locked(Input& input, Free<Dim>& free) {
   const Json locked = input.raw("locked", schema, Json::array());
   if (input.describing()) return;
   for (std::size_t k = 0; k < locked.size(); ++k) {
-    const auto name = locked.is_array() && locked[k].is_string() ? locked[k].template get<std::string>() : std::string();
+    const auto name =
+        locked.is_array() && locked[k].is_string() ? locked[k].template get<std::string>() : std::string();
     const auto known = std::find(names.begin(), names.end(), name);
     if (known == names.end()) {
       input.problem("locked", "not a motion", one_of_text(names), locked.is_array() ? shown(locked[k]) : shown(locked));
@@ -60,13 +61,10 @@ Spring<Dim> read_spring(Input& input) {
 template <int Dim>
 void read_mass(Input& input, const Solid<Dim>& solid, Free<Dim>& free) {
   const bool is_2d = Dim == 2;
-  input.one_of("of the body", {{"density",
-                                [&](Input& in) {
-                                  free.mass = solid.volume * in.number("density", {.unit = "kg/m^3", .above = 0});
-                                }},
-                               {"mass", [&](Input& in) {
-                                  free.mass = in.number("mass", {.unit = is_2d ? "kg/m" : "kg", .above = 0});
-                                }}});
+  input.one_of(
+      "of the body",
+      {{"density", [&](Input& in) { free.mass = solid.volume * in.number("density", {.unit = "kg/m^3", .above = 0}); }},
+       {"mass", [&](Input& in) { free.mass = in.number("mass", {.unit = is_2d ? "kg/m" : "kg", .above = 0}); }}});
   if (solid.volume > 0) free.inertia = free.mass / solid.volume * solid.inertia;
   const auto given = input.optional_numbers(
       "inertia", rotations<Dim>,
@@ -99,8 +97,8 @@ Free<Dim> read_free(Input& input, const GridScene& grid, BodyScene<Dim>& body) {
   if constexpr (Dim == 2) {
     free.spin[0] = input.number("rotation", {.unit = "1/s", .doc = "angular velocity at the start", .fallback = 0});
   } else {
-    free.spin = vec_of<3>(
-        input.numbers("rotation", 3, {.unit = "1/s", .doc = "angular velocity at the start", .fallback = 0}));
+    free.spin =
+        vec_of<3>(input.numbers("rotation", 3, {.unit = "1/s", .doc = "angular velocity at the start", .fallback = 0}));
   }
   read_locked<Dim>(input, free);
   for (std::size_t c = 0; c < free.locked.size(); ++c) {

@@ -100,8 +100,8 @@ Solid<Dim> solid_of(const Shape<Dim>& shape) {
   solid.centre = middle + from_middle;
   // What a sample has about its own middle, and Steiner's theorem.
   const Mat<Dim> own = (lattice.size.cwiseAbs2() / 12).asDiagonal();
-  solid.inertia = inertia_of<Dim>(
-      of_sample * (moments.second + moments.volume * (own - from_middle * from_middle.transpose())));
+  solid.inertia =
+      inertia_of<Dim>(of_sample * (moments.second + moments.volume * (own - from_middle * from_middle.transpose())));
   return solid;
 }
 

@@ -144,8 +144,7 @@ template <int Dim>
 void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                         Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                                        Read<multiplier::LeastFill> least,
-                                        Optional<Read<face::UncutMass<Dim>>> uncut,
+                                        Read<multiplier::LeastFill> least, Optional<Read<face::UncutMass<Dim>>> uncut,
                                         Write<face::Mobility<Dim>> mobility) const {
   const auto of_particles = uncut ? uncut.span() : m_f.span();
   // Of the multipliers below and above a face; at a wall there is one.

@@ -150,7 +150,8 @@ class ShapeReader {
 
   SharedShape<Dim> ellipsoid(Input& input) {
     const Vec<Dim> center = place(input, "center", "center");
-    const Vec<Dim> radii = vec_of<Dim>(input.numbers("radii", Dim, {.unit = "m", .doc = "half of its axes", .above = 0}));
+    const Vec<Dim> radii =
+        vec_of<Dim>(input.numbers("radii", Dim, {.unit = "m", .doc = "half of its axes", .above = 0}));
     const Mat<Dim> turned = turn(input);
     return can_make(input) ? std::make_shared<shapes::Ellipsoid<Dim>>(center, radii, turned) : nullptr;
   }
@@ -206,7 +207,8 @@ class ShapeReader {
     if constexpr (Dim == 3) {
       const auto file = input.path("file", "STL or OBJ; relative to the folder of the scene");
       const double scale = input.number("scale", {.doc = "of its coordinates", .fallback = 1.0, .above = 0});
-      const Vec<3> move = vec_of<Dim>(input.numbers("move", 3, {.unit = "m", .doc = "after they are scaled", .fallback = 0.0}));
+      const Vec<3> move =
+          vec_of<Dim>(input.numbers("move", 3, {.unit = "m", .doc = "after they are scaled", .fallback = 0.0}));
       if (!can_make(input)) return nullptr;
       try {
         return std::make_shared<shapes::Mesh>(shapes::close_surface(shapes::read_mesh(file), scale, move));
