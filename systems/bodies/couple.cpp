@@ -129,6 +129,50 @@ std::vector<double> least_at_end(const std::vector<Contact>& contacts, const Eig
   return least;
 }
 
+/// What lies between walls and the faces of the grid (E94).
+template <int Dim>
+struct AttachedLiquid {
+  std::span<const typename staggered::Site<Dim>::value_type> site;
+  std::span<const Vec<Dim>> mass;
+  std::span<const typename face::AttachedTo<Dim>::value_type> to;
+};
+
+/// Calls use(site, axis, along) for the liquid that free bodies carry, with what every motion moves it along its axis.
+template <int Dim, class Use>
+void for_each_attached(const SitePlaces<Dim>& places, const FreeMotions<Dim>& motions,
+                       std::span<const Vec<Dim>> middle_position, const AttachedLiquid<Dim>& liquid, const Use& use) {
+  Eigen::VectorXd along(motions.count());
+  for (std::size_t i = 0; i < liquid.site.size(); ++i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      if (liquid.to[i][d] < 0 || liquid.mass[i][axis] == 0) continue;
+      const auto b = static_cast<std::size_t>(liquid.to[i][d]);
+      along.setZero();
+      motions.for_each_at(b, places.face(liquid.site[i], d) - middle_position[b], Vec<Dim>::Unit(axis),
+                          [&](Eigen::Index k, double weight) { along[k] = weight; });
+      if (!along.isZero(0)) use(i, axis, along);
+    }
+  }
+}
+
+/// Sets the spins at the end of the step: the angular momentum changes by twice of what it does up to the middle,
+/// I (2 omega - omega^n) - I^n omega^n.
+void turn_inertia(const BodySet<3>& set, const FreeMotions<3>& motions, const BodyStates<3>& at,
+                  std::span<const Mat<3>> R_middle, std::span<const Vec<3>> omega_mean, double step,
+                  Eigen::VectorXd& end) {
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    const Free<3>* free = set.bodies[b].free();
+    if (free == nullptr) continue;
+    const Vec<3> momentum = turned_inertia<3>(*free, R_middle[b]) * (at.spin[b] + motions.spin_in(end, b)) -
+                            turned_inertia<3>(*free, at.rotation[b]) * at.spin[b];
+    const Mat<3> R_end = rotation_by(Vec<3>(step * omega_mean[b])) * at.rotation[b];
+    const Vec<3> spin = turned_inertia<3>(*free, R_end).inverse() * momentum;
+    motions.for_each_of(b, [&](Eigen::Index k, int c) {
+      if (c >= 3) end[k] = spin[c - 3];
+    });
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -150,46 +194,41 @@ void CoupleFreeBodies<Dim>::operator()(
   const std::vector<Vec<rotations<Dim>>> omega(omega_mean.begin(), omega_mean.end());
   const BodyStates<Dim> at{c_b.span(), R_b.span(), V, omega};
 
-  const auto find_fluxes = [&] {
-    Fluxes fluxes{MotionColumns(motions.count(), solution.size()), {}};
-    const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-    const SitePlaces<Dim> places(*grid, *splines);
-    for (std::size_t l = 0; l < solution.size(); ++l) {
-      bool is_touched = false;
-      const auto add = [&](std::size_t f, std::size_t d, double per_width) {
-        if (closer[f][d][1] < 0) return;
-        const auto b = static_cast<std::size_t>(closer[f][d][1]);
-        const Vec<Dim> r = places.face(site[f], d) - c_middle[b];
-        motions.for_each_at(b, r, Vec<Dim>::Unit(static_cast<Eigen::Index>(d)), [&](Eigen::Index k, double weight) {
-          fluxes.columns.at(k, l) += per_width * closed[f][d][1] * weight;
-          is_touched = true;
-        });
-      };
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const double per_width = incidence.per_width(of_unknown[l], d);
-        add(incidence.above(of_unknown[l], d), d, per_width);
-        add(of_unknown[l], d, -per_width);
-      }
-      if (is_touched) fluxes.touched.push_back(l);
-    }
-    return fluxes;
+  Fluxes fluxes{MotionColumns(motions.count(), solution.size()), {}};
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const SitePlaces<Dim> places(*grid, *splines);
+  const auto add_flux = [&](std::size_t l, std::size_t f, std::size_t d, double per_width) {
+    const std::int16_t b = closer[f][d][1];
+    if (b < 0) return false;
+    const Vec<Dim> r = places.face(site[f], d) - c_middle[static_cast<std::size_t>(b)];
+    bool is_free = false;
+    motions.for_each_at(static_cast<std::size_t>(b), r, Vec<Dim>::Unit(static_cast<Eigen::Index>(d)),
+                        [&](Eigen::Index k, double weight) {
+                          fluxes.columns.at(k, l) += per_width * closed[f][d][1] * weight;
+                          is_free = true;
+                        });
+    return is_free;
   };
-  const Fluxes fluxes = find_fluxes();
+  for (std::size_t l = 0; l < solution.size(); ++l) {
+    bool is_touched = false;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double per_width = incidence.per_width(of_unknown[l], d);
+      is_touched |= add_flux(l, incidence.above(of_unknown[l], d), d, per_width);
+      is_touched |= add_flux(l, of_unknown[l], d, -per_width);
+    }
+    if (is_touched) fluxes.touched.push_back(l);
+  }
 
-  /// S^-1 U.
-  const auto find_response = [&] {
-    const auto matrix =
-        laplacian_of<Dim>(*splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(), diagonal.span());
-    MotionColumns response(motions.count(), solution.size());
-    for (std::size_t k = 0; k < response.blocks(); ++k) {
-      const SolveReport done =
-          solver->solve(matrix, null_vector.span(), tolerance->relative, fluxes.columns.block(k), response.block(k));
-      report->iterations += done.iterations;
-      report->residual = std::max(report->residual, done.residual);
-    }
-    return response;
-  };
-  const MotionColumns response = find_response();
+  // S^-1 U.
+  const auto matrix =
+      laplacian_of<Dim>(*splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(), diagonal.span());
+  MotionColumns response(motions.count(), solution.size());
+  for (std::size_t k = 0; k < response.blocks(); ++k) {
+    const SolveReport done =
+        solver->solve(matrix, null_vector.span(), tolerance->relative, fluxes.columns.block(k), response.block(k));
+    report->iterations += done.iterations;
+    report->residual = std::max(report->residual, done.residual);
+  }
   const auto transposed_times = [&](Which which) {
     return fluxes.transposed_times([&](std::size_t l) { return solution[l][which]; });
   };
@@ -206,21 +245,11 @@ void CoupleFreeBodies<Dim>::operator()(
     body_force.push_back(vector_at<Dim>(force->of_place_and_time, arguments.at<Dim>(c_middle[b])));
   const double tau = rates->velocity / rates->acceleration;
   BodyBalances balances = balances_of<Dim>(*set, motions, at, R_middle.span(), body_force, tau);
-  const SitePlaces<Dim> places(*grid, *splines);
-  Eigen::VectorXd along(motions.count());
-  for (std::size_t i = 0; i < site.size(); ++i) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const auto axis = static_cast<Eigen::Index>(d);
-      if (attached_to[i][d] < 0) continue;
-      const auto b = static_cast<std::size_t>(attached_to[i][d]);
-      if (set->bodies[b].free() == nullptr || attached[i][axis] == 0) continue;
-      along.setZero();
-      motions.for_each_at(b, places.face(site[i], d) - c_middle[b], Vec<Dim>::Unit(axis),
-                          [&](Eigen::Index k, double weight) { along[k] = weight; });
-      balances.mass += attached[i][axis] * along * along.transpose();
-      balances.impulse += tau * attached[i][axis] * b_f[i][axis] * along;
-    }
-  }
+  for_each_attached<Dim>(places, motions, c_middle.span(), {site.span(), attached.span(), attached_to.span()},
+                         [&](std::size_t i, Eigen::Index axis, const Eigen::VectorXd& along) {
+                           balances.mass += attached[i][axis] * along * along.transpose();
+                           balances.impulse += tau * attached[i][axis] * b_f[i][axis] * along;
+                         });
   // G = M + U^T S^-1 U: the mass of the bodies, and of the liquid that they carry along.
   Eigen::MatrixXd G = balances.mass;
   for (Eigen::Index k = 0; k < motions.count(); ++k)
@@ -250,20 +279,7 @@ void CoupleFreeBodies<Dim>::operator()(
     omega_mean[b] = motions.spin_in(middle, b);
   }
   Eigen::VectorXd end = start + 2 * change;
-  if constexpr (Dim == 3) {
-    // The angular momentum changes by twice of what it does up to the middle: I (2 omega - w) - I^n omega^n.
-    for (std::size_t b = 0; b < set->bodies.size(); ++b) {
-      const Free<3>* free = set->bodies[b].free();
-      if (free == nullptr) continue;
-      const Vec<3> momentum = turned_inertia<3>(*free, R_middle[b]) * (omega[b] + motions.spin_in(end, b)) -
-                              turned_inertia<3>(*free, R_b[b]) * omega[b];
-      const Mat<3> R_end = rotation_by(Vec<3>(clock->step * omega_mean[b])) * R_b[b];
-      const Vec<3> spin = turned_inertia<3>(*free, R_end).inverse() * momentum;
-      motions.for_each_of(b, [&](Eigen::Index k, int c) {
-        if (c >= 3) end[k] = spin[c - 3];
-      });
-    }
-  }
+  if constexpr (Dim == 3) turn_inertia(*set, motions, at, R_middle.span(), omega_mean.span(), clock->step, end);
   end += push_apart(contacts, inverse, end, least_at_end(contacts, middle, least, 1e-6 * grid->spacing / clock->step));
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     V_end[b] = motions.velocity_in(end, b);

@@ -32,7 +32,8 @@ void read_locked(Input& input, Free<Dim>& free) {
         locked.is_array() && locked[k].is_string() ? locked[k].template get<std::string>() : std::string();
     const auto known = std::find(names.begin(), names.end(), name);
     if (known == names.end()) {
-      input.problem("locked", "not a motion", one_of_text(names), locked.is_array() ? shown(locked[k]) : shown(locked));
+      input.problem("locked", "not a motion", one_of_text(names), locked.is_array() ? shown(locked[k]) : shown(locked),
+                    closest_name(name, names));
       return;
     }
     const auto c = static_cast<std::size_t>(known - names.begin());
