@@ -1,6 +1,7 @@
 #include "systems/bodies/bodies_part.hpp"
 
 #include "systems/bodies/attached.hpp"
+#include "systems/bodies/contact.hpp"
 #include "systems/bodies/couple.hpp"
 #include "systems/bodies/cut.hpp"
 #include "systems/bodies/extension.hpp"
@@ -144,7 +145,7 @@ void seed_bodies(BodySet<Dim> set, World& world) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   if (set.any_is_free()) {
     for (auto& body : set.bodies) {
-      if (body.shape->bounds().finite()) body.surface = surface_points<Dim>(*body.shape, 0.5 * grid.spacing);
+      if (body.shape->bounds().finite()) body.surface = surface_points<Dim>(*body.shape, point_spacing * grid.spacing);
     }
   }
   world.resource<BodySet<Dim>>() = set;

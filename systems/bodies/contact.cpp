@@ -64,11 +64,9 @@ class ContactSearch {
     const bool is_high = side % 2 == 1;
     const Vec<Dim> normal = (is_high ? -1.0 : 1.0) * Vec<Dim>::Unit(axis);
     std::vector<Touch<Dim>> touches;
-    for (const Vec<Dim>& X : set_.bodies[b].surface) {
-      const Vec<Dim> x = placed_.placement(b).to_world(X);
-      const double gap = is_high ? grid_.high[axis] - x[axis] : x[axis] - grid_.low[axis];
-      if (gap < reach_[b]) touches.push_back({x, normal, gap});
-    }
+    add_points_of(b, reach_[b], touches, [&](const Vec<Dim>& x) {
+      return Touch<Dim>{x, normal, is_high ? grid_.high[axis] - x[axis] : x[axis] - grid_.low[axis]};
+    });
     for (const auto& touch : far_apart<Dim>(touches)) add(b, {}, touch);
   }
 
@@ -76,8 +74,8 @@ class ContactSearch {
     const double reach = reach_[b] + reach_[other];
     if (!may_touch(b, other, reach)) return;
     std::vector<Touch<Dim>> touches;
-    add_points_of(b, other, reach, 1, touches);
-    add_points_of(other, b, reach, -1, touches);
+    add_points_of(b, reach, touches, [&](const Vec<Dim>& x) { return touch_at(x, other, 1); });
+    add_points_of(other, reach, touches, [&](const Vec<Dim>& x) { return touch_at(x, b, -1); });
     for (const auto& touch : far_apart<Dim>(touches)) add(b, other, touch);
   }
 
@@ -89,16 +87,48 @@ class ContactSearch {
   }
 
   /// \param sign  of the normal out of the body that has the surface, to that towards the free body
-  void add_points_of(std::size_t b, std::size_t surface_of, double reach, double sign,
-                     std::vector<Touch<Dim>>& touches) const {
+  Touch<Dim> touch_at(const Vec<Dim>& x, std::size_t surface_of, double sign) const {
     const auto& shape = *set_.bodies[surface_of].shape;
+    const auto& placement = placed_.placement(surface_of);
+    const double gap = placement.distance(shape, x);
+    const Vec<Dim> normal = placement.gradient(shape, x);
+    return {x, sign * normal.normalized(), gap};
+  }
+
+  /// The points of a body that something else is within reach of, the closest one slid along the surface to where the
+  /// gap is least: round bodies touch between the points that stand for their surfaces.
+  template <class TouchAt>
+  void add_points_of(std::size_t b, double reach, std::vector<Touch<Dim>>& touches, const TouchAt& touch_at) const {
+    const std::size_t before = touches.size();
     for (const Vec<Dim>& X : set_.bodies[b].surface) {
-      const Vec<Dim> x = placed_.placement(b).to_world(X);
-      const double gap = placed_.placement(surface_of).distance(shape, x);
-      if (gap >= reach) continue;
-      const Vec<Dim> normal = placed_.placement(surface_of).gradient(shape, x);
-      if (normal.squaredNorm() > 0) touches.push_back({x, sign * normal.normalized(), gap});
+      const Touch<Dim> touch = touch_at(placed_.placement(b).to_world(X));
+      if (touch.gap < reach && touch.normal.squaredNorm() > 0) touches.push_back(touch);
     }
+    const auto closest = std::min_element(touches.begin() + static_cast<std::ptrdiff_t>(before), touches.end(),
+                                          [](const auto& a, const auto& c) { return a.gap < c.gap; });
+    if (closest != touches.end()) *closest = slid(b, *closest, touch_at);
+  }
+
+  template <class TouchAt>
+  Touch<Dim> slid(std::size_t b, Touch<Dim> touch, const TouchAt& touch_at) const {
+    constexpr int most_tries = 16;
+    const auto& shape = *set_.bodies[b].shape;
+    const auto& placement = placed_.placement(b);
+    double way = point_spacing * grid_.spacing;
+    for (int k = 0; k < most_tries; ++k) {
+      const Vec<Dim> outwards = placement.gradient(shape, touch.x).normalized();
+      const Vec<Dim> closer = outwards.dot(touch.normal) * outwards - touch.normal;  // along the surface
+      if (closer.norm() < 1e-9) break;
+      Vec<Dim> x = touch.x + way * closer.normalized();
+      x -= placement.distance(shape, x) * placement.gradient(shape, x).normalized();
+      const Touch<Dim> next = touch_at(x);
+      if (next.gap < touch.gap && next.normal.squaredNorm() > 0) {
+        touch = next;
+      } else {
+        way *= 0.5;
+      }
+    }
+    return touch;
   }
 
   void add(std::size_t b, std::optional<std::size_t> other, const Touch<Dim>& touch) {

@@ -7,6 +7,9 @@
 
 namespace minamo {
 
+/// Points that stand for the surface of a body are no farther apart than this share of the spacing of the grid.
+inline constexpr double point_spacing = 0.5;
+
 /// A point where a free body may touch something. Its gap changes by gradient . q + apart in a second.
 struct Contact {
   double gap;                ///< at the start of the step [m]
