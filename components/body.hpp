@@ -46,6 +46,10 @@ struct Angle : Column<Bodies, Vec<rotations<Dim>>> {
 struct Work : Column<Bodies, double> {
   static constexpr ComponentInfo info{"body.work", "W_b", "J", Lifetime::state};
 };
+/// The same at the start of the step. [J]
+struct OldWork : Column<Bodies, double> {
+  static constexpr ComponentInfo info{"body.old_work", "W_b^n", "J", Lifetime::scratch};
+};
 
 /// Place in the middle of the step, for which the grid is cut. [m]
 template <int Dim>

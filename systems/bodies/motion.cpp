@@ -78,14 +78,16 @@ std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body,
 template <int Dim>
 void PlaceBodies<Dim>::operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
                                   Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_old,
-                                  Read<body::Spin<Dim>> omega_old, Write<body::MiddlePosition<Dim>> c_middle,
-                                  Write<body::MiddleRotation<Dim>> R_middle, Write<body::MeanVelocity<Dim>> V_b,
-                                  Write<body::MeanSpin<Dim>> omega_b) const {
+                                  Read<body::Spin<Dim>> omega_old, Read<body::Work> W_b,
+                                  Write<body::MiddlePosition<Dim>> c_middle, Write<body::MiddleRotation<Dim>> R_middle,
+                                  Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b,
+                                  Write<body::OldWork> W_old) const {
   const double half = 0.5 * clock->step;
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     const BodyScene<Dim>& body = set->bodies[b];
     const Twist<Dim> mean =
         body.free() != nullptr ? Twist<Dim>{V_old[b], omega_old[b]} : mean_twist<Dim>(body, clock->time, clock->step);
+    W_old[b] = W_b[b];
     V_b[b] = mean.velocity;
     omega_b[b] = mean.spin;
     c_middle[b] = c_b[b] + half * mean.velocity;

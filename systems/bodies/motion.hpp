@@ -17,11 +17,12 @@ std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body,
 /// bodies as if they kept their velocities. \throws StepRejected if a velocity is not finite
 template <int Dim>
 struct PlaceBodies {
-  static constexpr std::string_view doc = "(E88) bodies in the middle of the step";
+  static constexpr std::string_view doc = "(E88) bodies in the middle of the step; their work so far";
   void operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
                   Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-                  Write<body::MiddlePosition<Dim>> c_middle, Write<body::MiddleRotation<Dim>> R_middle,
-                  Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b) const;
+                  Read<body::Work> W_b, Write<body::MiddlePosition<Dim>> c_middle,
+                  Write<body::MiddleRotation<Dim>> R_middle, Write<body::MeanVelocity<Dim>> V_b,
+                  Write<body::MeanSpin<Dim>> omega_b, Write<body::OldWork> W_old) const;
 };
 
 /// (E88)  c_b, R_b, V_b and omega_b at the end of the step.

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace minamo {
 
@@ -86,6 +87,7 @@ void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
 template <int Dim>
 void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                                          Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
+                                         Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
                                          Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                                          Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f,
                                          Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
@@ -98,7 +100,11 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
   if (lifted <= 0) return;
   const double work = reduce_rows(
       u_f.size(), 0.0, [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); }, std::plus<>());
-  const double lost = work - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
+  // What bodies have got is not lost: they give it back.
+  double given = 0;
+  if (W_b)
+    given = std::reduce(W_b.span().begin(), W_b.span().end()) - std::reduce(W_old.span().begin(), W_old.span().end());
+  const double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
   const double share = std::clamp(lost / lifted, 0.0, 1.0);
   if (share == 1) return;
   for_each_row(d_p.size(), [&](std::size_t p) {

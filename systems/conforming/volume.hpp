@@ -77,7 +77,8 @@ template <int Dim>
 struct LimitParticleShift {
   static constexpr std::string_view doc = "(E69) shifts lift no more than the step has lost";
   void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
-                  Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before, Read<particle::Mass> m_p,
+                  Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
+                  Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f,
                   Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
                   Update<particle::Stir<Dim>> s_p) const;

@@ -6,10 +6,11 @@
 
 namespace minamo {
 
-/// Walls stand still and viscosity only takes: under a constant body force K + U never rises. Plain data.
+/// Viscosity only takes, and so do walls that stand still: under a constant body force K + U never rises, nor does
+/// K + U + W with the work W that was done on moving bodies. Plain data.
 struct EnergyWatch {
-  double lowest = 0;       ///< K + U so far [J]
-  double rise = 0;         ///< largest (K + U) - lowest before it [J]
+  double lowest = 0;       ///< K + U + W so far [J]
+  double rise = 0;         ///< largest K + U + W less the lowest before it [J]
   double time = 0;         ///< when that was [s]
   double kinetic_max = 0;  ///< [J]
   double potential_min = 0;
@@ -19,8 +20,9 @@ struct EnergyWatch {
     *this = {
         .lowest = kinetic + potential, .kinetic_max = kinetic, .potential_min = potential, .potential_max = potential};
   }
-  void see(double t, double kinetic, double potential) {
-    const double energy = kinetic + potential;
+  /// \param work  done on bodies since the start [J]
+  void see(double t, double kinetic, double potential, double work = 0) {
+    const double energy = kinetic + potential + work;
     if (energy - lowest > rise) {
       rise = energy - lowest;
       time = t;

@@ -19,14 +19,6 @@ RunTotals::Values values(const measure::Energy& energy, const measure::Momentum<
   return values;
 }
 
-void watch(bool is_start, const Clock& clock, double kinetic, double potential, EnergyWatch& watch) {
-  if (is_start) {
-    watch.start(kinetic, potential);
-  } else {
-    watch.see(clock.end_of_step, kinetic, potential);
-  }
-}
-
 void require_known(const measure::Columns& further, std::int64_t known) {
   const auto count = static_cast<std::int64_t>(further.columns.size());
   if (count <= known) return;
@@ -50,10 +42,13 @@ RunTotals added(RunTotals totals, const Clock& clock, const measure::Energy& ene
   if (is_start) totals.columns = static_cast<std::int64_t>(further.columns.size());
   require_known(further, totals.columns);
   if (energy.potential) {
-    // Bodies that move give and take energy, too.
     const double* balance = further.find("energy_balance");
-    const double beside_kinetic = balance ? *balance - energy.kinetic : *energy.potential;
-    watch(is_start, clock, energy.kinetic, beside_kinetic, totals.energy);
+    const double work = balance ? *balance - energy.kinetic - *energy.potential : 0;
+    if (is_start) {
+      totals.energy.start(energy.kinetic, *energy.potential);
+    } else {
+      totals.energy.see(clock.end_of_step, energy.kinetic, *energy.potential, work);
+    }
   }
   keep_measured(further, "error_velocity", totals.error_velocity);
   keep_measured(further, "error_pressure", totals.error_pressure);

@@ -161,6 +161,25 @@ TEST_CASE("bodies come to rest on the floor and on each other", "[verification]"
   CHECK(std::abs(value_of(run.world(), "upper_velocity_y")) < 1e-6);
 }
 
+TEST_CASE("a box that bobs gives no energy to the water and the box", "[verification]") {
+  // Too high by 0.08 m. What it gets on its way up it gives back: the volume correction may not lift water for it.
+  SceneRun run(
+      tank_with<2>(0.5, R"({"box": {"low": [0.3, 0.48], "high": [0.7, 0.68], "angle": 10}})", R"({"density": 500})"));
+  run.start();
+  run.step();
+  double lowest = value_of(run.world(), "energy_balance");
+  double rise = 0;
+  double exchanged = 0;
+  for (int k = 0; k < 600; ++k) {
+    run.step();
+    const double now = value_of(run.world(), "energy_balance");
+    lowest = std::min(lowest, now);
+    rise = std::max(rise, now - lowest);
+    exchanged = std::max(exchanged, std::abs(value_of(run.world(), "body_work")));
+  }
+  CHECK(rise < 0.005 * exchanged);  // 0.0029 measured
+}
+
 TEST_CASE("free bodies give the same bits on any number of threads", "[verification][threads]") {
   const auto after = [](Execution execution) {
     SceneRun run(
