@@ -15,9 +15,9 @@ namespace {
 
 /// Samples along the longest side of what is sampled.
 template <int Dim>
-constexpr double fewest_samples = Dim == 2 ? 128 : 32;
+constexpr double fewest_samples = Dim == 2 ? 128 : 20;
 template <int Dim>
-constexpr double most_samples = Dim == 2 ? 1024 : 128;
+constexpr double most_samples = Dim == 2 ? 1024 : 64;
 
 Outline<2> loop_of(std::vector<Vec<2>> corners) {
   Outline<2> outline;
