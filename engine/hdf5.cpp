@@ -104,9 +104,9 @@ Extent Hdf5File::write(const std::string& dataset, std::span<const double> value
   return write(dataset, values.data(), H5T_NATIVE_DOUBLE, std::span(shape).first(width == 1 ? 1 : 2));
 }
 
-Extent Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> values) {
-  const std::array<std::size_t, 1> shape{values.size()};
-  return write(dataset, values.data(), H5T_NATIVE_INT64, shape);
+Extent Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> values, std::size_t width) {
+  const std::array<std::size_t, 2> shape{values.size() / width, width};
+  return write(dataset, values.data(), H5T_NATIVE_INT64, std::span(shape).first(width == 1 ? 1 : 2));
 }
 
 Extent Hdf5File::write(const std::string& dataset, std::span<const std::byte> values) {

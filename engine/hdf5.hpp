@@ -25,7 +25,7 @@ class Hdf5File {
   /// Rows of `width` values; width 1 makes a one-dimensional dataset.
   /// \return where in the file they are
   Extent write(const std::string& dataset, std::span<const double> values, std::size_t width = 1);
-  Extent write(const std::string& dataset, std::span<const std::int64_t> values);
+  Extent write(const std::string& dataset, std::span<const std::int64_t> values, std::size_t width = 1);
   Extent write(const std::string& dataset, std::span<const std::byte> values);
   Extent write_text(const std::string& dataset, const std::string& text);
   void set_attribute(const std::string& object, const std::string& name, double value);

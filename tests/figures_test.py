@@ -70,8 +70,8 @@ def panel_of(path):
     return picture[rows[0]:rows[-1], columns[0]:columns[-1]]
 
 
-def close_to(picture, colour):
-    return np.abs(picture - np.array(colour)).max(axis=2) < 0.1
+def close_to(picture, colour, distance=0.1):
+    return np.abs(picture - np.array(colour)).max(axis=2) < distance
 
 
 class Figures(unittest.TestCase):
@@ -136,6 +136,24 @@ class Figures(unittest.TestCase):
         panel = panel_of(WORK / "space/figures/pressure_x0.1.png")
         self.assertAlmostEqual(panel.shape[0] / panel.shape[1], 2, delta=0.02)  # y and z of the tank
         self.assertGreater((np.ptp(panel, axis=2) > 0.1).mean(), 0.1)
+
+    def test_bodies_are_filled_where_they_are_in_strips_slices_and_movies(self):
+        settings = {"/grid/cells": [20, 20], "/time/end": 0.2, "/time/step": 0.01, "/output/every": 0.1}
+        assert run_scene("mixer", "mixer", settings) == 0
+        self.assertEqual(figures("mixer", "--times", "0", "--field", "speed").stderr, "")
+        panel = panel_of(WORK / "mixer/figures/speed.png")[5:-5, 5:-5]
+        rows, columns = np.nonzero(close_to(panel, (0.725, 0.745, 0.769), 0.01))
+        # The arms of the cross reach over 0.6 of the tank, which is square; the bar of colours is as long as a wall.
+        self.assertAlmostEqual(np.ptp(columns) / panel.shape[0], 0.6, delta=0.02)
+        self.assertAlmostEqual(rows.min() / panel.shape[0], 0.2, delta=0.02)
+        self.assertEqual(int(stream_of(WORK / "mixer/figures/speed.mp4")["nb_read_frames"]), 3)
+        ball = {"name": "ball", "shape": {"ball": {"center": [0.4, 0.05, 0.1], "radius": 0.04}}}
+        assert run_scene("dam_break_3d", "ball", COARSE | {"/bodies": [ball]}) == 0
+        for more in ([], ["--slice", "y=0.05"]):
+            self.assertEqual(figures("ball", "--times", "0", "--no-movie", *more).stderr, "")
+        panel = panel_of(WORK / "ball/figures/speed_y0.05.png")[5:-5, 5:-5]
+        share = close_to(panel, (0.725, 0.745, 0.769), 0.01).sum() / panel.shape[0]**2
+        self.assertAlmostEqual(share, np.pi * 0.04**2 / 0.584**2, delta=0.1 * share)  # its line takes 5 %
 
     def test_a_slice_shows_nothing_where_there_is_no_liquid(self):
         self.assertEqual(figures("space", "--slice", "x=0.5", "--times", "0", "--no-movie", "--out", "dry").stderr, "")

@@ -23,6 +23,7 @@ SCENES = {
     "dam_break_3d": {"/grid/cells": [16, 8, 16], "/particles/0/per_cell": 2, "/time/end": 0.2, "/time/step": 0.02,
                      "/output/every": 0.1},
 }
+BODIES = {"/time/end": 0.2, "/grid/cells": [20, 20], "/time/step": 0.01, "/output/every": 0.1}  # of the mixer
 READERS = (vtkXdmfReader, vtkXdmf3Reader)  # ParaView offers both: "XDMF Reader" and "Xdmf3 Reader"
 WHITE = 255
 
@@ -79,7 +80,7 @@ class ParaView(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         shutil.rmtree(WORK, ignore_errors=True)
-        for scene, settings in SCENES.items():
+        for scene, settings in (SCENES | {"mixer": BODIES}).items():
             command = [os.environ["PROGRAM"], "run", str(ROOT / f"scenes/{scene}.json"), "--out", str(WORK / scene)]
             for key, value in settings.items():
                 command += ["--set", f"{key}={json.dumps(value)}"]
@@ -112,6 +113,21 @@ class ParaView(unittest.TestCase):
         self.assertFalse(points[:, dimension:].any())
         for name in ("velocity", "pressure", "id", "velocity_gradient"):
             np.testing.assert_array_equal(column(particles, name), group[name][:], err_msg=name)
+
+    def test_bodies_stand_beside_the_particles_where_fields_h5_has_them(self):
+        for kind in READERS:
+            reader = opened(kind, "mixer")
+            with h5py.File(WORK / "mixer/fields.h5") as file:
+                for k, time in enumerate(times_of(reader)):
+                    with self.subTest(reader=kind.__name__, time=time):
+                        frame = at(reader, time)
+                        self.assertEqual(frame.GetNumberOfBlocks(), 2)
+                        self.compare(frame.GetBlock(0), file[f"particles/{k}"])
+                        cross = frame.GetBlock(1)
+                        self.assertTrue(frame.GetMetaData(1).Get(frame.NAME()).startswith("cross"))
+                        self.assertEqual(cross.GetNumberOfCells(), 12)
+                        points = vtk_to_numpy(cross.GetPoints().GetData())[:, :2]
+                        np.testing.assert_array_equal(points, file[f"bodies/{k}/cross/points"][:])
 
     def test_the_particles_can_be_seen(self):
         for scene in SCENES:

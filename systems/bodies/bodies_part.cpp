@@ -10,6 +10,7 @@
 #include "systems/bodies/keep_out.hpp"
 #include "systems/bodies/motion.hpp"
 #include "systems/bodies/motion_table.hpp"
+#include "systems/bodies/outlines.hpp"
 #include "systems/bodies/read_free.hpp"
 #include "systems/bodies/solid.hpp"
 #include "systems/conforming/friction_choice.hpp"
@@ -149,6 +150,7 @@ void seed_bodies(BodySet<Dim> set, World& world) {
     }
   }
   world.resource<BodySet<Dim>>() = set;
+  world.resource<BodyOutlines<Dim>>() = outlines_of<Dim>(set, {grid.low, grid.high}, grid.spacing);
   world.resource<StaticCut<Dim>>() = cut_by_bodies_at_rest<Dim>(set, grid, world.resource<Splines<Dim>>());
   world.resize<Bodies>(set.bodies.size());
   for (std::size_t b = 0; b < set.bodies.size(); ++b) {

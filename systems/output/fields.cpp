@@ -2,6 +2,7 @@
 
 #include "engine/hdf5.hpp"
 #include "systems/grid/point_locator.hpp"
+#include "systems/output/body_fields.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -53,14 +54,18 @@ std::string vertices(const std::string& ids, std::size_t n) {
                      n, ids);
 }
 
+std::string time_text(const FieldsFile::Frame& frame) {
+  return fmt::format("        <Time Value=\"{}\"/>\n", frame.time);
+}
+
+/// \param head  what stands first in the grid
 template <int Dim>
-std::string grid_text(const FieldsFile::Frame& frame, std::size_t k) {
+std::string particles_text(const FieldsFile::Frame& frame, std::size_t k, const std::string& head) {
   const std::size_t n = frame.particles;
   const std::string ids = data_item(k, "id", n, 1, R"(NumberType="Int" Precision="8")");
-  std::string text =
-      fmt::format("      <Grid Name=\"particles\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n"
-                  "{}        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
-                  frame.time, vertices(ids, n), Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
+  std::string text = fmt::format("      <Grid Name=\"particles\" GridType=\"Uniform\">\n{}"
+                                 "{}        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
+                                 head, vertices(ids, n), Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
   text += attribute("velocity", Dim == 2 ? "Matrix" : "Vector", data_item(k, "velocity", n, Dim));
   text += attribute("pressure", "Scalar", data_item(k, "pressure", n, 1));
   text += attribute("id", "Scalar", ids);
@@ -68,6 +73,13 @@ std::string grid_text(const FieldsFile::Frame& frame, std::size_t k) {
     text += attribute(field, "Matrix", data_item(k, field, n, Dim * Dim));
   }
   return text + "      </Grid>\n";
+}
+
+template <int Dim>
+std::string frame_text(const FieldsFile::Frame& frame, std::size_t k, const BodyOutlines<Dim>* outlines) {
+  if (!outlines) return particles_text<Dim>(frame, k, time_text(frame));
+  return "      <Grid Name=\"frame\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" + time_text(frame) +
+         particles_text<Dim>(frame, k, {}) + body_grids<Dim>(*outlines, k) + "      </Grid>\n";
 }
 
 }  // namespace
@@ -111,13 +123,14 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
 }
 
 template <int Dim>
-void WriteXdmf<Dim>::operator()(Update<FieldsFile> fields) const {
+void WriteXdmf<Dim>::operator()(Optional<Read<BodyOutlines<Dim>>> outlines, Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
   const std::string path = fields->folder + "/fields.xdmf";
   std::ofstream xdmf(path + ".unfinished");
   xdmf << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
           "    <Grid Name=\"minamo\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (std::size_t k = 0; k < fields->frames.size(); ++k) xdmf << grid_text<Dim>(fields->frames[k], k);
+  for (std::size_t k = 0; k < fields->frames.size(); ++k)
+    xdmf << frame_text<Dim>(fields->frames[k], k, outlines ? &*outlines : nullptr);
   xdmf << "    </Grid>\n  </Domain>\n</Xdmf>\n";
   xdmf.close();
   if (!xdmf) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// fields.h5 and fields.xdmf: what particles carry, at every output time. /particles/{frame}/{position, velocity,
-/// pressure, id, ...}, attribute `time`.
+/// pressure, id, ...}, attribute `time`. Bodies are in body_fields.hpp.
 
 #include "components/grid.hpp"
 #include "components/node.hpp"
@@ -9,6 +9,7 @@
 #include "components/sites.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
+#include "systems/bodies/outlines.hpp"
 #include "systems/output/fields_file.hpp"
 
 namespace minamo {
@@ -31,11 +32,11 @@ struct WriteFrame {
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Update<FieldsFile> fields) const;
 };
 
-/// Rewrites fields.xdmf, the index that ParaView opens.
+/// Rewrites fields.xdmf, the index that ParaView opens. With bodies a frame is a collection of particles and bodies.
 template <int Dim>
 struct WriteXdmf {
   static constexpr std::string_view doc = "fields.xdmf";
-  void operator()(Update<FieldsFile> fields) const;
+  void operator()(Optional<Read<BodyOutlines<Dim>>> outlines, Update<FieldsFile> fields) const;
 };
 
 }  // namespace minamo

@@ -1,4 +1,6 @@
+#include "systems/bodies/bodies_part.hpp"
 #include "systems/measure/acceptance.hpp"
+#include "systems/output/body_fields.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/parts.hpp"
@@ -36,7 +38,9 @@ Contribution read_output(Input& input, Scene& scene) {
     recipe.constant(HistoryInterval{of.output.history});
     recipe.add_output("flush_history");
     recipe.add_output(is_conforming(of) ? "recover_pressure" : "sample_pressure");
-    for (const char* system : {"write_frame", "write_xdmf"}) recipe.add_output(system);
+    recipe.add_output("write_frame");
+    if (of.facts.find<BodiesOfScene>()) recipe.add_output("write_bodies");
+    recipe.add_output("write_xdmf");
   };
 }
 
@@ -50,6 +54,7 @@ void add_output(SystemRegistry& registry) {
   registry.add<FlushHistory>("flush_history");
   registry.add<SamplePressure>("sample_pressure");
   registry.add<WriteFrame>("write_frame");
+  registry.add<WriteBodies>("write_bodies");
   registry.add<WriteXdmf>("write_xdmf");
   registry.add(Part{"output", "what is written when", read_output});
 }

@@ -1,5 +1,7 @@
 #include "systems/setup/memory.hpp"
 
+#include "systems/bodies/bodies_part.hpp"
+#include "systems/bodies/outlines.hpp"
 #include "systems/conforming/friction_choice.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
@@ -27,6 +29,16 @@ double bytes_per_node_of(const Scene& scene, double nodes) {
   return bytes_per_site(scene) + bytes_of_friction(scene) + (is_whole ? solver.bytes_per_node(scene, nodes) : 0);
 }
 
+double bytes_of_bodies(const Scene& scene) {
+  const auto* bodies = scene.facts.find<BodiesOfScene>();
+  if (!bodies) return 0;
+  return with_dimension(scene.dimension, [&](auto dim) {
+    constexpr int Dim = dim();
+    const Bounds<Dim> box{vec_of<Dim>(scene.grid.low), vec_of<Dim>(scene.grid.high)};
+    return outlines_bytes<Dim>(bodies->of<Dim>(), box, scene.grid.spacing);
+  });
+}
+
 }  // namespace
 
 int fewest_per_cell(const Scene& scene) {
@@ -39,7 +51,8 @@ double memory_of(const Scene& scene, const SceneSize& size) {
   constexpr double program = 30e6;
   const double bytes_per_particle = scene.dimension == 2 ? 400 : 500;
   const double nodes = std::min(size.nodes * spread(scene), size.all_nodes);
-  return program + bytes_per_particle * size.particles + bytes_per_node_of(scene, nodes) * nodes;
+  return program + bytes_per_particle * size.particles + bytes_per_node_of(scene, nodes) * nodes +
+         bytes_of_bodies(scene);
 }
 
 }  // namespace minamo

@@ -24,6 +24,9 @@ class Polygon : public Shape<2> {
   /// Triangles, by cutting off ears (Meisters, Polygons Have Ears, 1975).
   std::optional<std::vector<ConvexPart<2>>> convex_parts() const override;
 
+  /// Counterclockwise. [m]
+  const std::vector<Vec<2>>& corners() const { return corners_; }
+
  private:
   std::vector<Vec<2>> corners_;  ///< counterclockwise
   bool is_reversed_;             ///< against the order in which they were given

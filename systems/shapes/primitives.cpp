@@ -80,6 +80,15 @@ Bounds<Dim> Box<Dim>::bounds() const {
 }
 
 template <int Dim>
+Vec<Dim> Box<Dim>::corner(const Index<Dim>& ends) const {
+  Vec<Dim> at = low_;
+  for (int d = 0; d < Dim; ++d) {
+    if (ends[static_cast<std::size_t>(d)] == 1) at[d] = high_[d];
+  }
+  return is_turned_ ? Vec<Dim>(middle_ + rotation_ * (at - middle_)) : at;
+}
+
+template <int Dim>
 std::optional<std::vector<ConvexPart<Dim>>> Box<Dim>::convex_parts() const {
   ConvexPart<Dim> part;
   for (int d = 0; d < Dim; ++d) {

@@ -20,6 +20,8 @@ class Box : public Shape<Dim> {
   std::optional<std::vector<ConvexPart<Dim>>> convex_parts() const override;
 
   Vec<Dim> size() const { return high_ - low_; }
+  /// Where it is; of every direction 0 is its low end, 1 its high one. [m]
+  Vec<Dim> corner(const Index<Dim>& ends) const;
   bool is_turned() const { return is_turned_; }
 
  private:

@@ -49,6 +49,56 @@ class InSpace(PageTest):
             self.assertIn(f"error of the {field}", self.js("report.plots.map((plot) => plot.title)"))
 
 
+class WithBodies(PageTest):
+    """The mixer, 0.2 s, three frames."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        cls.folder = RESULTS.run("mixer", "mixer", "/grid/cells=[20,20]", "/time/step=0.01", "/time/end=0.2",
+                                 "/output/every=0.1")
+        cls.page = RESULTS.page(cls.folder)
+
+    def test_bodies_are_where_fields_h5_has_them(self) -> None:
+        self.open(self.page)
+        with h5py.File(self.folder / "fields.h5") as file:
+            for frame in range(3):
+                shown = self.js(f"app.panels[0].particles.bodies[0].placesAt({{frame: {frame}, part: 0}})")
+                np.testing.assert_allclose(shown, file[f"bodies/{frame}/cross/points"][:], rtol=0, atol=1e-12)
+
+    def test_between_frames_a_body_keeps_its_size(self) -> None:
+        self.open(self.page)
+        shown = np.array(self.js("app.panels[0].particles.bodies[0].placesAt({frame: 1, part: 0.5})"))
+        np.testing.assert_allclose(np.linalg.norm(shown, axis=1).max(), np.hypot(0.3, 0.03), rtol=1e-9)
+
+    def test_a_body_fills_its_part_of_the_picture(self) -> None:
+        self.open(self.page)
+        filled = self.js("((data, [r, g, b]) => {let found = 0; for (let k = 0; k < data.length; k += 4)"
+                         " found += data[k] === r && data[k + 1] === g && data[k + 2] === b; return found;})"
+                         "(app.panels[0].canvas.getContext('2d').getImageData(0, 0, app.panels[0].canvas.width,"
+                         " app.panels[0].canvas.height).data, rgbOf(app.theme.solid))")
+        area = self.js("app.panels[0].projection.scale ** 2") * (2 * 0.6 * 0.06 - 0.06**2)
+        # Particles lie over the edges of the half in the liquid, a line over all of them.
+        self.assertGreater(filled, 0.7 * area)
+        self.assertLess(filled, area)
+
+    def test_triangles_in_space_are_seen_turned_and_cut(self) -> None:
+        ball = '{"name": "ball", "shape": {"ball": {"center": [0.4, 0.14, 0.1], "radius": 0.04}}, ' \
+               '"motion": {"prescribed": {"rotation": {"rate": "5", "axis": [0, 1, 1]}}}}'
+        folder = RESULTS.run("dam_break_3d", "ball", "/grid/cells=[16,8,16]", "/particles/0/per_cell=2",
+                             "/time/end=0.04", "/time/step=0.01", "/output/every=0.02", f"/bodies=[{ball}]")
+        bare = RESULTS.run("dam_break_3d", "no_ball", "/grid/cells=[16,8,16]", "/particles/0/per_cell=2",
+                           "/time/end=0.04", "/time/step=0.01", "/output/every=0.02")
+        drawn = []
+        for each in (folder, bare):
+            self.open(RESULTS.page(each))
+            drawn.append([self.picture()["drawn"]])
+            self.choose("slice-axis", "y", "input")
+            drawn[-1].append(self.picture()["drawn"])
+        for with_ball, without in zip(*drawn):
+            self.assertGreater(with_ball, without + 2000)
+
+
 class SideBySide(PageTest):
     """TPIC and FLIP."""
 

@@ -18,6 +18,7 @@ import h5py
 import numpy as np
 from results import RESULTS
 
+from reporting.bodies import chained, section
 from reporting.graph import draw_graph
 from reporting.histories import MOST_ROWS, packed_history, plots
 from reporting.overlays import corner_paths, fits, references
@@ -103,11 +104,31 @@ class Fitting(unittest.TestCase):
             with self.subTest(walls=walls):
                 self.assertEqual(expected, fits({"walls": "slip"}, scene | {"walls": walls}))
 
+    def test_what_was_made_without_bodies_does_not_fit_a_scene_with_them(self) -> None:
+        scene = {"dimension": 2, "walls": "slip"}
+        self.assertTrue(fits({"walls": "slip"}, scene | {"bodies": []}))
+        self.assertFalse(fits({"walls": "slip"}, scene | {"bodies": [{"name": "step"}]}))
+
     def test_only_boxes_in_free_flight_have_exact_corners(self) -> None:
         for name, expected in (("paper/rotating_square_tpic", True), ("ballistic_block", True), ("dam_break", False),
                                ("elliptical_drop", False), ("gresho", False), ("drop_3d", False)):
             with self.subTest(scene=name):
                 self.assertEqual(expected, corner_paths(self.run_of(name)) is not None)
+
+
+class Sections(unittest.TestCase):
+    """reporting.bodies."""
+
+    def test_a_cut_of_a_box_is_a_loop_with_its_area(self) -> None:
+        corners = np.array([[x, y, z] for z in (0, 3) for y in (0, 2) for x in (0, 1)], float)
+        rows = [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6],
+                [0, 6, 2], [1, 3, 7], [1, 7, 5]]
+        for axis, expected in enumerate((6, 3, 2)):
+            loops = chained(section(corners[rows], axis, 0.5))
+            self.assertEqual(1, len(loops))
+            x, y = np.delete(loops[0], axis, axis=1).T
+            self.assertAlmostEqual(expected, 0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
+        self.assertEqual([], chained(section(corners[rows], 0, 5.0)))
 
 
 class WhileItRuns(unittest.TestCase):

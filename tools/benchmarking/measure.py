@@ -16,8 +16,8 @@ from typing import Any
 from cases import Case, Run
 
 ROOT = Path(__file__).resolve().parents[2]
-OUTPUT_SYSTEMS = {"flush_history", "recover_pressure", "sample_pressure", "write_frame", "write_velocity_gradient",
-                  "write_xdmf"}
+OUTPUT_SYSTEMS = {"flush_history", "recover_pressure", "sample_pressure", "write_frame", "write_bodies",
+                  "write_velocity_gradient", "write_xdmf"}
 
 Measured = dict[str, Any]
 

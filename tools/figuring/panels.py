@@ -1,4 +1,4 @@
-"""One panel of a picture: the particles of a run at a time, the walls, what they are compared with."""
+"""One panel of a picture: particles and bodies of a run at a time, the walls, what they are compared with."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.colors import Normalize
 
 from figuring.fields import Field
+from figuring.solids import draw_flat_bodies, draw_solid_bodies, has_bodies, hidden_by_bodies
 from figuring.views import AXES, Slice, View, place, plane_of, project
 from reporting.references import Curves, corners_at
 from reporting.runs import Run
@@ -41,13 +42,27 @@ def draw_panel(panel, look: Look, run: Run, index: int | None, time: float, view
         panel.text(0.5, 0.5, _absence(run, time), transform=panel.transAxes, ha="center", va="center", color="0.4",
                    fontsize=8)
         return
-    columns = run.columns(index)
-    places, which = place(run, columns["position"], look.cut)
-    _draw_particles(panel, places, _diameter(panel, run), look.field.values(columns)[which],
-                    cmap=look.field.colour_map, norm=look.norm)
+    _draw_frame(panel, look, run, index)
     _draw_references(panel, look.references, time)
     if look.corners:
         _draw_corners(panel, run, time)
+
+
+def _draw_frame(panel, look: Look, run: Run, index: int) -> None:
+    """Particles and bodies; in space those particles first that are behind a body."""
+    columns = run.columns(index)
+    places, which = place(run, columns["position"], look.cut)
+    values = look.field.values(columns)[which]
+    behind = np.ones(len(which), bool)
+    if plane_of(run, look.cut) is not None:
+        draw_flat_bodies(panel, run, index, look.cut)
+    elif has_bodies(run):
+        behind = hidden_by_bodies(run, index, places, project(run, columns["position"][which])[1])
+        draw_solid_bodies(panel, run, index)
+    for chosen, zorder in ((behind, 1), (~behind, 2)):
+        if chosen.any():
+            _draw_particles(panel, places[chosen], _diameter(panel, run), values[chosen], cmap=look.field.colour_map,
+                            norm=look.norm, zorder=zorder)
 
 
 def _absence(run: Run, time: float) -> str:

@@ -81,7 +81,7 @@ def place(run: Run, points: np.ndarray, cut: Slice | None) -> tuple[np.ndarray, 
 
 
 def view_of(run: Run, shown: list[np.ndarray], cut: Slice | None) -> View:
-    """The whole box; of a plane box whose walls nothing that is shown comes near, the part with what is shown."""
+    """The whole box; of a plane box without bodies whose walls nothing that is shown comes near, a part of it."""
     low, high = run.box
     plane = plane_of(run, cut)
     whole = True
@@ -90,7 +90,7 @@ def view_of(run: Run, shown: list[np.ndarray], cut: Slice | None) -> View:
         low, high = corners.min(axis=0), corners.max(axis=0)
     else:
         low, high = low[list(plane)], high[list(plane)]
-        if shown and cut is None:
+        if shown and cut is None and not run.scene.get("bodies"):
             points = np.concatenate(shown)
             near = 3 * run.spacing
             if np.all(points.min(axis=0) > low + near) and np.all(points.max(axis=0) < high - near):

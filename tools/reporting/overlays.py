@@ -1,7 +1,8 @@
 """What the page draws over the particles of its own accord: references that fit a scene, and exact paths of corners.
 
 A reference is a folder of scenes/reference with lines, NAME_tT.csv, and fits.json, the part of a scene that it was made
-for. It fits a run if the run's scene.json has all that is in fits.json, numbers within 1e-6 of each other.
+for. It fits a run if the run's scene.json has all that is in fits.json, numbers within 1e-6 of each other, and no
+bodies beside.
 """
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ def references(run: Run, folder: Path = REFERENCES) -> list[dict[str, Any]]:
 
 
 def fits(wanted: dict[str, Any], scene: dict[str, Any]) -> bool:
-    """Whether a scene has all that is wanted of it."""
+    """Whether a scene has all that is wanted of it, and no bodies unless they are wanted."""
+    if scene.get("bodies") and "bodies" not in wanted:
+        return False
     dimension = int(scene["dimension"])
     given = scene | {"walls": walls(scene.get("walls", "slip"), dimension)}
     if "walls" in wanted:
@@ -65,11 +68,13 @@ def corner_paths(run: Run) -> dict[str, Any] | None:
 
     At a corner two free surfaces meet, the pressure gradient vanishes, and the liquid goes on as in free flight. For a
     square of side L that rotates at the rate w: (L/2) (1 - wt, 1 + wt) and its turned copies. None unless every region
-    is a box that no wall and no other region touches, the body force is constant, and the velocity at the start is
+    is a box that no wall and no other region touches, there are no bodies, the body force is constant, and the velocity at the start is
     linear and not everywhere zero.
     """
     boxes = [region["shape"].get("box") for region in run.scene["particles"]]
     force = run.scene.get("body_force", [0, 0])
+    if run.scene.get("bodies"):
+        return None
     if run.dimension != 2 or not all(boxes) or any(box.get("angle", 0) for box in boxes) or not all(map(_is_number, force)) or len(run.times) == 0:
         return None
     sides = [(np.array(box["low"], float), np.array(box["high"], float)) for box in boxes]

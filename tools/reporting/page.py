@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from reporting.bodies import bodies_of, packed_bodies
 from reporting.facts import balance_section, comparison_section, facts_list, headline, messages, scene_files
 from reporting.graph import describe, draw_graph
 from reporting.histories import Plot, packed_history, plots
@@ -20,7 +21,7 @@ from reporting.runs import Run, labels, telling_times
 
 SOURCES = Path(__file__).resolve().parent / "page"
 STYLES = ("vendor/uPlot.min.css", "page.css")
-SCRIPTS = ("vendor/uPlot.iife.min.js", "data.js", "colours.js", "camera.js", "painter.js",
+SCRIPTS = ("vendor/uPlot.iife.min.js", "data.js", "bodies.js", "colours.js", "camera.js", "painter.js",
            "drawing.js", "panel.js", "colour_bar.js", "player.js", "strip.js", "plots.js", "systems.js", "theme.js",
            "app.js")
 # Particles times frames of a page, by dimension: about 30 MB at the 5 and 9 bytes that violent flows need for each.
@@ -86,6 +87,7 @@ def _described(run: Run, particles: Particles | None, shown: list[Plot], packer:
         "particle_size": run.particle_size, "box": {"low": low.tolist(), "high": high.tolist()},
         "walls": sides, "periodic": any("periodic" in each for each in sides), "times": run.times.tolist(),
         "particles": particles.packed(packer.add) if particles else None,
+        "bodies": packed_bodies(bodies_of(run), packer.add),
         "references": references(run), "corners": corner_paths(run),
         "history": packed_history(run, shown, packer.add),
     }
@@ -100,9 +102,9 @@ def _views(runs: list[Run], particles: list[Particles | None]) -> list[list[list
 
 
 def _view(run: Run, reaches: list[tuple[np.ndarray, np.ndarray]]) -> list[list[float]]:
-    """The box, or, in the plane and far from all walls, the reach of the liquid."""
+    """The box, or, in the plane, without bodies and far from all walls, the reach of the liquid."""
     low, high = run.box
-    if reaches and run.dimension == 2:
+    if reaches and run.dimension == 2 and not run.scene.get("bodies"):
         least = np.min([reach[0] for reach in reaches], axis=0)
         most = np.max([reach[1] for reach in reaches], axis=0)
         near, margin = 3 * run.spacing, 0.05 * (most - least).max()

@@ -1,4 +1,4 @@
-// A picture of a run at a moment: walls, particles, what they are compared with, a scale.
+// A picture of a run at a moment: walls, bodies, particles, what they are compared with, a scale.
 "use strict";
 
 /** Which frame is shown at a time, and which part of the way to the next one. */
@@ -23,17 +23,21 @@ function drawRun(context, width, height, particles, time, look) {
   const projection = look.camera.projection(run, width, height, look.scale ? scaleHeight : 0);
   const moment = momentOf(particles, time, look.smooth);
   const edges = boxEdges(run, projection);
+  const slice = sliceOf(run, look.slice);
+  const paths = bodyPaths(particles.bodies, projection, moment, slice, run.dimension);
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.fillStyle = look.theme.canvas;
   context.fillRect(0, 0, context.canvas.width, context.canvas.height);
-  inPagePixels(context, pixels, () =>
+  inPagePixels(context, pixels, () => {
     drawEdges(
       context,
       edges.filter((edge) => edge.behind),
       projection,
       look.theme,
-    ),
-  );
+    );
+    context.fillStyle = look.theme.solid;
+    inTheBox(context, run, projection, () => paths.forEach((path) => context.fill(path, "evenodd")));
+  });
   const diameter = Math.max(overlap(run) * run.particle_size * crowding(run) * projection.scale, finest);
   look.painter.paint(context, {
     particles,
@@ -42,10 +46,14 @@ function drawRun(context, width, height, particles, time, look) {
     diameter,
     field: particles.fields.get(look.field),
     range: look.range,
-    slice: sliceOf(run, look.slice),
+    slice,
+    solid: rgbOf(look.theme.solid),
     ...moment,
   });
   inPagePixels(context, pixels, () => {
+    context.strokeStyle = look.theme.wall;
+    context.lineWidth = 1;
+    inTheBox(context, run, projection, () => paths.forEach((path) => context.stroke(path)));
     drawEdges(
       context,
       edges.filter((edge) => !edge.behind),
@@ -58,6 +66,9 @@ function drawRun(context, width, height, particles, time, look) {
   });
   return projection;
 }
+
+/** Red, green and blue of "#rrggbb". */
+const rgbOf = (colour) => [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16));
 
 function inPagePixels(context, pixels, draw) {
   context.save();

@@ -32,6 +32,7 @@ class Painter {
           ? ballStamp(picture, this.lit, radius)
           : discStamp(picture, this.colours, radius);
     forEachSeen(view, radius, width, height, stamp);
+    if (view.particles.dimension === 3 && !view.slice) paintBodies(picture, view.particles.bodies, view, view.solid);
     this.context.putImageData(picture.image, 0, 0);
     context.drawImage(this.canvas, 0, 0, width, height, 0, 0, width, height);
   }

@@ -16,7 +16,7 @@ const curveCount = 7; // colours of runs and curves; further ones are dashed
 function readTheme() {
   const style = getComputedStyle(document.documentElement);
   const colour = (name) => style.getPropertyValue(`--${name}`).trim();
-  const names = ["canvas", "wall", "faint", "ink", "grid", "reference"];
+  const names = ["canvas", "wall", "faint", "solid", "ink", "grid", "reference"];
   const curves = Array.from({ length: curveCount }, (_, k) => colour(`curve-${k}`));
   return { ...Object.fromEntries(names.map((name) => [name, colour(name)])), curves };
 }

@@ -1,0 +1,94 @@
+#include "systems/shapes/crossings.hpp"
+#include "systems/shapes/marching.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+/// Corners of a cube by their bits, from 000 to 111 along its edges: six tetrahedra that fit those of the next cube.
+constexpr std::array<std::array<std::size_t, 4>, 6> tetrahedra{
+    {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
+
+class Tetrahedra {
+ public:
+  Tetrahedra(const SampledShape<3>& shape, const SampleNodes<3>& nodes) : nodes_(nodes), crossings_(shape, nodes) {}
+
+  Outline<3> march() {
+    const auto& n = nodes_.count;
+    for (int k = 0; k + 1 < n[2]; ++k) {
+      for (int j = 0; j + 1 < n[1]; ++j) {
+        for (int i = 0; i + 1 < n[0]; ++i) march_through(i, j, k);
+      }
+    }
+    outline_.point = crossings_.points();
+    return std::move(outline_);
+  }
+
+ private:
+  void march_through(int i, int j, int k) {
+    const auto width = static_cast<std::size_t>(nodes_.count[0]);
+    const std::size_t slice = width * static_cast<std::size_t>(nodes_.count[1]);
+    const std::size_t first =
+        static_cast<std::size_t>(i) + width * static_cast<std::size_t>(j) + slice * static_cast<std::size_t>(k);
+    std::array<std::size_t, 8> corner;
+    for (std::size_t c = 0; c < 8; ++c) corner[c] = first + (c & 1U) + width * (c >> 1U & 1U) + slice * (c >> 2U);
+    const auto is_inside = [&](std::size_t row) { return crossings_.inside(row); };
+    if (std::all_of(corner.begin(), corner.end(), is_inside) || std::none_of(corner.begin(), corner.end(), is_inside))
+      return;
+    for (const auto& [a, b, c, d] : tetrahedra) cut({corner[a], corner[b], corner[c], corner[d]});
+  }
+
+  /// One triangle around a corner that is alone on its side, two between two corners and two.
+  void cut(std::array<std::size_t, 4> corner) {
+    const auto outside =
+        std::stable_partition(corner.begin(), corner.end(), [&](std::size_t row) { return crossings_.inside(row); });
+    const auto& [a, b, c, d] = corner;
+    switch (outside - corner.begin()) {
+    case 1:
+      add({{{a, b}, {a, c}, {a, d}}});
+      break;
+    case 2:
+      add({{{a, c}, {a, d}, {b, d}}});
+      add({{{a, c}, {b, d}, {b, c}}});
+      break;
+    case 3:
+      add({{{a, d}, {b, d}, {c, d}}});
+      break;
+    default:
+      break;
+    }
+  }
+
+  /// A triangle between points on lines from inside to outside. Which way it turns, the middles of the lines tell: the
+  /// points themselves may coincide.
+  void add(const std::array<std::array<std::size_t, 2>, 3>& lines) {
+    std::array<Vec<3>, 3> middle;
+    Vec<3> outward = Vec<3>::Zero();
+    std::array<std::uint32_t, 3> triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec<3> in = nodes_.at(lines[k][0]);
+      const Vec<3> out = nodes_.at(lines[k][1]);
+      middle[k] = 0.5 * (in + out);
+      outward += out - in;
+      triangle[k] = crossings_.between(lines[k][0], lines[k][1]);
+    }
+    if ((middle[1] - middle[0]).cross(middle[2] - middle[0]).dot(outward) < 0) std::swap(triangle[1], triangle[2]);
+    outline_.element.push_back(triangle);
+  }
+
+  const SampleNodes<3>& nodes_;
+  Crossings<3> crossings_;
+  Outline<3> outline_;
+};
+
+}  // namespace
+
+Outline<3> march_tetrahedra(const SampledShape<3>& shape, const SampleNodes<3>& nodes) {
+  return Tetrahedra(shape, nodes).march();
+}
+
+}  // namespace minamo
