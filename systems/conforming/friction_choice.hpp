@@ -3,6 +3,7 @@
 /// How friction of the conforming discretization enters the balances of a scene.
 
 #include "components/fluid.hpp"
+#include "components/rheology.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/setup/time_plan.hpp"
@@ -14,11 +15,12 @@ namespace minamo {
 enum class Friction { none, at_start, in_balances };
 
 /// Up to nu dt/h^2 = 1e-2 friction at the start of the step is exact enough, and costs next to nothing. A wall with
-/// slip length b is as stiff as nu dt/(b h).
+/// slip length b is as stiff as nu dt/(b h). A viscosity that depends on the flow has no bound that is known before.
 inline Friction friction_of(const Scene& scene) {
   constexpr double largest_at_start = 1e-2;
   const Fluid& fluid = scene.facts.get<Fluid>();
   if (!is_conforming(scene) || fluid.viscosity == 0) return Friction::none;
+  if (scene.facts.find<Rheology>() != nullptr) return Friction::in_balances;
   const double h = scene.grid.spacing;
   const double diffusion = fluid.viscosity * longest_step(scene) / (fluid.density * h * h);
   const auto* walls = scene.facts.find<WallFriction>();

@@ -70,7 +70,8 @@ std::string particles_text(const FieldsFile::Frame& frame, std::size_t k, const 
   text += attribute("pressure", "Scalar", data_item(k, "pressure", n, 1));
   text += attribute("id", "Scalar", ids);
   for (const std::string& field : frame.extra_fields) {
-    text += attribute(field, "Matrix", data_item(k, field, n, Dim * Dim));
+    const bool is_tensor = field == "velocity_gradient";
+    text += attribute(field, is_tensor ? "Matrix" : "Scalar", data_item(k, field, n, is_tensor ? Dim * Dim : 1));
   }
   return text + "      </Grid>\n";
 }
@@ -104,6 +105,7 @@ template <int Dim>
 void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
                                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                                 Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
                                  Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
   const std::string name = group(fields->frames.size());
@@ -118,6 +120,12 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
     frame.extents.push_back(file.write(name + "/velocity_gradient", row_by_row<Dim>(grad_v_p.span()), Dim * Dim));
     frame.extra_fields.emplace_back("velocity_gradient");
   }
+  const auto write_scalar = [&](const char* field, std::span<const double> values) {
+    fields->frames.back().extents.push_back(file.write(name + "/" + field, values));
+    fields->frames.back().extra_fields.emplace_back(field);
+  };
+  if (g_p) write_scalar("shear_rate", g_p.span());
+  if (mu_p) write_scalar("viscosity", mu_p.span());
   file.set_attribute(name, "time", clock->time);
   file.close();
 }

@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
+#include "components/rheology.hpp"
 #include "components/sites.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
@@ -29,7 +30,8 @@ struct WriteFrame {
   static constexpr std::string_view doc = "a frame of fields.h5";
   void operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
-                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Update<FieldsFile> fields) const;
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<particle::ShearRate>> g_p,
+                  Optional<Read<particle::Viscosity>> mu_p, Update<FieldsFile> fields) const;
 };
 
 /// Rewrites fields.xdmf, the index that ParaView opens. With bodies a frame is a collection of particles and bodies.

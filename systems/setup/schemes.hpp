@@ -55,6 +55,12 @@ struct CompletesMultipliers {
   std::vector<std::string> systems;
 };
 
+/// A part that solves again with friction in the balances, until the viscosity fits. `add` adds what comes behind the
+/// first solve, of which it is given the systems.
+struct RepeatsFriction {
+  std::function<void(Recipe&, const std::vector<std::string>& solve)> add;
+};
+
 /// What an integrator asks of the start and of the transfer.
 struct IntegratorNeeds {
   /// The system that configures standing steps for what particles carry of the step before.

@@ -59,7 +59,11 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
       add_all(recipe, solver.solve_on_faces);
       if (const auto* completes = of.facts.find<CompletesMultipliers>()) add_all(recipe, completes->systems);
       add_all(recipe, solver.project_on_faces);
-      if (friction_of(of) == Friction::in_balances) add_all(recipe, solver.solve_friction_on_faces);
+      if (friction_of(of) == Friction::in_balances) {
+        add_all(recipe, solver.solve_friction_on_faces);
+        if (const auto* repeats = of.facts.find<RepeatsFriction>())
+          repeats->add(recipe, solver.solve_friction_on_faces);
+      }
     } else {
       add_all(recipe, solver.prepare);
       add_all(recipe, solver.solve);

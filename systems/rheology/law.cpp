@@ -1,0 +1,40 @@
+#include "systems/rheology/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+using namespace rheology;
+
+/// (1 - exp(-m g))/g, by which a yield stress is multiplied; m at rest.
+double per_rate(double m, double g) { return m * g < 1e-8 ? m : -std::expm1(-m * g) / g; }
+
+double viscosity(const PowerLaw& law, double g) {
+  if (g == 0) return law.index < 1 ? law.most : std::clamp(law.index == 1 ? law.consistency : 0, law.least, law.most);
+  return std::clamp(law.consistency * std::pow(g, law.index - 1), law.least, law.most);
+}
+double viscosity(const Carreau& law, double g) {
+  const double x = law.time * g;
+  return law.infinite + (law.zero - law.infinite) * std::pow(1 + x * x, 0.5 * (law.index - 1));
+}
+double viscosity(const Bingham& law, double g) {
+  const double m = law.regularization * law.viscosity / law.yield_stress;
+  return law.viscosity + law.yield_stress * per_rate(m, g);
+}
+/// k g^n is regularized, too: for n < 1 its viscosity has no bound.
+double viscosity(const HerschelBulkley& law, double g) {
+  const double yields_at = std::pow(law.yield_stress / law.consistency, 1 / law.index);  // a rate
+  const double stress = law.yield_stress + law.consistency * std::pow(g, law.index);
+  return stress * per_rate(law.regularization / yields_at, g);
+}
+
+}  // namespace
+
+double viscosity_at(const Law& law, double rate) {
+  return std::visit([rate](const auto& of) { return viscosity(of, rate); }, law);
+}
+
+}  // namespace minamo

@@ -1,0 +1,103 @@
+#include "systems/rheology/viscosity.hpp"
+
+#include "systems/conforming/gather.hpp"
+#include "systems/grid/filled_nodes.hpp"
+#include "systems/rheology/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+template <int Dim>
+void shear(const FaceTarget<Dim>& target, std::span<const Vec<Dim>> v_f, const rheology::Law& law,
+           std::span<double> g_p, std::span<double> mu_p) {
+  gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f), [&](std::size_t p, const Jet<Dim>& v) {
+    // 2 D:D, D = (grad v + grad v^T)/2.
+    g_p[p] = std::sqrt(0.5) * (v.gradient + v.gradient.transpose()).norm();
+    mu_p[p] = viscosity_at(law, g_p[p]);
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+void ShearParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology,
+                                     Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_f,
+                                     Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const {
+  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), rheology->law, g_p.span(), mu_p.span());
+}
+
+template <int Dim>
+void ShearParticlesAgain<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology,
+                                          Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                                          Read<particle::QuadraturePosition<Dim>> y_p,
+                                          Read<face::BalanceVelocity<Dim>> v_f, Write<particle::ShearRate> g_p,
+                                          Write<particle::Viscosity> mu_p) const {
+  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), rheology->law, g_p.span(), mu_p.span());
+}
+
+template <int Dim>
+void FindCellViscosityByParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                                   Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                                                   Read<particle::Volume> V_p, Read<particle::ShearRate> g_p,
+                                                   Read<particle::Viscosity> mu_p, Read<multiplier::FillFraction> phi,
+                                                   Write<cell::Viscosity> mu_c) const {
+  constexpr double at_rest = 1e-200;  // squared rate [1/s^2]
+  const double per_cell = std::pow(grid->spacing, -Dim);
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+      double volume = 0;
+      double sheared = 0;
+      double friction = 0;
+      for (std::size_t p = cell.begin; p < cell.end; ++p) {
+        volume += V_p[p];
+        // The least that tells particles at rest apart from none.
+        const double dissipates = V_p[p] * std::max(g_p[p] * g_p[p], at_rest);
+        sheared += dissipates;
+        friction += dissipates * mu_p[p];
+      }
+      const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), phi.span()));
+      mu_c[c] = friction / sheared * ((1 - theta) * volume * per_cell + theta);
+    });
+  });
+}
+
+template <int Dim>
+void KeepBalanceVelocity<Dim>::operator()(Read<face::BalanceVelocity<Dim>> v_f,
+                                          Write<face::LastBalanceVelocity<Dim>> last) const {
+  std::copy(v_f.begin(), v_f.end(), last.begin());
+}
+
+template <int Dim>
+void CompareBalanceVelocity<Dim>::operator()(Read<Rheology> rheology, Read<face::BalanceVelocity<Dim>> v_f,
+                                             Update<ViscosityLoop> loop,
+                                             Update<face::LastBalanceVelocity<Dim>> last) const {
+  constexpr double settled = 1e-4;
+  double largest = 0;
+  double change = 0;
+  for (std::size_t i = 0; i < v_f.size(); ++i) {
+    largest = std::max(largest, v_f[i].squaredNorm());
+    change = std::max(change, (v_f[i] - last[i]).squaredNorm());
+    last[i] = v_f[i];
+  }
+  // One solve is done before the loop, and one in each pass.
+  loop->enough = change <= settled * settled * largest || loop->pass + 2 >= rheology->iterations;
+}
+
+template struct ShearParticles<2>;
+template struct ShearParticles<3>;
+template struct ShearParticlesAgain<2>;
+template struct ShearParticlesAgain<3>;
+template struct FindCellViscosityByParticles<2>;
+template struct FindCellViscosityByParticles<3>;
+template struct KeepBalanceVelocity<2>;
+template struct KeepBalanceVelocity<3>;
+template struct CompareBalanceVelocity<2>;
+template struct CompareBalanceVelocity<3>;
+
+}  // namespace minamo
