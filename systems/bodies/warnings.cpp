@@ -156,7 +156,7 @@ class Warnings {
 
   std::vector<std::string> all() {
     for (std::size_t a = 0; a < set_.bodies.size(); ++a) {
-      for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      for (std::size_t side = 0; side < 2 * static_cast<std::size_t>(Dim); ++side) {
         if (!grid_.periodic[side / 2]) look_at_side(a, side);
       }
       for (std::size_t b = a + 1; b < set_.bodies.size(); ++b) look_at_pair(a, b);
