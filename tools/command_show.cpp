@@ -4,6 +4,7 @@
 #include "tools/scene_file.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <iostream>
 #include <set>
@@ -15,8 +16,9 @@ int check_scenes(const std::vector<std::string>& scenes, const SystemRegistry& r
   for (const std::string& path : scenes) {
     try {
       const SceneFile file = load_scene(path, {}, registry);
-      const std::size_t particles = rehearse(file.scene, path);
-      std::cout << path << ": valid, " << particles << " particles\n";
+      const Rehearsal rehearsal = rehearse(file.scene, path);
+      std::cout << path << ": valid, " << rehearsal.particles << " particles\n" << std::flush;
+      for (const std::string& warning : rehearsal.warnings) spdlog::warn("{}: {}", path, warning);
     } catch (const InputError& error) {
       std::cerr << error.what() << '\n';
       valid = false;

@@ -2,6 +2,7 @@
 
 #include "components/particle.hpp"
 #include "engine/schedule.hpp"
+#include "systems/bodies/warnings.hpp"
 #include "systems/setup/memory.hpp"
 #include "systems/setup/scene_systems.hpp"
 #include "systems/setup/schemes.hpp"
@@ -124,11 +125,11 @@ void seed(const Scene& scene, const std::string& file, World& world) {
   seed_world(scene, file, world);
 }
 
-std::size_t rehearse(const Scene& scene, const std::string& file) {
+Rehearsal rehearse(const Scene& scene, const std::string& file) {
   World world;
   seed(scene, file, world);
   const Schedule step(make_pipeline(scene).step, world);
-  return world.rows<Particles>();
+  return {world.rows<Particles>(), warnings_of_bodies(scene, world)};
 }
 
 }  // namespace minamo

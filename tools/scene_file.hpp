@@ -33,8 +33,13 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
 /// seed_world(), if a run of it fits into memory. \throws InputError
 void seed(const Scene& scene, const std::string& file, World& world);
 
-/// Makes ready what a run would start with, and lets it go. \return the number of particles.
+struct Rehearsal {
+  std::size_t particles = 0;
+  std::vector<std::string> warnings;  ///< what the scene may not mean, a sentence each
+};
+
+/// Makes ready what a run would start with, and lets it go.
 /// \throws InputError, ScheduleError
-std::size_t rehearse(const Scene& scene, const std::string& file);
+Rehearsal rehearse(const Scene& scene, const std::string& file);
 
 }  // namespace minamo

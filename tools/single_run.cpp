@@ -2,6 +2,7 @@
 
 #include "components/particle.hpp"
 #include "engine/memory_reserve.hpp"
+#include "systems/bodies/warnings.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/setup/time_plan.hpp"
@@ -61,6 +62,10 @@ void write_summary(const fs::path& folder, RunResult& result) {
     message += (message.empty() ? "" : "\n") + std::string(failure.what());
     result.outcome.ending = Ending::failed;
   }
+}
+
+void warn_of_scene(const Scene& scene, const std::string& path, World& world) {
+  for (const std::string& warning : warnings_of_bodies(scene, world)) spdlog::warn("{}: {}", path, warning);
 }
 
 void warn_of_rejection(const Clock& clock, const std::string& why) {
@@ -126,6 +131,7 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
   const Scene& scene = file.scene;
   World world;
   seed(scene, plan.scene, world);
+  if (plan.beginning == Beginning::start) warn_of_scene(scene, plan.scene, world);
   Pipeline pipeline = make_pipeline(scene);
   // One thread has nobody to share a graph with.
   const Execution execution = plan.threads == 1 ? Execution::list : Execution::graph;

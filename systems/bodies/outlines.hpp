@@ -13,8 +13,8 @@ struct BodyOutlines {
   struct OfBody {
     std::string name;
     Outline<Dim> outline;
-    Vec<Dim> pivot;  ///< [m]
-    bool moves;
+    Vec<Dim> pivot = Vec<Dim>::Zero();  ///< [m]
+    bool moves = false;
   };
   std::vector<OfBody> bodies;
   static constexpr ComponentInfo info{"bodies.outlines", "", "m", Lifetime::constant};

@@ -50,12 +50,19 @@ Piece<Dim> piece_outside(const PlacedBodies<Dim>& bodies, const Vec<Dim>& x, dou
 }  // namespace
 
 template <int Dim>
-void cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<double>& size, Seeds<Dim>& seeds) {
+LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<double>& size, Seeds<Dim>& seeds) {
   const auto bodies = PlacedBodies<Dim>::at_start(set);
   std::vector<Piece<Dim>> pieces(seeds.position.size());
   for_each_row(pieces.size(), [&](std::size_t p) {
     pieces[p] = piece_outside<Dim>(bodies, seeds.position[p], size[seeds.region[p]]);
   });
+
+  LiquidCut cut;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const double volume = seeds.share[p] * std::pow(size[seeds.region[p]], Dim);
+    cut.volume += (1 - pieces[p].share) * volume;
+    cut.of += volume;
+  }
 
   Seeds<Dim> kept;
   std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell;
@@ -98,9 +105,10 @@ void cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<
     if (std::isfinite(nearest)) kept.share[heir] += seeds.share[p] * pieces[p].share;
   }
   seeds = std::move(kept);
+  return cut;
 }
 
-template void cut_away<2>(const BodySet<2>&, const Grid<2>&, const std::vector<double>&, Seeds<2>&);
-template void cut_away<3>(const BodySet<3>&, const Grid<3>&, const std::vector<double>&, Seeds<3>&);
+template LiquidCut cut_away<2>(const BodySet<2>&, const Grid<2>&, const std::vector<double>&, Seeds<2>&);
+template LiquidCut cut_away<3>(const BodySet<3>&, const Grid<3>&, const std::vector<double>&, Seeds<3>&);
 
 }  // namespace minamo

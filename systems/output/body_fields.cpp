@@ -14,7 +14,8 @@ std::string body_group(std::size_t frame, const std::string& name) { return fmt:
 
 template <int Size>
 std::span<const double> coordinates(std::span<const Vec<Size>> values) {
-  return {reinterpret_cast<const double*>(values.data()), values.size() * Size};
+  if (values.empty()) return {};
+  return {values.front().data(), values.size() * Size};
 }
 
 template <int Size>

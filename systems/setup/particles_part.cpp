@@ -84,7 +84,7 @@ Vec<Dim> moved_at_walls(const Scene& scene, const Grid<Dim>& grid, int per_cell,
 }
 
 template <int Dim>
-Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& problems) {
+Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, SeedProblems& problems) {
   Seeds<Dim> seeds;
   std::unordered_map<std::size_t, double> filled;
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
@@ -114,7 +114,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, SeedProblems& prob
     std::vector<double> size;
     for (const ParticleScene& region : scene.particles) size.push_back(grid.spacing / region.per_cell);
     const std::size_t before = seeds.position.size();
-    cut_away<Dim>(bodies->of<Dim>(), grid, size, seeds);
+    world.resource<LiquidCut>() = cut_away<Dim>(bodies->of<Dim>(), grid, size, seeds);
     if (before > 0 && seeds.position.empty())
       problems.note("/bodies", "no liquid is left", "bodies with liquid beside them", "all of it lies in bodies");
   }
@@ -171,7 +171,7 @@ template <int Dim>
 void seed_particles(const Scene& scene, World& world, SeedProblems& problems) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   check_mass<Dim>(scene, grid, problems);
-  set_particles<Dim>(scene, grid, lay_out<Dim>(scene, grid, problems), world, problems);
+  set_particles<Dim>(scene, grid, lay_out<Dim>(scene, grid, world, problems), world, problems);
 }
 
 Contribution read_regions(Input& input, Scene& scene) {

@@ -23,7 +23,7 @@ class Crossings {
   std::uint32_t between(std::size_t a, std::size_t b) {
     if (!inside(a)) std::swap(a, b);
     const auto [found, is_new] = number_.try_emplace(Ends{a, b}, static_cast<std::uint32_t>(ends_.size()));
-    if (is_new) ends_.push_back({a, b});
+    if (is_new) ends_.emplace_back(a, b);
     return found->second;
   }
 

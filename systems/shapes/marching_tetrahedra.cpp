@@ -34,7 +34,7 @@ class Tetrahedra {
     const std::size_t slice = width * static_cast<std::size_t>(nodes_.count[1]);
     const std::size_t first =
         static_cast<std::size_t>(i) + width * static_cast<std::size_t>(j) + slice * static_cast<std::size_t>(k);
-    std::array<std::size_t, 8> corner;
+    std::array<std::size_t, 8> corner{};
     for (std::size_t c = 0; c < 8; ++c) corner[c] = first + (c & 1U) + width * (c >> 1U & 1U) + slice * (c >> 2U);
     const auto is_inside = [&](std::size_t row) { return crossings_.inside(row); };
     if (std::all_of(corner.begin(), corner.end(), is_inside) || std::none_of(corner.begin(), corner.end(), is_inside))
@@ -68,7 +68,7 @@ class Tetrahedra {
   void add(const std::array<std::array<std::size_t, 2>, 3>& lines) {
     std::array<Vec<3>, 3> middle;
     Vec<3> outward = Vec<3>::Zero();
-    std::array<std::uint32_t, 3> triangle;
+    std::array<std::uint32_t, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec<3> in = nodes_.at(lines[k][0]);
       const Vec<3> out = nodes_.at(lines[k][1]);

@@ -14,7 +14,7 @@ using namespace minamo;
 
 namespace {
 
-std::vector<double> numbers(const Hdf5File& file, const std::string& dataset) {
+std::vector<double> numbers_of(const Hdf5File& file, const std::string& dataset) {
   const auto bytes = file.read_bytes(dataset);
   std::vector<double> values(bytes.size() / sizeof(double));
   std::memcpy(values.data(), bytes.data(), bytes.size());
@@ -46,22 +46,22 @@ struct MixerRun {
 TEST_CASE("frames have the place of every body, and the points of those that move", "[scene]") {
   const MixerRun run;
   const Hdf5File file(run.folder / "out/fields.h5", Hdf5File::Access::read);
-  const auto outline = numbers(file, "/bodies/outlines/bar/points");
+  const auto outline = numbers_of(file, "/bodies/outlines/bar/points");
   REQUIRE(outline.size() == 8);
   for (int frame = 0; frame < 3; ++frame) {
     CAPTURE(frame);
     const std::string group = "/bodies/" + std::to_string(frame) + "/bar";
     const double time = 0.05 * frame;
-    const auto position = numbers(file, group + "/position");
+    const auto position = numbers_of(file, group + "/position");
     CHECK(position[0] == Approx(0.5 * time).margin(1e-12));
     CHECK(position[1] == Approx(0).margin(1e-12));
-    CHECK(numbers(file, group + "/angle")[0] == Approx(2 * time).margin(1e-12));
-    CHECK(numbers(file, group + "/velocity") == std::vector<double>{0.5, 0});
-    CHECK(numbers(file, group + "/spin") == std::vector<double>{2});
-    const auto rotation = numbers(file, group + "/rotation");
+    CHECK(numbers_of(file, group + "/angle")[0] == Approx(2 * time).margin(1e-12));
+    CHECK(numbers_of(file, group + "/velocity") == std::vector<double>{0.5, 0});
+    CHECK(numbers_of(file, group + "/spin") == std::vector<double>{2});
+    const auto rotation = numbers_of(file, group + "/rotation");
     CHECK(rotation[0] == Approx(std::cos(2 * time)));
     CHECK(rotation[1] == Approx(-std::sin(2 * time)).margin(1e-12));
-    const auto points = numbers(file, group + "/points");
+    const auto points = numbers_of(file, group + "/points");
     REQUIRE(points.size() == outline.size());
     for (std::size_t k = 0; k < points.size(); k += 2) {
       for (std::size_t d = 0; d < 2; ++d) {
@@ -73,7 +73,7 @@ TEST_CASE("frames have the place of every body, and the points of those that mov
   CHECK_FALSE(file.has("/bodies/1/floor/points"));
   CHECK(file.has("/bodies/1/floor/position"));
   // The floor ends at the sides of the grid.
-  const auto floor = numbers(file, "/bodies/outlines/floor/points");
+  const auto floor = numbers_of(file, "/bodies/outlines/floor/points");
   CHECK(floor.size() == 8);
   for (const double x : floor) CHECK(std::abs(x) < 0.5 + 1e-9);
 }

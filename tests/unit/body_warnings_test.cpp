@@ -1,0 +1,124 @@
+#include "support/folder.hpp"
+#include "support/program_output.hpp"
+#include "support/scene_run.hpp"
+
+#include "systems/bodies/warnings.hpp"
+
+#include <catch2/catch.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include <fstream>
+
+using namespace minamo;
+using Catch::Matchers::Contains;
+using scene_run::SceneRun;
+
+namespace {
+
+/// A square of 1 m with cells of 5 cm and a layer of liquid; gaps under 0.1 m are thin.
+Json beside_bodies(const std::string& bodies) {
+  Json scene = Json::parse(R"({
+    "dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [20, 20]},
+    "fluid": {"density": 1000, "viscosity": 1e-3},
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.1]}}}],
+    "time": {"end": 1, "step": 1e-3}})");
+  scene["bodies"] = Json::parse(bodies);
+  return scene;
+}
+
+/// The same with a third direction, 0.5 m and a gap under 0.1 m.
+Json around_bodies(const std::string& bodies) {
+  Json scene = beside_bodies(bodies);
+  scene["dimension"] = 3;
+  scene["grid"] = Json::parse(R"({"low": [0, 0, 0], "high": [0.5, 0.5, 0.5], "cells": [10, 10, 10]})");
+  scene["particles"] = Json::parse(R"([{"shape": {"box": {"low": [0, 0, 0], "high": [0.5, 0.5, 0.1]}}}])");
+  return scene;
+}
+
+std::vector<std::string> sentences_of(const Json& scene) {
+  SceneRun run(scene);
+  return warnings_of_bodies(run.scene(), run.world());
+}
+
+}  // namespace
+
+TEST_CASE("a thin gap between a body and a side is told with its place and width", "[unit]") {
+  const auto found =
+      sentences_of(beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, 0.3], "high": [0.3, 0.5]}}}])"));
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], Contains("a gap of 0.02 m between body \"a\" and the low side of x at x = 0.01, y = 0."));
+  CHECK_THAT(found[0], Contains("thinner than two cells, 0.1 m"));
+}
+
+TEST_CASE("a thin gap between two bodies is told once, a wide one not", "[unit]") {
+  const auto bodies = [](double x) {
+    return fmt::format(R"([{{"name": "a", "shape": {{"ball": {{"center": [0.3, 0.5], "radius": 0.1}}}}}},
+                           {{"name": "b", "shape": {{"box": {{"low": [{}, 0.3], "high": [0.8, 0.7]}}}}}}])",
+                       x);
+  };
+  const auto found = sentences_of(beside_bodies(bodies(0.46)));
+  REQUIRE(found.size() == 1);
+  // The middle is at 0.43 to the distance of the samples.
+  CHECK_THAT(found[0], Contains("a gap of 0.06 m") && Contains("between body \"a\" and \"b\" at x = 0.4"));
+  CHECK(sentences_of(beside_bodies(bodies(0.501))).empty());
+}
+
+TEST_CASE("where bodies touch, stand on each other, reach through a side or meet it at an angle is no gap", "[unit]") {
+  const std::string bodies = GENERATE(
+      R"([{"name": "ball", "shape": {"ball": {"center": [0.5, 0.3], "radius": 0.3}}}])",
+      R"([{"name": "large", "shape": {"ball": {"center": [0.5, 2], "radius": 2}}}])",
+      R"([{"name": "sunk", "shape": {"ball": {"center": [0.5, 0.28], "radius": 0.3}}}])",
+      R"([{"name": "step", "shape": {"box": {"low": [0.4, 0], "high": [0.6, 0.3]}}},
+          {"name": "upon", "shape": {"box": {"low": [0.3, 0.3], "high": [0.7, 0.5]}}}])",
+      R"([{"name": "beach", "shape": {"polygon": {"vertices": [[0.5, -0.1], [1.5, -0.1], [1.5, 0.2]]}}}])",
+      R"([{"name": "tank", "shape": {"invert": {"box": {"low": [0.2, 0.02], "high": [0.8, 0.8], "angle": 10}}}}])",
+      R"([{"name": "wedge", "shape": {"half_space": {"point": [0, 0], "normal": [1, -0.2]}}}])",
+      R"([{"name": "a", "shape": {"box": {"low": [0.1, 0.3], "high": [0.3, 0.5]}}},
+          {"name": "b", "shape": {"box": {"low": [0.35, 0.3], "high": [0.5, 0.5]}}},
+          {"name": "between", "shape": {"box": {"low": [0.29, 0.25], "high": [0.36, 0.55]}}}])");
+  CAPTURE(bodies);
+  for (const auto& sentence : sentences_of(beside_bodies(bodies))) CHECK_THAT(sentence, !Contains("gap"));
+}
+
+TEST_CASE("a side that is periodic has no gap beside it", "[unit]") {
+  Json scene = beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, 0.3], "high": [0.3, 0.5]}}}])");
+  scene["walls"] = Json::parse(R"({"x": "periodic"})");
+  CHECK(sentences_of(scene).empty());
+}
+
+TEST_CASE("gaps in space are found", "[unit]") {
+  const auto found =
+      sentences_of(around_bodies(R"([{"name": "ball", "shape": {"ball": {"center": [0.25, 0.25, 0.35], "radius": 0.1}}},
+                                       {"name": "lid", "shape": {"half_space": {"point": [0, 0, 0.48], "normal": [0, 0, -1]}}}])"));
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], Contains("between body \"ball\" and \"lid\"") && Contains("a gap of 0.03"));
+}
+
+TEST_CASE("a free body that overlaps a side or another body is told how deep", "[unit]") {
+  const auto found = sentences_of(beside_bodies(R"([
+    {"name": "log", "shape": {"box": {"low": [-0.02, 0.3], "high": [0.3, 0.5]}}, "motion": {"free": {"density": 500}}},
+    {"name": "step", "shape": {"box": {"low": [0.27, 0.2], "high": [0.5, 0.6]}}}])"));
+  REQUIRE(found.size() == 2);
+  CHECK_THAT(found[0], Contains("free body \"log\" overlaps the low side of x by 0.02 m at the start"));
+  CHECK_THAT(found[1], Contains("free body \"log\" overlaps \"step\" by 0.03 m at the start"));
+}
+
+TEST_CASE("liquid that bodies take the place of is told by its volume", "[unit]") {
+  const std::string bodies = R"([{"name": "a", "shape": {"box": {"low": [0.3, -0.1], "high": [0.5, 0.04]}}}])";
+  CHECK(sentences_of(beside_bodies(bodies)) ==
+        std::vector<std::string>{"bodies take the place of 0.008 m^2 of the liquid, 8 %, which is cut away"});
+}
+
+TEST_CASE("check and run warn of bodies, and still run", "[scene]") {
+  const Folder folder;
+  Json scene = beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, 0.3], "high": [0.3, 0.5]}}}])");
+  scene["time"] = Json::parse(R"({"end": 0.002, "step": 1e-3})");
+  std::ofstream(folder / "a.json") << scene.dump();
+  const auto checked = output_of_program(folder / "", {"check", "a.json"});
+  CHECK(checked.code == 0);
+  CHECK_THAT(checked.err, Contains("a.json: a gap of 0.02 m"));
+  CHECK_THAT(checked.out, Contains("a.json: valid"));
+  const auto ran = output_of_program(folder / "", {"run", "a.json", "--out", "out", "--threads", "1", "--quiet"});
+  CHECK(ran.code == 0);
+  CHECK_THAT(ran.err, Contains("a.json: a gap of 0.02 m"));
+}
