@@ -15,24 +15,12 @@
 using namespace minamo;
 using namespace minamo::scene_run;
 
-namespace {
-
-double largest_speed(World& world) { return world.resource<measure::MaxSpeed>().value; }
-
-double measured(World& world, const std::string& name) {
-  const double* value = world.resource<measure::Columns>().find(name);
-  REQUIRE(value != nullptr);
-  return *value;
-}
-
-}  // namespace
-
 TEST_CASE("a fast paddle throws no particle much faster than it moves itself", "[verification]") {
   SceneRun run(with(scene_of_file("paddle.json"), {"/constants/stroke=0.1", "/constants/omega=12"}));
   double most = 0;
   for (int k = 0; k < 125; ++k) {
     run.step();
-    most = std::max(most, largest_speed(run.world()));
+    most = std::max(most, run.world().resource<measure::MaxSpeed>().value);
   }
   // The paddle reaches 1.2 m/s, and the crest that runs up it 3.0 m/s; 5.6 m/s with unlimited slopes in (E87).
   CHECK(most < 4);
@@ -90,8 +78,8 @@ TEST_CASE("a plate much thinner than a cell keeps the water on its side", "[veri
     if (x[p][1] < (x[p][0] - 0.5) * slope + 0.5) beyond += run.world().column<particle::Mass>()[p];
   }
   CHECK(beyond == 0);
-  CHECK(largest_speed(run.world()) < 0.4);  // 4 and more without the plate, 0.25 measured
-  CHECK(measured(run.world(), "plate_force_x") == Approx(0.5 * 9810 * 0.25).epsilon(0.05));
+  CHECK(run.world().resource<measure::MaxSpeed>().value < 0.4);  // 4 and more without the plate, 0.25 measured
+  CHECK(*run.world().resource<measure::Columns>().find("plate_force_x") == Approx(0.5 * 9810 * 0.25).epsilon(0.05));
 }
 
 TEST_CASE("a piston does not squeeze water that fills a closed box", "[verification]") {
@@ -119,5 +107,5 @@ TEST_CASE("a body that moves inside of a liquid without a surface needs no room"
     "time": {"end": 0.5, "step": 0.005}})json");
   SceneRun run(scene);
   run.step(100);
-  CHECK(largest_speed(run.world()) < 3);
+  CHECK(run.world().resource<measure::MaxSpeed>().value < 3);
 }
