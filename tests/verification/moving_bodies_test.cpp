@@ -3,6 +3,7 @@
 
 #include "support/scene_run.hpp"
 
+#include "components/body.hpp"
 #include "components/measure.hpp"
 
 #include <catch2/catch.hpp>
@@ -108,4 +109,18 @@ TEST_CASE("a body that moves inside of a liquid without a surface needs no room"
   SceneRun run(scene);
   run.step(100);
   CHECK(run.world().resource<measure::MaxSpeed>().value < 3);
+}
+
+TEST_CASE("a body that falls onto water that it encloses stops", "[verification]") {
+  // In a shaft, with gaps of a quarter of a cell that moving bodies close.
+  SceneRun run(Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 1], "cells": [32, 32]}, "fluid": {"density": 1000, "viscosity": 0},
+    "body_force": [0, -9.81], "particles": [{"shape": {"box": {"low": [0.3, 0], "high": [0.7, 0.5]}}, "per_cell": 2}],
+    "bodies": [{"name": "left", "shape": {"box": {"low": [-1, -1], "high": [0.3, 2]}}},
+               {"name": "right", "shape": {"box": {"low": [0.7, -1], "high": [2, 2]}}},
+               {"name": "box", "shape": {"box": {"low": [0.3078125, 0.6], "high": [0.6921875, 0.8]}},
+                "motion": {"free": {"density": 2000}}}],
+    "time": {"end": 1, "step": 0.004}})json"));
+  run.step(100);
+  CHECK(run.world().column<body::Position<2>>()[2][1] == Approx(0.6).margin(0.02));  // on water 0.5 m deep
 }
