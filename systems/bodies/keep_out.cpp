@@ -54,8 +54,8 @@ std::optional<Vec<Dim>> end_before_plate(const Shape<Dim>& shape, const Vec<Dim>
 }  // namespace
 
 template <int Dim>
-void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
-                                      Read<body::MiddlePosition<Dim>> c_middle,
+void KeepOutOfBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
+                                      Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_middle,
                                       Read<body::MiddleRotation<Dim>> R_middle, Read<body::Position<Dim>> c_b,
                                       Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
                                       Read<body::Spin<Dim>> omega_b, Read<particle::QuadraturePosition<Dim>> y_p,
@@ -91,12 +91,26 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
     stop_approach(p, b, bodies.placement(b).direction_to_world(shape.gradient(*end)).stableNormalized());
     return true;
   };
+  // Or it would take the first half of the next step through the plate, which the grid does not see.
+  const auto stop_at_plate = [&](std::size_t p, const typename PlacedBodies<Dim>::Nearest& nearest) {
+    if (nearest.body < 0) return;
+    const auto b = static_cast<std::size_t>(nearest.body);
+    const Vec<Dim> wall = rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b]));
+    const Vec<Dim> ahead = 0.5 * clock->step * (v_p[p] - wall);
+    if (ahead.norm() <= nearest.distance) return;
+    const Shape<Dim>& shape = *set->bodies[b].shape;
+    const Placement<Dim>& placement = bodies.placement(b);
+    const Vec<Dim> from = placement.to_body(x_p[p]);
+    if (!end_before_plate<Dim>(shape, from, from + placement.direction_to_body(ahead))) return;
+    stop_approach(p, b, placement.direction_to_world(shape.gradient(from)).stableNormalized());
+  };
   std::atomic<std::int64_t> count = 0;
   for_each_row(x_p.size(), [&](std::size_t p) {
     bool was_inside = stop_before_plate(p);
     std::optional<Vec<Dim>> held_by;
+    typename PlacedBodies<Dim>::Nearest nearest;
     for (int k = 0; k < most_tries; ++k) {
-      const auto nearest = nearest_to(bodies, x_p[p], least);
+      nearest = nearest_to(bodies, x_p[p], least);
       if (nearest.distance >= least) break;
       const auto b = static_cast<std::size_t>(nearest.body);
       const Vec<Dim> gradient = bodies.placement(b).gradient(*set->bodies[b].shape, x_p[p]);
@@ -112,6 +126,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
       was_inside = true;
       stop_approach(p, b, n);
     }
+    stop_at_plate(p, nearest);
     if (was_inside) ++count;
   });
   clamped->count += count;

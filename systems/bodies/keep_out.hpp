@@ -7,6 +7,7 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
+#include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/cut.hpp"
 
@@ -19,7 +20,7 @@ namespace minamo {
 template <int Dim>
 struct KeepOutOfBodies {
   static constexpr std::string_view doc = "(E89) particles stay outside of bodies";
-  void operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
                   Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle,
                   Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
                   Read<body::Spin<Dim>> omega_b, Read<particle::QuadraturePosition<Dim>> y_p,
