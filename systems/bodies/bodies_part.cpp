@@ -12,6 +12,7 @@
 #include "systems/bodies/motion_table.hpp"
 #include "systems/bodies/outlines.hpp"
 #include "systems/bodies/read_free.hpp"
+#include "systems/bodies/room.hpp"
 #include "systems/bodies/solid.hpp"
 #include "systems/conforming/friction_choice.hpp"
 #include "systems/parts.hpp"
@@ -48,7 +49,11 @@ Prescribed<Dim> read_prescribed(Input& input, const Scene& scene, BodyScene<Dim>
     const auto center =
         in.optional_numbers("center", Dim, {.unit = "m", .doc = "at the start; else the middle of the shape"});
     motion.rate = in.expression("rate", of_time(scene), {.unit = "1/s", .doc = "angular velocity, counter-clockwise"});
-    if (center) body.pivot = vec_of<Dim>(*center);
+    if (center) {
+      body.pivot = vec_of<Dim>(*center);
+    } else if (in.sound("center") && !in.describing() && body.shape && !body.shape->bounds().finite()) {
+      in.problem("center", "missing, and the shape is endless", "the point that the body turns about", "none");
+    }
     if constexpr (Dim == 2) {
       motion.axis[0] = 1;
     } else {
@@ -206,6 +211,7 @@ Contribution read_bodies(Input& input, Scene& scene) {
 Contribution read_nothing(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
     if (!scene.facts.find<BodiesOfScene>()) return;
+    recipe.add("solve", "require_room", When::step);
     recipe.add("solve", "extend_balance_velocity");
     recipe.add("measure", "measure_energy_balance");
   };
@@ -231,6 +237,7 @@ void add_bodies(SystemRegistry& registry) {
 }
 
 void add_behind_bodies(SystemRegistry& registry) {
+  registry.add<RequireRoom>("require_room");
   registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
   registry.add<MeasureEnergyBalance>("measure_energy_balance");
   registry.add(Part{"behind_bodies", "velocities of faces that bodies close, balance of energy; no key", read_nothing});

@@ -3,11 +3,14 @@
 #include "engine/step_control.hpp"
 #include "systems/bodies/contact.hpp"
 #include "systems/bodies/cut.hpp"
+#include "systems/bodies/room.hpp"
 #include "systems/conforming/incidence.hpp"
 #include "systems/shapes/rotation.hpp"
 
 #include <Eigen/Dense>
 #include <spdlog/fmt/fmt.h>
+
+#include <optional>
 
 namespace minamo {
 
@@ -100,6 +103,61 @@ BodyBalances balances_of(const BodySet<Dim>& set, const FreeMotions<Dim>& motion
   return of;
 }
 
+/// Liquid that is enclosed all around and full leaves a body only motions that do not change its room: N q = -r.
+struct Enclosures {
+  std::vector<std::size_t> component;  ///< number of the closed component of a row
+  Eigen::MatrixXd N;                   ///< n^T U of these components [1/m, 1]
+
+  bool any() const { return N.rows() > 0; }
+  /// N^T s with an s that is large beside a matrix of the motions.
+  Eigen::MatrixXd stiffness(const Eigen::MatrixXd& G) const {
+    constexpr double large = 1e8;
+    Eigen::MatrixXd stiff = N.transpose();
+    for (Eigen::Index k = 0; k < N.rows(); ++k) stiff.col(k) *= large * G.trace() / N.row(k).squaredNorm();
+    return stiff;
+  }
+  /// Row of a component, if it has one.
+  std::optional<Eigen::Index> row_of(std::size_t number) const {
+    const auto at = std::find(component.begin(), component.end(), number);
+    if (number == 0 || at == component.end()) return {};
+    return at - component.begin();
+  }
+  /// r = n^T b, b by unknown.
+  template <class At>
+  Eigen::VectorXd sums(std::span<const double> n_l, const ClosedComponents& closed, const At& b) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(N.rows());
+    for (std::size_t l = 0; any() && l < n_l.size(); ++l) {
+      if (const auto row = row_of(closed.number(l))) sum[*row] += n_l[l] * b(l);
+    }
+    return sum;
+  }
+};
+
+Enclosures enclosures_of(const Fluxes& fluxes, std::span<const double> n_l, const ClosedComponents& closed,
+                         const std::vector<bool>& is_full) {
+  const Eigen::Index motions = fluxes.columns.count();
+  const auto components = static_cast<Eigen::Index>(closed.count());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(components, motions);
+  Eigen::MatrixXd absolute = sum;
+  for (const std::size_t l : fluxes.touched) {
+    if (!closed.contains(l) || !is_full[closed.number(l) - 1]) continue;
+    const auto row = static_cast<Eigen::Index>(closed.number(l) - 1);
+    for (Eigen::Index k = 0; k < motions; ++k) {
+      sum(row, k) += n_l[l] * fluxes.columns.at(k, l);
+      absolute(row, k) += n_l[l] * std::abs(fluxes.columns.at(k, l));
+    }
+  }
+  sum = (sum.array().abs() > least_change_of_room * absolute.array()).select(sum, 0).eval();
+  Enclosures enclosures;
+  for (Eigen::Index row = 0; row < components; ++row) {
+    if (!sum.row(row).isZero(0)) enclosures.component.push_back(static_cast<std::size_t>(row) + 1);
+  }
+  enclosures.N.resize(static_cast<Eigen::Index>(enclosures.component.size()), motions);
+  for (std::size_t k = 0; k < enclosures.component.size(); ++k)
+    enclosures.N.row(static_cast<Eigen::Index>(k)) = sum.row(static_cast<Eigen::Index>(enclosures.component[k]) - 1);
+  return enclosures;
+}
+
 /// How far the points of every body may go within a step, with a margin. [m]
 template <int Dim>
 std::vector<double> reach_of(const BodySet<Dim>& set, const BodyStates<Dim>& at, double step, double margin) {
@@ -185,7 +243,8 @@ void CoupleFreeBodies<Dim>::operator()(
     Read<face::AttachedTo<Dim>> attached_to, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
     Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
     Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::Conductance<Dim>> conductance,
-    Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Update<MultiplierSolver<Dim>> solver,
+    Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
+    Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Update<MultiplierSolver<Dim>> solver,
     Update<unknown::Solution> solution, Update<SolveReport> report, Update<body::MeanVelocity<Dim>> V_mean,
     Update<body::MeanSpin<Dim>> omega_mean, Update<body::Work> W_b, Write<body::EndVelocity<Dim>> V_end,
     Write<body::EndSpin<Dim>> omega_end) const {
@@ -218,6 +277,11 @@ void CoupleFreeBodies<Dim>::operator()(
     }
     if (is_touched) fluxes.touched.push_back(l);
   }
+  const ClosedComponents& closed_parts = solver->closed();
+  const Enclosures enclosures =
+      enclosures_of(fluxes, null_vector.span(), closed_parts,
+                    full_components(closed_parts, of_unknown.span(), v_l.span(), capacity.span()));
+  if (enclosures.any()) closed_parts.remove_null_part(null_vector.span(), solution.span());
 
   // S^-1 U.
   const auto matrix =
@@ -228,13 +292,17 @@ void CoupleFreeBodies<Dim>::operator()(
         solver->solve(matrix, null_vector.span(), tolerance->relative, fluxes.columns.block(k), response.block(k));
     report->iterations += done.iterations;
     report->residual = std::max(report->residual, done.residual);
+    // Or x^T U would depend on which of its solutions this is.
+    if (enclosures.any()) closed_parts.remove_null_part(null_vector.span(), response.block(k));
   }
   const auto transposed_times = [&](Which which) {
     return fluxes.transposed_times([&](std::size_t l) { return solution[l][which]; });
   };
-  const auto correct = [&](Which which, const Eigen::VectorXd& change) {
+  const auto correct = [&](Which which, const Eigen::VectorXd& change, const Eigen::VectorXd& pi) {
     for_each_row(solution.size(), [&](std::size_t l) {
       for (Eigen::Index k = 0; k < motions.count(); ++k) solution[l][which] += response.at(k, l) * change[k];
+      if (!enclosures.any()) return;
+      if (const auto row = enclosures.row_of(closed_parts.number(l))) solution[l][which] += pi[*row] * null_vector[l];
     });
   };
 
@@ -255,17 +323,31 @@ void CoupleFreeBodies<Dim>::operator()(
   for (Eigen::Index k = 0; k < motions.count(); ++k)
     G.col(k) += fluxes.transposed_times([&](std::size_t l) { return response.at(k, l); });
   G = (0.5 * (G + G.transpose())).eval();
+  // The pressure in an enclosure, x = pi n with pi = s (N q + r), as if the liquid yielded by 1e-8 of what the mass of
+  // the bodies does: all motions stay unknowns.
+  const Eigen::MatrixXd stiffness = enclosures.stiffness(G);
+  G += stiffness * enclosures.N;
+  const auto pressures = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& r) -> Eigen::VectorXd {
+    Eigen::VectorXd pi = enclosures.N * q + r;
+    for (Eigen::Index k = 0; k < pi.size(); ++k) pi[k] *= stiffness.col(k).norm() / enclosures.N.row(k).norm();
+    return pi;
+  };
+  const auto squeezed = [&](Which which) {
+    return enclosures.sums(null_vector.span(), closed_parts, [&](std::size_t l) { return source[l][which]; });
+  };
   const Eigen::MatrixXd inverse = (G + balances.springs).inverse();
 
-  const Eigen::VectorXd damping = -G.ldlt().solve(transposed_times(unknown::damping));
-  correct(unknown::damping, damping);
+  const Eigen::VectorXd damping =
+      -G.ldlt().solve(transposed_times(unknown::damping) + stiffness * squeezed(unknown::damping));
+  correct(unknown::damping, damping, pressures(damping, squeezed(unknown::damping)));
   const Eigen::VectorXd start = motions.gather(V, omega) + damping;
-  const Eigen::VectorXd change = inverse * (balances.impulse - transposed_times(unknown::balance));
+  const Eigen::VectorXd change =
+      inverse * (balances.impulse - transposed_times(unknown::balance) - stiffness * squeezed(unknown::balance));
   const std::vector<Contact> contacts =
       find_contacts<Dim>(*grid, *set, motions, at, reach_of<Dim>(*set, at, clock->step, 0.1 * grid->spacing));
   const auto least = least_in_balances(contacts, clock->step);
   const Eigen::VectorXd pushed = push_apart(contacts, inverse, start + change, least);
-  correct(unknown::balance, change + pushed);
+  correct(unknown::balance, change + pushed, pressures(change + pushed, squeezed(unknown::balance)));
   const Eigen::VectorXd middle = start + change + pushed;
   if (!middle.allFinite())
     throw StepRejected(fmt::format("bodies: a velocity is not finite at t = {:.6g} s", clock->time));

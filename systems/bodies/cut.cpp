@@ -77,6 +77,44 @@ Vec<Dim> middle(const Bounds<Dim>& box) {
   return 0.5 * (box.low + box.high);
 }
 
+/// Unit vector along the gradient of a distance. By forward differences: in the middle of a plate, too, it points to a
+/// side.
+template <int Dim, class Distance>
+Vec<Dim> normal_at(const Vec<Dim>& x, double at_x, double over, const Distance& distance) {
+  Vec<Dim> gradient;
+  for (int d = 0; d < Dim; ++d) gradient[d] = distance(x + over * Vec<Dim>::Unit(d)) - at_x;
+  return gradient.stableNormalized();
+}
+
+/// Whether a point inside lies in something that is much thinner than a cell.
+template <int Dim, class Distance>
+bool is_in_plate(const Vec<Dim>& x, double at_x, double h, const Distance& distance) {
+  if (at_x > 0 || at_x < -0.25 * h) return false;
+  const Vec<Dim> away = 0.25 * h * normal_at<Dim>(x, at_x, 1e-6 * h, distance);
+  return distance(x + away) > 0 && distance(x - away) > 0;
+}
+
+/// Whether a plate, or an edge sharper than 60 degrees, parts the multipliers of a face: one lies in it, or it lies
+/// between them. There the liquid on one side must not flow to the other, though the face itself may be open on both;
+/// so a wall of such faces has no holes.
+template <int Dim, class Distance>
+bool is_parted(const SitePlaces<Dim>& places, const Index<Dim>& site, std::size_t d, const Distance& distance) {
+  const SplineAxis& axis = places.splines().axis[d];
+  if (!places.splines().has_multiplier(site) || (site[d] == 0 && !axis.periodic())) return false;
+  const double h = places.grid().spacing;
+  const int below = site[d] > 0 ? site[d] - 1 : axis.multipliers() - 1;
+  const Vec<Dim> high = middle<Dim>(places.box(site));
+  Vec<Dim> low = high;
+  low[static_cast<Eigen::Index>(d)] -= 0.5 * h * (axis.width(site[d]) + axis.width(below));
+  const double at_low = distance(low);
+  const double at_high = distance(high);
+  constexpr int sixtyfourth = 6;
+  if (!passes_through<Dim>(low, high, at_low, at_high, sixtyfourth, distance)) return false;
+  if (is_in_plate<Dim>(low, at_low, h, distance) || is_in_plate<Dim>(high, at_high, h, distance)) return true;
+  const double over = 1e-6 * h;
+  return normal_at<Dim>(low, at_low, over, distance).dot(normal_at<Dim>(high, at_high, over, distance)) < -0.5;
+}
+
 /// Closes faces of gaps between a moving body and a wall, or another body: what flows through one that is thinner than
 /// a fraction of a cell is so fast, and weighs so little, that particles beside the gap would gain energy from it.
 /// \param by_rest  cut of a row by the bodies at rest, whose gaps stay
@@ -158,7 +196,7 @@ SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, boo
     Vec<Dim> high = box.high;
     high[axis] = box.low[axis];
     const double open = open_share<Dim>(box.low, high, static_cast<int>(d), distance);
-    cut.open[axis] = open < least_open ? 0 : open;
+    cut.open[axis] = open < least_open || is_parted<Dim>(places, site, d, distance) ? 0 : open;
   }
   if (has_multiplier) cut.share = volume_share<Dim>(places, site, distance);
   return cut;

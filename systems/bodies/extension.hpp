@@ -2,14 +2,22 @@
 /// \file
 /// (E87) Velocities of closed faces, on which particles beside a body have weight: linear functions through those of
 /// the open faces around, by least squares. So a liquid that moves along a plane wall or rests stays exact, and the
-/// wall acts through the balance of mass alone.
+/// wall acts through the balance of mass alone. Where the open faces lie on one side only and their velocities differ
+/// by much, as beside a fast body, such a function leads far away: a value stays near those that it is made of.
 
 #include "components/body.hpp"
 #include "components/grid.hpp"
+#include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace minamo {
+
+/// How far beyond those of the open faces a closed one may move within a step, in units of h.
+inline constexpr double beyond_open_faces = 0.1;
 
 /// What the velocity of every closed face is made of.
 struct FaceExtension {
@@ -26,14 +34,22 @@ struct FaceExtension {
   static constexpr ComponentInfo info{"bodies.extension", "", "1", Lifetime::scratch};
 
   /// Sets the closed faces of a field.
+  /// \param beyond  how far a value may lie outside of the range of those that it is made of
   template <int Dim>
-  void apply(std::span<Vec<Dim>> field) const {
+  void apply(std::span<Vec<Dim>> field, double beyond) const {
     for_each_row(targets.size(), [&](std::size_t k) {
       const Target& at = targets[k];
       if (at.count == 0) return;
       double sum = 0;
-      for (std::size_t j = at.begin; j < at.begin + at.count; ++j) sum += weight[j] * field[source[j]][at.direction];
-      field[at.row][at.direction] = sum;
+      double least = std::numeric_limits<double>::infinity();
+      double most = -least;
+      for (std::size_t j = at.begin; j < at.begin + at.count; ++j) {
+        const double value = field[source[j]][at.direction];
+        sum += weight[j] * value;
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+      field[at.row][at.direction] = std::min(std::max(sum, least - beyond), most + beyond);
     });
   }
 };
@@ -51,8 +67,9 @@ struct FindFaceExtension {
 template <int Dim>
 struct ExtendOldVelocity {
   static constexpr std::string_view doc = "(E87) v_f^n of closed faces";
-  void operator()(Read<FaceExtension> extension, Update<face::Velocity<Dim>> v_f) const {
-    extension->apply<Dim>(v_f.span());
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<FaceExtension> extension,
+                  Update<face::Velocity<Dim>> v_f) const {
+    extension->apply<Dim>(v_f.span(), beyond_open_faces * grid->spacing / clock->step);
   }
 };
 
@@ -60,11 +77,13 @@ struct ExtendOldVelocity {
 template <int Dim>
 struct ExtendBalanceVelocity {
   static constexpr std::string_view doc = "(E87) v_f, w_f and d_f of closed faces";
-  void operator()(Read<FaceExtension> extension, Update<face::BalanceVelocity<Dim>> v_f, Update<face::Damping<Dim>> w_f,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<FaceExtension> extension,
+                  Update<face::BalanceVelocity<Dim>> v_f, Update<face::Damping<Dim>> w_f,
                   Update<face::Shift<Dim>> d_f) const {
-    extension->apply<Dim>(v_f.span());
-    extension->apply<Dim>(w_f.span());
-    extension->apply<Dim>(d_f.span());
+    const double beyond = beyond_open_faces * grid->spacing;
+    extension->apply<Dim>(v_f.span(), beyond / clock->step);
+    extension->apply<Dim>(w_f.span(), beyond / clock->step);
+    extension->apply<Dim>(d_f.span(), beyond);
   }
 };
 

@@ -15,7 +15,9 @@ class ClosedComponents {
 
   std::size_t count() const { return grounded_.size(); }
   /// Whether a row belongs to one.
-  bool contains(std::size_t row) const { return count() > 0 && number_[row] > 0; }
+  bool contains(std::size_t row) const { return number(row) > 0; }
+  /// Which one that is, from 1; 0: none.
+  std::size_t number(std::size_t row) const { return count() > 0 ? number_[row] : 0; }
   /// A row of each. With more on the diagonal of these rows S is definite, and where b has no part along the null
   /// vectors, the solution is one of S x = b, with x = 0 in these rows.
   std::span<const std::uint32_t> grounded() const { return grounded_; }

@@ -29,6 +29,8 @@ class MultiplierSolver {
   /// \return unknowns, iterations and the largest residual
   SolveReport solve(const StaggeredLaplacian<Dim>& matrix, std::span<const double> null_vector, double tolerance,
                     std::span<const Sources> b, std::span<Sources> x, std::size_t sources = most_sources);
+  /// Of the matrix that was prepared.
+  const ClosedComponents& closed() const { return closed_; }
 
  private:
   bool is_direct_ = true;

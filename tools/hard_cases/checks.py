@@ -20,7 +20,9 @@ def worst(of_run: Callable[[Run], float]) -> Callable[[Runs], float]:
 
 
 def non_finite(run: Run) -> float:
-    columns = [values for name, values in run.history.items() if name != "potential_energy"]
+    unknown_at_start = [f"{body['name']}_{what}" for body in run.scene.get("bodies", []) for what in ("force", "torque")]
+    columns = [values[1:] if name.removesuffix("_" + name[-1]) in unknown_at_start or name in unknown_at_start else values
+               for name, values in run.history.items() if name != "potential_energy"]
     fields = [values for frame in run.frames for values in (frame.position, frame.velocity, frame.pressure)]
     return float(sum(np.count_nonzero(~np.isfinite(values)) for values in [*columns, *fields]))
 
@@ -49,6 +51,14 @@ def energy_gain(run: Run) -> float:
     of_frame = np.interp([frame.time for frame in run.frames], run.history["time"], run.energy)
     risen = float(np.max(of_frame - np.minimum.accumulate(of_frame + stored)))
     return over(max(above_start, risen, 0.0), float(run.energy[0]))
+
+
+def balance_rise(run: Run) -> float:
+    """How far energy and what bodies have taken of it rise together, over the energy at the start or, where bodies bring
+    more, the largest kinetic energy."""
+    balance = run.history["energy_balance"]
+    rise = float(np.max(balance - np.minimum.accumulate(balance)))
+    return over(rise, max(float(run.energy[0]), float(np.max(run.history["kinetic_energy"]))))
 
 
 def energy_of_gradients(run: Run, frame: Frame) -> float:
@@ -128,6 +138,8 @@ ALWAYS = [FINITE, PARTICLES, SPEED, PRESSURE]
 # Particles move with order 2 on weights of order 2: energy is kept to a per cent by waves of ten cells; a method that
 # is not stable passes any limit.
 ENERGY = Check("energy", "gained energy", worst(energy_gain), 0.01, "of the energy at the start", garbage=True)
+# The same of energy and the work that the liquid has done on bodies.
+BALANCE = Check("balance", "gained energy that no body gave", worst(balance_rise), 0.01, "of the energy", garbage=True)
 # Nodes below the mass threshold are ballistic, (E15), which loses 1e-5 of the momentum.
 MOMENTUM = Check("momentum", "changed the momentum", worst(momentum_change), 1e-5, "of m U")
 # Rounding of 1e-16 of the box in some tens of steps.

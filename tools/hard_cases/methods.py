@@ -32,6 +32,9 @@ class Method(NamedTuple):
 
 METHODS = [Method(scheme, integrator, volume, discretization) for discretization in DISCRETIZATIONS
            for scheme, integrator, volume in product(SCHEMES, INTEGRATORS, VOLUMES_OF[discretization])]
+# Bodies are cut through the staggered grid, and move with the midpoint rule.
+METHODS_OF_BODIES = [method for method in METHODS
+                     if method.discretization == "conforming" and method.integrator == "midpoint"]
 DEFAULT = Method("tpic2", "midpoint", "projection")
 
 

@@ -73,7 +73,7 @@ what they broke.
 
 - A number counts the methods with this scheme that kept everything the case asks for: newmark and midpoint, each with
   volume correction none, delta and projection, six in all; with the conforming discretization none and projection, four
-  in all. Below the table stands what the others broke.
+  in all, and two with bodies, which move with the midpoint rule. Below the table stands what the others broke.
 - *In silence*: the program reported success, but its results are not finite, have lost particles, have an absurd speed or
   pressure or have gained more than 1 % of energy.
 - *Stopped*: the program ended by itself, with exit code 3, a message and a checkpoint.

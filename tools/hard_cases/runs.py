@@ -101,8 +101,24 @@ class Run:
 
     @property
     def speed_scale(self) -> float:
-        """Of a fluid whose energy, measured from the floor, is all motion; never less than the fastest particle. [m/s]"""
-        return max(float(np.sqrt(2 * max(0.0, self.energy[0]) / self.mass)), float(self.history["max_speed"][0]))
+        """Of a fluid whose energy, measured from the floor, is all motion; never less than the fastest particle, or than
+        a body. [m/s]"""
+        return max(float(np.sqrt(2 * max(0.0, self.energy[0]) / self.mass)), float(self.history["max_speed"][0]),
+                   self.body_speed)
+
+    @property
+    def body_speed(self) -> float:
+        """Fastest point of a body at any time, of one that turns at half the length of the box. [m/s]"""
+        fastest = 0.0
+        for body in self.scene.get("bodies", []):
+            def length_of(what: str, name: str = body["name"]) -> np.ndarray:
+                columns = [values for column, values in self.history.items()
+                           if column == f"{name}_{what}" or column[:-1] == f"{name}_{what}_"]
+                return np.sqrt(sum(values**2 for values in columns))
+
+            reach = 0.5 * float(np.max(self.high - self.low))
+            fastest = max(fastest, float(np.max(length_of("velocity") + reach * length_of("rotation"))))
+        return fastest
 
 
 def run(program: Path, scene: dict[str, Any], method: Method, folder: Path, seconds: int) -> Run:
@@ -134,7 +150,7 @@ def history(file: Path) -> dict[str, np.ndarray]:
     names = lines[0].split(",")
     if len(lines[-1].split(",")) != len(names):  # cut off
         lines.pop()
-    rows = np.loadtxt([line.replace(",,", ",nan,") for line in lines[1:]], delimiter=",", ndmin=2)
+    rows = np.loadtxt([",".join(field or "nan" for field in line.split(",")) for line in lines[1:]], delimiter=",", ndmin=2)
     return dict(zip(names, rows.T))
 
 

@@ -1,0 +1,126 @@
+/// \file
+/// Bodies that move fast, close to others, or where there is no room: what particles beside them may not do.
+
+#include "support/scene_run.hpp"
+
+#include "components/body.hpp"
+#include "components/measure.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace minamo;
+using namespace minamo::scene_run;
+
+TEST_CASE("a fast paddle throws no particle much faster than it moves itself", "[verification]") {
+  SceneRun run(with(scene_of_file("paddle.json"), {"/constants/stroke=0.1", "/constants/omega=12"}));
+  double most = 0;
+  for (int k = 0; k < 125; ++k) {
+    run.step();
+    most = std::max(most, run.world().resource<measure::MaxSpeed>().value);
+  }
+  // The paddle reaches 1.2 m/s, and the crest that runs up it 3.0 m/s; 5.6 m/s with unlimited slopes in (E87).
+  CHECK(most < 4);
+}
+
+namespace {
+
+/// Two walls that meet in a corner of 30 degrees at (0.5, 0.2), open to the right, and a floor; one layer of particles.
+Json corner() {
+  return Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 1], "cells": [20, 20]}, "fluid": {"density": 1000, "viscosity": 0},
+    "particles": [{"shape": {"box": {"low": [0.75, 0.2], "high": [0.95, 0.25]}}, "per_cell": 2}],
+    "bodies": [
+      {"name": "below", "shape": {"half_space": {"point": [0.5, 0.2], "normal": [0, 1]}}},
+      {"name": "above", "shape": {"half_space": {"point": [0.5, 0.2], "normal": [0.5, -0.8660254]}},
+       "motion": {"prescribed": {"velocity": [0, 0]}}}],
+    "time": {"end": 1, "step": 1e-4}})json");
+}
+
+}  // namespace
+
+TEST_CASE("a particle in the corner of two bodies leaves both", "[verification]") {
+  const Vec<2> start = GENERATE(Vec<2>(0.55, 0.19), Vec<2>(0.52, 0.215), Vec<2>(0.49, 0.2), Vec<2>(0.46, 0.17));
+  CAPTURE(start);
+  SceneRun run(corner());
+  run.start();
+  run.world().column<particle::Position<2>>()[0] = start;
+  run.step();
+  const auto x = run.world().column<particle::Position<2>>();
+  std::size_t inside = 0;
+  for (const Vec<2>& at : x) {
+    const double from_above = 0.5 * (at[0] - 0.5) - 0.8660254 * (at[1] - 0.2);
+    inside += at[1] - 0.2 < 0.99e-3 * 0.05 || from_above < 0.99e-3 * 0.05;
+  }
+  CHECK(inside == 0);
+}
+
+TEST_CASE("a plate much thinner than a cell keeps the water on its side", "[verification]") {
+  const double angle = GENERATE(90.0, 70.0, 50.0);
+  CAPTURE(angle);
+  // From the floor to the lid, through (0.5, 0.5); 0.05 h thick. Water left of it, up to half of the height.
+  Json scene = Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [-0.5, 0], "high": [1.5, 1], "cells": [40, 20]}, "fluid": {"density": 1000, "viscosity": 0},
+    "body_force": [0, -9.81], "bodies": [{"name": "plate"}], "time": {"end": 1, "step": 2e-3}})json");
+  const double slope = std::tan(angle * 3.14159265358979 / 180);
+  scene["particles"] = {
+      {{"shape", {{"where", fmt::format("y < 0.5 && y > (x - 0.5)*{} + 0.5", slope)}}}, {"per_cell", 2}}};
+  scene["bodies"][0]["shape"]["box"] = {{"low", {-0.5, 0.49875}}, {"high", {1.5, 0.50125}}, {"angle", angle}};
+  SceneRun run(scene);
+  run.start();
+  run.step(250);
+  double beyond = 0;
+  const auto x = run.world().column<particle::Position<2>>();
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    if (x[p][1] < (x[p][0] - 0.5) * slope + 0.5) beyond += run.world().column<particle::Mass>()[p];
+  }
+  CHECK(beyond == 0);
+  CHECK(run.world().resource<measure::MaxSpeed>().value < 0.4);  // 4 and more without the plate, 0.25 measured
+  CHECK(*run.world().resource<measure::Columns>().find("plate_force_x") == Approx(0.5 * 9810 * 0.25).epsilon(0.05));
+}
+
+TEST_CASE("a piston does not squeeze water that fills a closed box", "[verification]") {
+  Json scene = Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 0.5], "cells": [20, 10]}, "fluid": {"density": 1000, "viscosity": 0},
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.5]}}, "per_cell": 2}],
+    "bodies": [{"name": "piston", "shape": {"box": {"low": [-0.5, -1], "high": [0.12, 1.5]}}}],
+    "time": {"end": 0.5, "step": 0.005}})json");
+  const std::string velocity = GENERATE("0.1", "-0.1", "1e-6");
+  CAPTURE(velocity);
+  scene["bodies"][0]["motion"]["prescribed"]["velocity"] = {velocity, 0};
+  SceneRun run(scene);
+  run.start();
+  CHECK_THROWS_WITH(run.step(),
+                    Catch::Contains(velocity[0] == '-' ? "they stretch liquid that is enclosed all around"
+                                                       : "they squeeze liquid that is enclosed all around"));
+}
+
+TEST_CASE("a body that moves inside of a liquid without a surface needs no room", "[verification]") {
+  const Json scene = Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 0.5], "cells": [20, 10]}, "fluid": {"density": 1000, "viscosity": 0},
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.5]}}, "per_cell": 2}],
+    "bodies": [{"name": "disc", "shape": {"ball": {"center": [0.3, 0.23], "radius": 0.1}},
+                "motion": {"prescribed": {"velocity": [0.3, 0.1], "rotation": {"rate": 1}}}}],
+    "time": {"end": 0.5, "step": 0.005}})json");
+  SceneRun run(scene);
+  run.step(100);
+  CHECK(run.world().resource<measure::MaxSpeed>().value < 3);
+}
+
+TEST_CASE("a body that falls onto water that it encloses stops", "[verification]") {
+  // In a shaft, with gaps of a quarter of a cell that moving bodies close.
+  SceneRun run(Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 1], "cells": [32, 32]}, "fluid": {"density": 1000, "viscosity": 0},
+    "body_force": [0, -9.81], "particles": [{"shape": {"box": {"low": [0.3, 0], "high": [0.7, 0.5]}}, "per_cell": 2}],
+    "bodies": [{"name": "left", "shape": {"box": {"low": [-1, -1], "high": [0.3, 2]}}},
+               {"name": "right", "shape": {"box": {"low": [0.7, -1], "high": [2, 2]}}},
+               {"name": "box", "shape": {"box": {"low": [0.3078125, 0.6], "high": [0.6921875, 0.8]}},
+                "motion": {"free": {"density": 2000}}}],
+    "time": {"end": 1, "step": 0.004}})json"));
+  run.step(100);
+  CHECK(run.world().column<body::Position<2>>()[2][1] == Approx(0.6).margin(0.02));  // on water 0.5 m deep
+}
