@@ -136,7 +136,9 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
 
 /// What is solved with friction in the balances, or by UMFPACK, does not know of open shares.
 void check_solver(bool any_is_free, const Scene& scene, SeedProblems& problems) {
-  if (friction_of(scene) == Friction::in_balances) {
+  if (scene.facts.find<Rheology>() != nullptr) {
+    problems.note("/fluid/rheology", "not beside bodies", "a constant viscosity", "a rheology");
+  } else if (friction_of(scene) == Friction::in_balances) {
     problems.note("/fluid/viscosity", "too large beside bodies", "nu dt/h^2 up to 0.01, and no slip length",
                   fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
   }
