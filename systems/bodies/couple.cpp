@@ -158,6 +158,17 @@ Enclosures enclosures_of(const Fluxes& fluxes, std::span<const double> n_l, cons
   return enclosures;
 }
 
+/// A matrix of the motions that is nowhere below the bodies' own masses. What the grid attaches to a body is less than
+/// zero where it reaches over faces, and in a splash that may be more than all that it carries along: a light body
+/// would have no inertia left.
+Eigen::MatrixXd at_least(const Eigen::MatrixXd& own, const Eigen::MatrixXd& G) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> carried(G - own, own);
+  if (carried.eigenvalues().minCoeff() >= 0) return G;
+  // V^T own V = 1, so that own = V^-T V^-1.
+  const Eigen::MatrixXd scaled = own * carried.eigenvectors();
+  return own + scaled * carried.eigenvalues().cwiseMax(0).asDiagonal() * scaled.transpose();
+}
+
 /// How far the points of every body may go within a step, with a margin. [m]
 template <int Dim>
 std::vector<double> reach_of(const BodySet<Dim>& set, const BodyStates<Dim>& at, double step, double margin) {
@@ -313,6 +324,7 @@ void CoupleFreeBodies<Dim>::operator()(
     body_force.push_back(vector_at<Dim>(force->of_place_and_time, arguments.at<Dim>(c_middle[b])));
   const double tau = rates->velocity / rates->acceleration;
   BodyBalances balances = balances_of<Dim>(*set, motions, at, R_middle.span(), body_force, tau);
+  const Eigen::MatrixXd own = balances.mass;
   for_each_attached<Dim>(places, motions, c_middle.span(), {site.span(), attached.span(), attached_to.span()},
                          [&](std::size_t i, Eigen::Index axis, const Eigen::VectorXd& along) {
                            balances.mass += attached[i][axis] * along * along.transpose();
@@ -322,7 +334,7 @@ void CoupleFreeBodies<Dim>::operator()(
   Eigen::MatrixXd G = balances.mass;
   for (Eigen::Index k = 0; k < motions.count(); ++k)
     G.col(k) += fluxes.transposed_times([&](std::size_t l) { return response.at(k, l); });
-  G = (0.5 * (G + G.transpose())).eval();
+  G = at_least(own, 0.5 * (G + G.transpose()));
   // The pressure in an enclosure, x = pi n with pi = s (N q + r), as if the liquid yielded by 1e-8 of what the mass of
   // the bodies does: all motions stay unknowns.
   const Eigen::MatrixXd stiffness = enclosures.stiffness(G);

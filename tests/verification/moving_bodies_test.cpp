@@ -124,3 +124,19 @@ TEST_CASE("a body that falls onto water that it encloses stops", "[verification]
   run.step(100);
   CHECK(run.world().column<body::Position<2>>()[2][1] == Approx(0.6).margin(0.02));  // on water 0.5 m deep
 }
+
+TEST_CASE("a body of a hundredth of the density of water stays slow in a splash", "[verification]") {
+  Json scene = Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 1], "cells": [32, 32]}, "fluid": {"density": 1000, "viscosity": 1e-3},
+    "body_force": [0, -9.75], "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.5]}}, "per_cell": 2}],
+    "bodies": [{"name": "box", "shape": {"box": {"low": [0.4, 0.15], "high": [0.6, 0.35], "angle": 10}},
+                "motion": {"free": {"density": 10}}}],
+    "transfer": {"scheme": "apic"}, "time": {"end": 1, "step": 0.004}})json");
+  SceneRun run(scene);
+  double most = 0;
+  for (int k = 0; k < 250; ++k) {
+    run.step();
+    most = std::max(most, run.world().resource<measure::MaxSpeed>().value);
+  }
+  CHECK(most < 10);  // 200 m/s where what is attached to it may be less than nothing
+}
