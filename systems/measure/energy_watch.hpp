@@ -15,6 +15,8 @@ struct EnergyWatch {
   double kinetic_max = 0;  ///< [J]
   double potential_min = 0;
   double potential_max = 0;
+  double work_min = 0;  ///< done on bodies since the start [J]
+  double work_max = 0;
 
   void start(double kinetic, double potential) {
     *this = {
@@ -31,12 +33,14 @@ struct EnergyWatch {
     kinetic_max = std::max(kinetic_max, kinetic);
     potential_min = std::min(potential_min, potential);
     potential_max = std::max(potential_max, potential);
+    work_min = std::min(work_min, work);
+    work_max = std::max(work_max, work);
   }
 
-  /// (E59)  The rise over what was there to exchange: the largest of K_max, U_max - U_min and `least`.
+  /// (E59)  The rise over what was there to exchange: the largest of K_max, U_max - U_min, W_max - W_min and `least`.
   /// \param least  an energy that the grid can tell from zero [J]
   double share(double least) const {
-    const double scale = std::max({kinetic_max, potential_max - potential_min, least});
+    const double scale = std::max({kinetic_max, potential_max - potential_min, work_max - work_min, least});
     return scale > 0 ? rise / scale : 0;
   }
 };
