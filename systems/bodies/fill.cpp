@@ -75,6 +75,7 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
     phi[i] = filled / open;
   });
   for_each_row(phi.size(), [&](std::size_t i) {
+    if (!splines->has_multiplier(site[i])) return;
     least[i] = share[i] < telling_from ? 1 : phi[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
