@@ -6,25 +6,27 @@
 
 namespace minamo {
 
-void add_discretization(SystemRegistry& registry);  // conforming/
-void add_ode(SystemRegistry& registry);             // time/
-void add_grid(SystemRegistry& registry);            // grid/
-void add_walls(SystemRegistry& registry);           // grid/
-void add_quadrature(SystemRegistry& registry);      // assemble/
-void add_fluid(SystemRegistry& registry);           // assemble/
-void add_bodies(SystemRegistry& registry);          // bodies/
-void add_particles(SystemRegistry& registry);       // setup/
-void add_body_force(SystemRegistry& registry);      // time/
-void add_transfer(SystemRegistry& registry);        // transfer/
-void add_integrator(SystemRegistry& registry);      // time/
-void add_solver(SystemRegistry& registry);          // solve/
-void add_stabilization(SystemRegistry& registry);   // assemble/
-void add_volume(SystemRegistry& registry);          // volume/
-void add_time(SystemRegistry& registry);            // setup/
-void add_conservation(SystemRegistry& registry);    // measure/
-void add_behind_bodies(SystemRegistry& registry);   // bodies/
-void add_probes(SystemRegistry& registry);          // measure/
-void add_exact(SystemRegistry& registry);           // measure/
-void add_output(SystemRegistry& registry);          // output/
+void add_discretization(SystemRegistry& registry);   // conforming/
+void add_ode(SystemRegistry& registry);              // time/
+void add_grid(SystemRegistry& registry);             // grid/
+void add_walls(SystemRegistry& registry);            // grid/
+void add_quadrature(SystemRegistry& registry);       // assemble/
+void add_fluid(SystemRegistry& registry);            // assemble/
+void add_bodies(SystemRegistry& registry);           // bodies/
+void add_particles(SystemRegistry& registry);        // setup/
+void add_body_force(SystemRegistry& registry);       // time/
+void add_openings(SystemRegistry& registry);         // openings/
+void add_transfer(SystemRegistry& registry);         // transfer/
+void add_integrator(SystemRegistry& registry);       // time/
+void add_solver(SystemRegistry& registry);           // solve/
+void add_stabilization(SystemRegistry& registry);    // assemble/
+void add_volume(SystemRegistry& registry);           // volume/
+void add_time(SystemRegistry& registry);             // setup/
+void add_conservation(SystemRegistry& registry);     // measure/
+void add_behind_bodies(SystemRegistry& registry);    // bodies/
+void add_probes(SystemRegistry& registry);           // measure/
+void add_exact(SystemRegistry& registry);            // measure/
+void add_output(SystemRegistry& registry);           // output/
+void add_behind_openings(SystemRegistry& registry);  // openings/
 
 }  // namespace minamo

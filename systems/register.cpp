@@ -14,6 +14,7 @@ void register_parts(SystemRegistry& registry) {
   add_bodies(registry);
   add_particles(registry);
   add_body_force(registry);
+  add_openings(registry);
   add_transfer(registry);
   add_integrator(registry);
   add_solver(registry);
@@ -25,6 +26,7 @@ void register_parts(SystemRegistry& registry) {
   add_probes(registry);
   add_exact(registry);
   add_output(registry);
+  add_behind_openings(registry);
 }
 
 }  // namespace minamo

@@ -108,14 +108,15 @@ template <int Dim>
 void FillFaceSource<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                      Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                      Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
+                                     Optional<Read<face::Prescribed<Dim>>> prescribed,
                                      Optional<Read<face::Open<Dim>>> open,
                                      Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
                                      Update<face::Predictor<Dim>> predictor, Write<unknown::Source> source) const {
   const double tau = rates->velocity / rates->acceleration;
-  const Constraints<Dim> walls{held.span()};
+  const Constraints<Dim> walls{held.span(), {}, prescribed.span()};
   for_each_row(predictor.size(), [&](std::size_t i) {
     predictor[i] += tau * b_f[i];
-    hold_at_rest<Dim>(walls, i, predictor[i]);
+    hold<Dim>(walls, i, predictor[i]);
   });
   const Passage<Dim> passage{open.span(), wall_flux.span()};
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());

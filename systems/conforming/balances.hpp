@@ -8,6 +8,7 @@
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/instant.hpp"
+#include "components/openings.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "components/step.hpp"
@@ -91,9 +92,9 @@ struct FillFaceSource {
   static constexpr std::string_view doc = "(E77) B v*, source of the balances";
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
-                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::WallFlux<Dim>>> wall_flux,
-                  Read<unknown::Staggered> of_unknown, Update<face::Predictor<Dim>> predictor,
-                  Write<unknown::Source> source) const;
+                  Optional<Read<face::Prescribed<Dim>>> prescribed, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
+                  Update<face::Predictor<Dim>> predictor, Write<unknown::Source> source) const;
 };
 
 /// (E63) on the staggered grid: a share kappa of the divergence of v^n beyond that of a velocity without divergence in

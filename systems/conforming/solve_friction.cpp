@@ -126,7 +126,7 @@ void SolveFriction<Dim>::operator()(Read<SolverTolerance> tolerance, Read<Rates>
       work->mass[f] = is_held ? 0 : per_tau / mobility[i][axis];
       work->per_g[f] = is_held ? 0 : 1 / (work->mass[f] + work->per_g[f]);
       work->f[f] = work->mass[f] * (predictor[i][axis] + damping[i][axis]);
-      work->v[f] = is_held ? 0 : v_f[i][axis];
+      work->v[f] = v_f[i][axis];
     }
   });
   work->multipliers.prepare(*splines, system.incidence,

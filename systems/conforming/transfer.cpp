@@ -153,12 +153,13 @@ void G2PFaceAccelerationApic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
 template <int Dim>
 void AdvectByFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                     Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                    Read<face::Displacement<Dim>> u_f, Update<particle::Position<Dim>> x_p,
-                                    Update<Clamped> clamped) const {
+                                    Read<face::Displacement<Dim>> u_f, Optional<Read<OpeningSet<Dim>>> openings,
+                                    Update<particle::Position<Dim>> x_p, Update<Clamped> clamped) const {
   std::atomic<std::int64_t> count = 0;
   gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(u_f.span()),
                     [&](std::size_t p, const Vec<Dim>& u) {
-                      const Placed<Dim> placed = inside_box<Dim>(*grid, x_p[p] + u);
+                      const Placed<Dim> placed = openings ? inside_or_out<Dim>(*openings, *grid, *splines, x_p[p] + u)
+                                                          : inside_box<Dim>(*grid, x_p[p] + u);
                       x_p[p] = placed.x;
                       if (placed.clamped) ++count;
                     });

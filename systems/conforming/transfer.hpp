@@ -10,6 +10,7 @@
 #include "engine/input.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
+#include "systems/openings/opening_set.hpp"
 
 namespace minamo {
 
@@ -129,7 +130,8 @@ struct AdvectByFaces {
   static constexpr std::string_view doc = "(E11) x_p; clamped at walls, counted";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Displacement<Dim>> u_f,
-                  Update<particle::Position<Dim>> x_p, Update<Clamped> clamped) const;
+                  Optional<Read<OpeningSet<Dim>>> openings, Update<particle::Position<Dim>> x_p,
+                  Update<Clamped> clamped) const;
 };
 
 }  // namespace minamo

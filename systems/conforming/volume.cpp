@@ -88,10 +88,10 @@ template <int Dim>
 void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                                          Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
                                          Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
-                                         Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-                                         Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f,
-                                         Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
-                                         Update<particle::Stir<Dim>> s_p) const {
+                                         Optional<Read<opening::StepWork>> W_o, Read<particle::Mass> m_p,
+                                         Read<particle::Velocity<Dim>> v_p, Read<face::Mass<Dim>> m_f,
+                                         Read<face::BodyForce<Dim>> b_f, Read<face::Displacement<Dim>> u_f,
+                                         Update<particle::Shift<Dim>> d_p, Update<particle::Stir<Dim>> s_p) const {
   Vec<Dim> everywhere = Vec<Dim>::Zero();
   if (!b_p) everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
   const double lifted = -reduce_rows(
@@ -104,6 +104,7 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
   double given = 0;
   if (W_b)
     given = std::reduce(W_b.span().begin(), W_b.span().end()) - std::reduce(W_old.span().begin(), W_old.span().end());
+  if (W_o) given -= W_o->value;
   const double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
   const double share = std::clamp(lost / lifted, 0.0, 1.0);
   if (share == 1) return;
@@ -114,9 +115,15 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
 }
 
 template <int Dim>
-void ApplyParticleShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::Shift<Dim>> d_p,
-                                         Read<particle::Stir<Dim>> s_p, Update<particle::Position<Dim>> x_p) const {
-  for_each_row(x_p.size(), [&](std::size_t p) { x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(d_p[p] + s_p[p])); });
+void ApplyParticleShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                         Read<particle::Shift<Dim>> d_p, Read<particle::Stir<Dim>> s_p,
+                                         Optional<Read<OpeningSet<Dim>>> openings,
+                                         Update<particle::Position<Dim>> x_p) const {
+  for_each_row(x_p.size(), [&](std::size_t p) {
+    // What has left the box through an opening stays where it is.
+    if (openings && openings->left_through(*grid, *splines, x_p[p]) != no_opening) return;
+    x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(d_p[p] + s_p[p]));
+  });
 }
 
 template struct FillParts<2>;

@@ -13,6 +13,7 @@
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/part_window.hpp"
+#include "systems/openings/opening_set.hpp"
 
 namespace minamo {
 
@@ -78,17 +79,18 @@ struct LimitParticleShift {
   static constexpr std::string_view doc = "(E69) shifts lift no more than the step has lost";
   void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
-                  Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old, Read<particle::Mass> m_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f,
-                  Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
-                  Update<particle::Stir<Dim>> s_p) const;
+                  Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
+                  Optional<Read<opening::StepWork>> W_o, Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                  Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f, Read<face::Displacement<Dim>> u_f,
+                  Update<particle::Shift<Dim>> d_p, Update<particle::Stir<Dim>> s_p) const;
 };
 
 /// x_p += d_p + s_p, at most 0.1 h. Velocities do not change: with grad v s_p the energy would rise.
 template <int Dim>
 struct ApplyParticleShift {
   static constexpr std::string_view doc = "(E38) x_p, moved by d_p and s_p";
-  void operator()(Read<Grid<Dim>> grid, Read<particle::Shift<Dim>> d_p, Read<particle::Stir<Dim>> s_p,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<particle::Shift<Dim>> d_p,
+                  Read<particle::Stir<Dim>> s_p, Optional<Read<OpeningSet<Dim>>> openings,
                   Update<particle::Position<Dim>> x_p) const;
 };
 

@@ -1,0 +1,331 @@
+#include "systems/openings/faces.hpp"
+
+#include "engine/step_control.hpp"
+#include "systems/bodies/room.hpp"
+#include "systems/conforming/incidence.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// The velocities that all openings prescribe at a time; empty of those that do not.
+template <int Dim>
+std::vector<opening::SideVelocity<Dim>> prescribed_velocities(const OpeningSet<Dim>& set, const Grid<Dim>& grid,
+                                                              const Splines<Dim>& splines, double time) {
+  std::vector<opening::SideVelocity<Dim>> velocities;
+  for (const Opening<Dim>& opening : set.openings) {
+    velocities.push_back(opening.is_prescribed() ? prescribed_velocity<Dim>(opening, set, grid, splines, time)
+                                                 : opening::SideVelocity<Dim>{});
+  }
+  return velocities;
+}
+
+/// Calls set_face(row, d, velocity) for the faces that openings hold.
+template <int Dim, class SetFace>
+void hold_faces_at(const std::vector<opening::SideVelocity<Dim>>& velocities, const OpeningSet<Dim>& set,
+                   const Grid<Dim>& grid, const Splines<Dim>& splines, const Walls<Dim>& walls,
+                   std::span<const Index<Dim>> site, const SetFace& set_face) {
+  for_each_prescribed<Dim>(set, grid, splines, walls, site, [&](std::size_t i, std::size_t d, std::size_t o) {
+    const Side<Dim> side(grid, splines, set.openings[o].side);
+    set_face(i, static_cast<Eigen::Index>(d), velocities[o].of[d][side.index(site[i], d)]);
+  });
+}
+
+/// What faces with rows have on a side; zero elsewhere.
+template <int Dim>
+opening::SideVelocity<Dim> velocity_on(const Side<Dim>& side, const Splines<Dim>& splines,
+                                       std::span<const Index<Dim>> site, std::span<const Vec<Dim>> v_f) {
+  opening::SideVelocity<Dim> velocity;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    std::vector<double>& of = velocity.of[d];
+    of.assign(side.count(d), 0);
+    for_each_row(site.size(), [&](std::size_t i) {
+      if (!side.holds(site[i], d) || !splines.has_face(site[i], d)) return;
+      of[side.index(site[i], d)] = v_f[i][static_cast<Eigen::Index>(d)];
+    });
+  }
+  return velocity;
+}
+
+/// Points and weights of Gauss's rule with two points: exact for polynomials up to the third degree.
+constexpr std::array<double, 2> gauss_place{0.21132486540518712, 0.78867513459481288};
+
+/// Parts of a cell, 0 ... 1, on both sides of a cut.
+std::vector<std::array<double, 2>> parts_of_cell(double cut) {
+  if (cut <= 0 || cut >= 1) return {{0, 1}};
+  return {{0, cut}, {cut, 1}};
+}
+
+/// What the splines of faces across of an opening integrate to over its side, times the pressure outside and where
+/// there is any.
+struct Outside {
+  std::vector<double> pressure;  ///< [N]
+  std::vector<double> wet;       ///< [m^2; m in 2-D]
+};
+
+template <int Dim>
+Outside integrate_outside(const Opening<Dim>& opening, const OpeningSet<Dim>& set, const Grid<Dim>& grid,
+                          const Splines<Dim>& splines, double density, double time) {
+  const Side<Dim> side(grid, splines, opening.side);
+  Outside outside{std::vector<double>(side.count(side.axis()), 0), std::vector<double>(side.count(side.axis()), 0)};
+  Index<Dim> cell{};
+  // A level cuts the cells that it passes.
+  const auto cut_of = [&](std::size_t e) {
+    if (opening.kind != OpeningKind::level || set.vertical->axis != e) return 0.0;
+    const auto axis = static_cast<Eigen::Index>(e);
+    const double level = (*opening.level)(std::array{0.0, 0.0, 0.0, time});
+    return (level - grid.low[axis]) / grid.spacing - cell[e];
+  };
+  const auto add = [&](const Vec<Dim>& x, double weight) {
+    const double p = pressure_outside<Dim>(opening, set, density, x, time);
+    if (!std::isfinite(p))
+      throw StepRejected(fmt::format("openings: the pressure of \"{}\" is not finite at t = {} s", opening.name, time));
+    if (p == 0) return;
+    side.for_each_across(x, [&](std::size_t k, double spline) {
+      outside.pressure[k] += weight * spline * p;
+      outside.wet[k] += weight * spline;
+    });
+  };
+  const std::function<void(std::size_t, Vec<Dim>, double)> along = [&](std::size_t e, Vec<Dim> x, double weight) {
+    if (e == Dim) return add(x, weight);
+    const auto axis = static_cast<Eigen::Index>(e);
+    if (e == side.axis()) {
+      x[axis] = side.plane();
+      return along(e + 1, x, weight);
+    }
+    for (const auto& part : parts_of_cell(cut_of(e))) {
+      for (const double place : gauss_place) {
+        const double width = part[1] - part[0];
+        x[axis] = grid.low[axis] + grid.spacing * (cell[e] + part[0] + place * width);
+        along(e + 1, x, weight * 0.5 * width * grid.spacing);
+      }
+    }
+  };
+  for (;;) {
+    along(0, Vec<Dim>::Zero(), 1);
+    std::size_t e = 0;
+    while (e < Dim && (e == side.axis() || ++cell[e] == grid.cells[e])) cell[e++] = 0;
+    if (e == Dim) return outside;
+  }
+}
+
+/// How full the grid is beside an opening, compared to what is under the level outside, from which on it bears all of
+/// the pressure. Gaps between particles are no reason for less: it would drive a flow.
+constexpr double full_from = 0.5;
+
+/// Weights of a point along an axis on the multipliers of its cell, with what a lattice that ends at an open side
+/// misses.
+template <int Dim, int K>
+struct EndWeights {
+  std::array<double, K> plain{};
+  std::array<double, K> ended{};
+};
+
+template <int Dim, int K>
+EndWeights<Dim, K> end_weights(const CellFrame<Dim>& frame, std::size_t e, double xi, double size, bool low,
+                               bool high) {
+  EndWeights<Dim, K> weights;
+  const CellSplines& of = *frame.splines[e];
+  for (std::size_t a = 0; a < K; ++a) weights.plain[a] = polynomial<K - 1>(of.across[a], xi);
+  weights.ended = weights.plain;
+  const auto end_at = [&](double distance, std::size_t outermost) {
+    if (distance <= 2 * off_wall) {
+      weights.ended.fill(0);
+    } else if (distance < size) {
+      weights.ended[outermost] += distance / size - 0.5;
+    }
+  };
+  if (low) end_at(xi, 0);
+  if (high) end_at(1 - xi, K - 1);
+  return weights;
+}
+
+}  // namespace
+
+template <int Dim>
+void OpenFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
+                                Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site,
+                                Update<face::Held> held) const {
+  for_each_row(held.size(), [&](std::size_t i) {
+    unsigned mask = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (condition_at<Dim>(*set, *grid, *splines, *walls, site[i], d).is_held) mask |= 1U << d;
+    }
+    held[i] = static_cast<std::uint8_t>(mask);
+  });
+}
+
+template <int Dim>
+void HoldInflow<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                 Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site,
+                                 Update<face::Velocity<Dim>> v_f) const {
+  hold_faces_at<Dim>(prescribed_velocities<Dim>(*set, *grid, *splines, clock->time), *set, *grid, *splines, *walls,
+                     site.span(), [&](std::size_t i, Eigen::Index d, double w) { v_f[i][d] = w; });
+}
+
+template <int Dim>
+void PrescribeInflow<Dim>::operator()(Read<Clock> clock, Read<Rates> rates, Read<Grid<Dim>> grid,
+                                      Read<Splines<Dim>> splines, Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set,
+                                      Read<staggered::Site<Dim>> site, Write<opening::Velocities<Dim>> velocities,
+                                      Write<face::Prescribed<Dim>> w_f) const {
+  velocities->in_balances = prescribed_velocities<Dim>(*set, *grid, *splines, rates->time);
+  velocities->at_end = prescribed_velocities<Dim>(*set, *grid, *splines, clock->end_of_step);
+  for_each_row(w_f.size(), [&](std::size_t i) { w_f[i].setZero(); });
+  hold_faces_at<Dim>(velocities->in_balances, *set, *grid, *splines, *walls, site.span(),
+                     [&](std::size_t i, Eigen::Index d, double w) { w_f[i][d] = w; });
+}
+
+template <int Dim>
+void FillAtOpenings<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
+                                     Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
+                                     Update<multiplier::Volume> v_l) const {
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+      bool is_beside = false;
+      for (std::size_t side = 0; side < 2 * Dim; ++side) {
+        const int outermost = side % 2 == 0 ? 0 : grid->cells[side / 2] - 1;
+        is_beside = is_beside || (set->opens(side) && cell.node[side / 2] == outermost);
+      }
+      if (!is_beside) return;
+      const auto opens = [&](std::size_t side, std::size_t p) {
+        const int outermost = side % 2 == 0 ? 0 : grid->cells[side / 2] - 1;
+        return set->opens(side) && cell.node[side / 2] == outermost &&
+               set->at(*grid, *splines, side, y_p[p]) != no_opening;
+      };
+      const CellFrame<Dim> frame(*grid, *splines, cell.node);
+      const std::uint32_t* rows = sites->of(c);
+      for (std::size_t p = cell.begin; p < cell.end; ++p) {
+        const Vec<Dim> xi = frame.local(y_p[p]);
+        const double size = std::pow(V_p[p], 1.0 / Dim) / grid->spacing;
+        std::array<EndWeights<Dim, K>, static_cast<std::size_t>(Dim)> weights;
+        for (std::size_t e = 0; e < Dim; ++e) {
+          weights[e] = end_weights<Dim, K>(frame, e, xi[static_cast<Eigen::Index>(e)], size, opens(2 * e, p),
+                                           opens(2 * e + 1, p));
+        }
+        for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+          double plain = V_p[p];
+          double ended = V_p[p];
+          for (std::size_t e = 0; e < Dim; ++e) {
+            plain *= weights[e].plain[static_cast<std::size_t>(offset[e])];
+            ended *= weights[e].ended[static_cast<std::size_t>(offset[e])];
+          }
+          v_l[rows[k]] += ended - plain;
+        });
+      }
+    });
+  });
+}
+
+template <int Dim>
+void PushAtOpenings<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                     Read<Fluid> fluid, Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site,
+                                     Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                                     Read<face::Velocity<Dim>> v_f, Read<face::Mobility<Dim>> mobility,
+                                     Write<face::OutsideForce<Dim>> F_f, Update<face::Predictor<Dim>> predictor) const {
+  for_each_row(F_f.size(), [&](std::size_t i) { F_f[i].setZero(); });
+  const double tau = rates->velocity / rates->acceleration;
+  for (std::size_t o = 0; o < set->openings.size(); ++o) {
+    const Opening<Dim>& opening = set->openings[o];
+    if (!opening.has_pressure()) continue;
+    const Side<Dim> side(*grid, *splines, opening.side);
+    const std::size_t d = side.axis();
+    const auto axis = static_cast<Eigen::Index>(d);
+    const Outside outside = integrate_outside<Dim>(opening, *set, *grid, *splines, fluid->density, rates->time);
+    for_each_row(site.size(), [&](std::size_t i) {
+      if (mobility[i][axis] == 0 || !side.holds(site[i], d)) return;
+      const std::size_t k = side.index(site[i], d);
+      if (set->of_face[opening.side][k] != static_cast<std::int16_t>(o) || outside.pressure[k] == 0) return;
+      const std::int32_t l = splines->has_multiplier(site[i]) ? static_cast<std::int32_t>(i) : neighbour[i][2 * d];
+      if (l == staggered::none) return;
+      const double filled = phi[static_cast<std::size_t>(l)] * side.area(site[i]);
+      const double share = std::min(1.0, filled / (full_from * outside.wet[k]));
+      const double inwards = std::max(0.0, side.inward() * v_f[i][axis]);
+      const double head = 0.5 * fluid->density * inwards * inwards * outside.wet[k];
+      F_f[i][axis] = side.inward() * share * (outside.pressure[k] - head);
+      predictor[i][axis] += tau * mobility[i][axis] * F_f[i][axis];
+    });
+  }
+}
+
+template <int Dim>
+void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                            Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set,
+                                            Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                            Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f,
+                                            Read<face::Velocity<Dim>> v_old, Read<face::BalanceVelocity<Dim>> v_f,
+                                            Read<face::NewVelocity<Dim>> v_new, Read<multiplier::Force> lambda,
+                                            Update<opening::Velocities<Dim>> velocities,
+                                            Update<opening::EnergyIn> energy, Write<opening::StepWork> work) const {
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const auto at = [&](std::size_t l) { return lambda[l]; };
+  for (std::size_t o = 0; o < set->openings.size(); ++o) {
+    if (set->openings[o].is_prescribed()) continue;
+    const Side<Dim> side(*grid, *splines, set->openings[o].side);
+    velocities->in_balances[o] = velocity_on<Dim>(side, *splines, site.span(), v_f.span());
+    velocities->at_end[o] = velocity_on<Dim>(side, *splines, site.span(), v_new.span());
+  }
+  work->value = 0;
+  // One after the other: the same sums on any number of threads.
+  for (std::size_t i = 0; i < site.size(); ++i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const FaceCondition condition = condition_at<Dim>(*set, *grid, *splines, *walls, site[i], d);
+      if (condition.opening == no_opening) continue;
+      const auto o = static_cast<std::size_t>(condition.opening);
+      double impulse = clock->step * F_f[i][axis];
+      if (condition.is_held) {
+        impulse = m_f[i][axis] * (v_new[i][axis] - v_old[i][axis]) - clock->step * incidence.gradient(i, d, at);
+      }
+      energy[o] += impulse * v_f[i][axis];
+      work->value += impulse * v_f[i][axis];
+    }
+  }
+}
+
+template <int Dim>
+void RequireOutlet<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                    Read<face::Prescribed<Dim>> w_f, Read<multiplier::Volume> v_l,
+                                    Read<multiplier::Capacity> capacity, Read<unknown::Staggered> of_unknown,
+                                    Read<unknown::NullVector> n_l, Read<MultiplierSolver<Dim>> solver) const {
+  constexpr double least_squeeze = 1e-9;
+  const ClosedComponents& components = solver->closed();
+  const std::vector<bool> is_full = full_components(components, of_unknown.span(), v_l.span(), capacity.span());
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  std::vector<std::array<double, 2>> sums(components.count(), {0, 0});
+  for (std::size_t l = 0; l < of_unknown.size() && !sums.empty(); ++l) {
+    if (!components.contains(l) || !is_full[components.number(l) - 1]) continue;
+    auto& [squeeze, room] = sums[components.number(l) - 1];
+    squeeze -= n_l[l] * incidence.divergence(of_unknown[l], w_f.span());
+    room += n_l[l];
+  }
+  for (const auto& [squeeze, room] : sums) {
+    if (room == 0 || std::abs(squeeze) * clock->step <= least_squeeze * room) continue;
+    throw StepRejected(
+        fmt::format("openings: {:.3g} m^{}/s come in where walls enclose the liquid all around, without a way out",
+                    squeeze * std::pow(grid->spacing, Dim), Dim));
+  }
+}
+
+template struct OpenFaces<2>;
+template struct OpenFaces<3>;
+template struct HoldInflow<2>;
+template struct HoldInflow<3>;
+template struct PrescribeInflow<2>;
+template struct PrescribeInflow<3>;
+template struct FillAtOpenings<2>;
+template struct FillAtOpenings<3>;
+template struct PushAtOpenings<2>;
+template struct PushAtOpenings<3>;
+template struct TakeOpeningVelocities<2>;
+template struct TakeOpeningVelocities<3>;
+template struct RequireOutlet<2>;
+template struct RequireOutlet<3>;
+
+}  // namespace minamo

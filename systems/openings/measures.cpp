@@ -1,0 +1,63 @@
+#include "systems/openings/measures.hpp"
+
+#include <limits>
+
+namespace minamo {
+
+namespace {
+
+/// Flow into the box through an opening. [m^3/s; m^2/s in 2-D]
+template <int Dim>
+double rate_of(const Opening<Dim>& opening, const OpeningSet<Dim>& set, std::size_t number, const Side<Dim>& side,
+               const opening::SideVelocity<Dim>& velocity) {
+  double rate = 0;
+  const std::vector<double>& across = velocity.of[side.axis()];
+  for (std::size_t k = 0; k < across.size(); ++k) {
+    if (set.of_face[opening.side][k] == static_cast<std::int16_t>(number))
+      rate += side.inward() * across[k] * side.area(side.site(k, side.axis()));
+  }
+  return rate;
+}
+
+}  // namespace
+
+template <int Dim>
+void MeasureOpenings<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
+                                      Read<opening::Velocities<Dim>> velocities, Read<opening::MassIn> mass_in,
+                                      Read<particle::Id> id, Update<measure::Columns> columns) const {
+  for (std::size_t o = 0; o < set->openings.size(); ++o) {
+    const Opening<Dim>& opening = set->openings[o];
+    const Side<Dim> side(*grid, *splines, opening.side);
+    columns->set(opening.name + "_mass_in", mass_in[o]);
+    columns->set(opening.name + "_rate", rate_of<Dim>(opening, *set, o, side, velocities->in_balances[o]));
+  }
+  columns->set("particles", static_cast<double>(id.size()));
+}
+
+template <int Dim>
+void MeasureOpeningsAtStart<Dim>::operator()(Read<OpeningSet<Dim>> set, Read<opening::MassIn> mass_in,
+                                             Read<particle::Id> id, Update<measure::Columns> columns) const {
+  for (std::size_t o = 0; o < set->openings.size(); ++o) {
+    columns->set(set->openings[o].name + "_mass_in", mass_in[o]);
+    columns->set(set->openings[o].name + "_rate", std::numeric_limits<double>::quiet_NaN());
+  }
+  columns->set("particles", static_cast<double>(id.size()));
+}
+
+template <int Dim>
+void BalanceEnergyOfOpenings<Dim>::operator()(Read<measure::Energy> energy, Read<opening::EnergyIn> energy_in,
+                                              Optional<Read<body::Work>> W_b, Update<measure::Columns> columns) const {
+  double balance = energy->kinetic + energy->potential.value_or(0);
+  for (const double work : W_b.span()) balance += work;
+  for (const double came_in : energy_in) balance -= came_in;
+  columns->set("energy_balance", balance);
+}
+
+template struct MeasureOpenings<2>;
+template struct MeasureOpenings<3>;
+template struct MeasureOpeningsAtStart<2>;
+template struct MeasureOpeningsAtStart<3>;
+template struct BalanceEnergyOfOpenings<2>;
+template struct BalanceEnergyOfOpenings<3>;
+
+}  // namespace minamo

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Columns of the history for openings.
+
+#include "components/body.hpp"
+#include "components/measure.hpp"
+#include "components/particle.hpp"
+#include "engine/system.hpp"
+#include "systems/openings/opening_set.hpp"
+
+namespace minamo {
+
+/// NAME_mass_in [kg], NAME_rate into the box in the balances [m^3/s; m^2/s in 2-D], and how many particles there are.
+template <int Dim>
+struct MeasureOpenings {
+  static constexpr std::string_view doc = "what came in through openings";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
+                  Read<opening::Velocities<Dim>> velocities, Read<opening::MassIn> mass_in, Read<particle::Id> id,
+                  Update<measure::Columns> columns) const;
+};
+
+/// The same before the first step, when there are no rates.
+template <int Dim>
+struct MeasureOpeningsAtStart {
+  static constexpr std::string_view doc = "what came in through openings, at the start";
+  void operator()(Read<OpeningSet<Dim>> set, Read<opening::MassIn> mass_in, Read<particle::Id> id,
+                  Update<measure::Columns> columns) const;
+};
+
+/// (E100)  energy_balance less the energy that came in; without bodies it is K + U less that.
+template <int Dim>
+struct BalanceEnergyOfOpenings {
+  static constexpr std::string_view doc = "(E100) energy less what came in";
+  void operator()(Read<measure::Energy> energy, Read<opening::EnergyIn> energy_in, Optional<Read<body::Work>> W_b,
+                  Update<measure::Columns> columns) const;
+};
+
+}  // namespace minamo

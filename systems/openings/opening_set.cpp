@@ -1,0 +1,200 @@
+#include "systems/openings/opening_set.hpp"
+
+#include "engine/step_control.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Distance beyond a side, where it is one that particles can leave through; else zero. [m]
+template <int Dim>
+double beyond(const Grid<Dim>& grid, std::size_t side, const Vec<Dim>& x) {
+  const auto axis = static_cast<Eigen::Index>(side / 2);
+  const double distance = side % 2 == 0 ? grid.low[axis] - x[axis] : x[axis] - grid.high[axis];
+  // Less is rounding of a particle that comes in: walls keep it, too.
+  return distance > off_wall * grid.spacing ? distance : 0;
+}
+
+/// Share of a face that lies under a level along the vertical axis: of what is nearer to it than to others.
+template <int Dim>
+double wetted(const Grid<Dim>& grid, const Vertical& vertical, const Vec<Dim>& x, double level) {
+  const auto axis = static_cast<Eigen::Index>(vertical.axis);
+  const double low = std::max(x[axis] - grid.spacing / 2, grid.low[axis]);
+  const double high = std::min(x[axis] + grid.spacing / 2, grid.high[axis]);
+  const double under = std::clamp((level - low) / (high - low), 0.0, 1.0);
+  return vertical.force > 0 ? 1 - under : under;
+}
+
+double at_time(const Expression& expression, double time) { return expression(std::array{0.0, 0.0, 0.0, time}); }
+
+/// Shares of faces under the level of an opening that has one.
+template <int Dim>
+std::vector<double> wet_shares(const Opening<Dim>& opening, const OpeningSet<Dim>& set, const Grid<Dim>& grid,
+                               const Side<Dim>& side, double time) {
+  std::vector<double> share = opening.share;
+  if (!opening.level) return share;
+  const double level = at_time(*opening.level, time);
+  for (std::size_t k = 0; k < share.size(); ++k) {
+    if (share[k] > 0)
+      share[k] *= wetted<Dim>(grid, *set.vertical, side.place(side.site(k, side.axis()), side.axis()), level);
+  }
+  return share;
+}
+
+/// Calls use(x, weight) for points whose sum is the integral over what is nearer to a face than to others, up to third
+/// degree. Weights add up to 1.
+template <int Dim, class Use>
+void for_each_gauss_point(const Grid<Dim>& grid, std::size_t across, const Vec<Dim>& face, const Use& use) {
+  constexpr double from_middle = 0.28867513459481288;  // 1/sqrt(12)
+  const int points = 1 << (Dim - 1);
+  for (int k = 0; k < points; ++k) {
+    Vec<Dim> x = face;
+    int bit = 0;
+    for (std::size_t e = 0; e < Dim; ++e) {
+      if (e == across) continue;
+      const auto d = static_cast<Eigen::Index>(e);
+      double low = face[d] - grid.spacing / 2;
+      double high = face[d] + grid.spacing / 2;
+      if (!grid.periodic[e]) {
+        low = std::max(low, grid.low[d]);
+        high = std::min(high, grid.high[d]);
+      }
+      const double side = (k >> bit++ & 1) == 0 ? -1 : 1;
+      x[d] = (low + high) / 2 + side * from_middle * (high - low);
+    }
+    use(x, 1.0 / points);
+  }
+}
+
+/// Velocities at faces have not quite the flow of the velocity that is given; in proportion they do. Not where some
+/// liquid comes in and some leaves.
+template <int Dim>
+void scale_to_flow(const Opening<Dim>& opening, const Grid<Dim>& grid, const Side<Dim>& side, Arguments& arguments,
+                   std::vector<double>& across) {
+  const std::size_t d = side.axis();
+  double given = 0;
+  double of_faces = 0;
+  double absolute = 0;
+  for (std::size_t k = 0; k < across.size(); ++k) {
+    const Index<Dim> site = side.site(k, d);
+    of_faces += across[k] * side.area(site);
+    absolute += std::abs(across[k]) * side.area(site);
+    const double share = opening.share[k] + opening.held[k];
+    if (share == 0) continue;
+    for_each_gauss_point<Dim>(grid, d, side.place(site, d), [&](const Vec<Dim>& x, double weight) {
+      given += share * side.area(site) * weight * opening.velocity[d](arguments.at<Dim>(x));
+    });
+  }
+  constexpr double one_way = 0.999;
+  if (std::abs(of_faces) < one_way * absolute || absolute == 0 || !std::isfinite(given)) return;
+  for (double& velocity : across) velocity *= given / of_faces;
+}
+
+template <int Dim>
+void require_finite(const Opening<Dim>& opening, double value, double time) {
+  if (std::isfinite(value)) return;
+  throw StepRejected(fmt::format("openings: the inflow of \"{}\" is not finite at t = {} s", opening.name, time));
+}
+
+}  // namespace
+
+template <int Dim>
+int OpeningSet<Dim>::left_through(const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) const {
+  int opening = no_opening;
+  double farthest = 0;
+  for (std::size_t side = 0; side < 2 * Dim; ++side) {
+    const double distance = grid.periodic[side / 2] ? 0 : beyond<Dim>(grid, side, x);
+    if (distance <= farthest) continue;
+    const int through = at(grid, splines, side, x);
+    if (through == no_opening) continue;
+    opening = through;
+    farthest = distance;
+  }
+  return opening;
+}
+
+template <int Dim>
+FaceCondition condition_at(const OpeningSet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines,
+                           const Walls<Dim>& walls, const Index<Dim>& site, std::size_t d) {
+  if (!splines.has_face(site, d)) return {true};
+  const unsigned bit = 1U << d;
+  FaceCondition condition;
+  for (std::size_t side = 0; side < 2 * Dim; ++side) {
+    const std::size_t e = side / 2;
+    if (splines.axis[e].periodic()) continue;
+    const Side<Dim> of(grid, splines, side);
+    if (!of.holds(site, d)) continue;
+    const int opening = set.opens(side) ? set.at(grid, splines, side, of.place(site, d)) : no_opening;
+    if (opening == no_opening) {
+      if ((walls.held[e][side % 2] & bit) != 0) return {true};
+      continue;
+    }
+    // What is prescribed across a side goes before what is prescribed along another one.
+    if (set.openings[static_cast<std::size_t>(opening)].is_prescribed()) {
+      if (!condition.is_held || e == d) condition = {true, opening};
+    } else if (!condition.is_held && (e == d || condition.opening == no_opening)) {
+      condition.opening = opening;
+    }
+  }
+  return condition;
+}
+
+template <int Dim>
+opening::SideVelocity<Dim> prescribed_velocity(const Opening<Dim>& opening, const OpeningSet<Dim>& set,
+                                               const Grid<Dim>& grid, const Splines<Dim>& splines, double time) {
+  const Side<Dim> side(grid, splines, opening.side);
+  opening::SideVelocity<Dim> velocity;
+  for (std::size_t d = 0; d < Dim; ++d) velocity.of[d].assign(side.count(d), 0);
+  const std::vector<double> share = wet_shares<Dim>(opening, set, grid, side, time);
+  if (opening.kind == OpeningKind::rate) {
+    double area = 0;
+    for (std::size_t k = 0; k < share.size(); ++k) area += share[k] * side.area(side.site(k, side.axis()));
+    const double speed = area > 0 ? side.inward() * at_time(opening.rate, time) / area : 0;
+    require_finite<Dim>(opening, speed, time);
+    for (std::size_t k = 0; k < share.size(); ++k) velocity.of[side.axis()][k] = share[k] * speed;
+    return velocity;
+  }
+  Arguments arguments({.time = time, .ode = {}, .ode_count = 0});
+  for (std::size_t d = 0; d < Dim; ++d) {
+    for (std::size_t k = 0; k < velocity.of[d].size(); ++k) {
+      const Vec<Dim> x = side.place(side.site(k, d), d);
+      const double of_face = share[d == side.axis() ? k : side.nearest(x)];
+      if (of_face == 0) continue;
+      const double value = opening.velocity[d](arguments.at<Dim>(x));
+      require_finite<Dim>(opening, value, time);
+      velocity.of[d][k] = d == side.axis() ? of_face * value : value;
+    }
+  }
+  scale_to_flow<Dim>(opening, grid, side, arguments, velocity.of[side.axis()]);
+  return velocity;
+}
+
+template <int Dim>
+double pressure_outside(const Opening<Dim>& opening, const OpeningSet<Dim>& set, double density, const Vec<Dim>& x,
+                        double time) {
+  if (opening.kind == OpeningKind::level) {
+    const double depth = x[static_cast<Eigen::Index>(set.vertical->axis)] - at_time(*opening.level, time);
+    return density * std::max(0.0, set.vertical->force * depth);
+  }
+  if (opening.kind != OpeningKind::pressure) return 0;
+  return opening.pressure(Arguments({.time = time, .ode = {}, .ode_count = 0}).at<Dim>(x));
+}
+
+template struct OpeningSet<2>;
+template struct OpeningSet<3>;
+template FaceCondition condition_at<2>(const OpeningSet<2>&, const Grid<2>&, const Splines<2>&, const Walls<2>&,
+                                       const Index<2>&, std::size_t);
+template FaceCondition condition_at<3>(const OpeningSet<3>&, const Grid<3>&, const Splines<3>&, const Walls<3>&,
+                                       const Index<3>&, std::size_t);
+template opening::SideVelocity<2> prescribed_velocity<2>(const Opening<2>&, const OpeningSet<2>&, const Grid<2>&,
+                                                         const Splines<2>&, double);
+template opening::SideVelocity<3> prescribed_velocity<3>(const Opening<3>&, const OpeningSet<3>&, const Grid<3>&,
+                                                         const Splines<3>&, double);
+template double pressure_outside<2>(const Opening<2>&, const OpeningSet<2>&, double, const Vec<2>&, double);
+template double pressure_outside<3>(const Opening<3>&, const OpeningSet<3>&, double, const Vec<3>&, double);
+
+}  // namespace minamo

@@ -1,0 +1,345 @@
+#include "systems/openings/openings_part.hpp"
+
+#include "systems/bodies/bodies_part.hpp"
+#include "systems/openings/faces.hpp"
+#include "systems/openings/measures.hpp"
+#include "systems/openings/particles.hpp"
+#include "systems/openings/shares.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/discretization.hpp"
+#include "systems/setup/scene_checks.hpp"
+#include "systems/transfer/scheme.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+/// What stands in an opening beside its name and its place.
+struct Flow {
+  OpeningKind kind = OpeningKind::free;
+  std::vector<Expression> velocity;
+  Expression rate;
+  std::optional<Expression> level;
+  Expression pressure;
+  int per_cell = 2;
+};
+
+ExpressionScope of_place_and_time(const std::map<std::string, double>& constants) { return scene_scope(constants); }
+ExpressionScope of_time(const std::map<std::string, double>& constants) { return {{"x", "y", "z", "t"}, constants}; }
+
+std::vector<std::string> side_names(int dimension) {
+  std::vector<std::string> names;
+  for (int d = 0; d < dimension; ++d) {
+    for (const char* end : {"low", "high"}) names.push_back(fmt::format("{}_{}", "xyz"[d], end));
+  }
+  return names;
+}
+
+/// A number that depends on time alone.
+Expression read_of_time(Input& in, const std::string& key, const std::map<std::string, double>& constants,
+                        const Number& rule) {
+  Expression value = in.expression(key, of_time(constants), rule);
+  for (const char* axis : {"x", "y", "z"}) {
+    if (!in.describing() && value.uses(axis)) {
+      in.problem(key, fmt::format("depends on {}", axis), "a number, or an expression in t and constants");
+    }
+  }
+  return value;
+}
+
+/// Levels are coordinates in the box.
+void check_level(Input& in, const std::optional<Vertical>& vertical, const GridScene& grid, const Expression& level) {
+  if (in.describing() || !in.sound("level")) return;
+  if (!vertical) {
+    in.problem("level", "no direction that is down", "a constant body force along one axis", "another one, or none");
+    return;
+  }
+  if (!level.is_constant()) return;
+  const double at = level(std::array<double, 4>{});
+  const double low = grid.low[vertical->axis];
+  const double high = grid.high[vertical->axis];
+  if (at >= low && at <= high) return;
+  in.problem("level", at < low ? "below the box" : "above the box",
+             fmt::format("{} = {} ... {} m", "xyz"[vertical->axis], low, high), fmt::format("{} m", at));
+}
+
+/// What reading a flow takes, once for values, messages and schema.
+struct FlowRules {
+  int dimension = 2;
+  std::map<std::string, double> constants;
+  std::optional<Vertical> vertical;
+  GridScene grid;
+};
+
+Flow read_inflow(Input& input, const FlowRules& rules) {
+  Flow flow;
+  const auto read_level = [&](Input& in) {
+    flow.level = read_of_time(in, "level", rules.constants,
+                              {.unit = "m", .doc = "coordinate of the surface outside, in t and constants"});
+    check_level(in, rules.vertical, rules.grid, *flow.level);
+  };
+  const auto has_rate = input.has("rate") || input.has("velocity");
+  Input::Variants variants{
+      {"velocity",
+       [&](Input& in) {
+         flow.kind = OpeningKind::velocity;
+         flow.velocity =
+             in.expressions("velocity", static_cast<std::size_t>(rules.dimension), of_place_and_time(rules.constants),
+                            {.unit = "m/s", .doc = "of what comes in, in place and t"});
+         for (std::size_t d = 0; d < flow.velocity.size() && !in.describing(); ++d)
+           check_coordinates(in, fmt::format("velocity/{}", d), flow.velocity[d], rules.dimension);
+       }},
+      {"rate", [&](Input& in) {
+         flow.kind = OpeningKind::rate;
+         flow.rate = read_of_time(in, "rate", rules.constants,
+                                  {.unit = "m^3/s",
+                                   .doc = "flow into the box, spread evenly; m^2/s in 2-D; in t and constants",
+                                   .at_least = 0});
+         if (in.has("level")) read_level(in);
+       }}};
+  if (!has_rate || input.describing()) {
+    variants.emplace_back("level", [&](Input& in) {
+      flow.kind = OpeningKind::level;
+      read_level(in);
+    });
+  }
+  input.one_of("what comes in: by velocity, by flow rate, or by the level outside", variants);
+  flow.per_cell = static_cast<int>(input.integer(
+      "per_cell", {.doc = "particles per cell and direction", .fallback = 2, .at_least = 1, .at_most = 16}));
+  return flow;
+}
+
+Flow read_pressure_outside(Input& input, const FlowRules& rules) {
+  Flow flow;
+  input.one_of("the pressure outside: of a level, or given",
+               {{"level",
+                 [&](Input& in) {
+                   flow.kind = OpeningKind::level;
+                   flow.level = read_of_time(in, "level", rules.constants,
+                                             {.unit = "m", .doc = "coordinate of the surface outside, in t"});
+                   check_level(in, rules.vertical, rules.grid, *flow.level);
+                 }},
+                {"pressure", [&](Input& in) {
+                   flow.kind = OpeningKind::pressure;
+                   flow.pressure = in.expression("pressure", of_place_and_time(rules.constants),
+                                                 {.unit = "Pa", .doc = "outside, in place and t"});
+                   if (!in.describing()) check_coordinates(in, "pressure", flow.pressure, rules.dimension);
+                 }}});
+  flow.per_cell = static_cast<int>(input.integer(
+      "per_cell",
+      {.doc = "particles per cell and direction, of what flows back", .fallback = 2, .at_least = 1, .at_most = 16}));
+  return flow;
+}
+
+Json outflow_schema() {
+  auto description = Input::Document::describe();
+  FlowRules rules;
+  read_pressure_outside(description.root(), rules);
+  Json schema = description.schema();
+  schema.erase("$schema");
+  return {{"description", R"("free", or the pressure outside: {"level": m} or {"pressure": Pa})"},
+          {"oneOf", {{{"enum", {"free"}}}, schema}}};
+}
+
+/// "free", or an object. The problems of an object of its own are those of the scene at a place.
+Flow read_outflow(Input& input, const FlowRules& rules) {
+  const Json value = input.raw("outflow", outflow_schema(), "free");
+  if (input.describing()) return Flow();
+  if (!value.is_object()) {
+    if (!value.is_string() || value.get<std::string>() != "free") {
+      input.problem("outflow", value.is_string() ? "unknown name" : "wrong type",
+                    R"("free", {"level": m} or {"pressure": Pa})", shown(value),
+                    value.is_string() ? closest_name(value.get<std::string>(), std::vector<std::string>{"free"}) : "");
+    }
+    return Flow();
+  }
+  Input::Document document(value, "");
+  document.root().use_constants(rules.constants);
+  const Flow flow = read_pressure_outside(document.root(), rules);
+  document.finish();
+  for (const Problem& problem : document.problems())
+    input.problem("outflow" + problem.pointer, problem.what, problem.expected, problem.got, problem.closest);
+  return flow;
+}
+
+Flow read_flow(Input& input, const FlowRules& rules) {
+  Flow flow;
+  input.one_of("what the opening is for", {{"inflow",
+                                            [&](Input& of) {
+                                              of.object("inflow", "liquid comes in", Input::Presence::required,
+                                                        [&](Input& in) { flow = read_inflow(in, rules); });
+                                            }},
+                                           {"outflow", [&](Input& of) { flow = read_outflow(of, rules); }}});
+  return flow;
+}
+
+/// A constant body force along one axis.
+std::optional<Vertical> vertical_of(const BodyForce& b) {
+  std::optional<Vertical> vertical;
+  for (std::size_t d = 0; d < b.of_place_and_time.size(); ++d) {
+    if (!b.of_place_and_time[d].is_constant()) return {};
+    const double force = b.of_place_and_time[d]({});
+    if (force == 0) continue;
+    if (vertical) return {};
+    vertical = Vertical{d, force};
+  }
+  return vertical;
+}
+
+template <int Dim>
+void read_opening(Input& input, const Scene& scene, const FlowRules& rules, OpeningSet<Dim>& set,
+                  std::vector<std::optional<Expression>>& where) {
+  Opening<Dim> opening;
+  opening.name = input.text("name", {.doc = "its columns are NAME_mass_in, NAME_rate"});
+  const std::vector<std::string> sides = side_names(Dim);
+  const std::string side = input.choice("side", sides, "of the box", {});
+  const auto region = input.optional_expression("where", of_place_and_time(scene.constants),
+                                                {.doc = "the part of the side; without it, all of it"});
+  if (region && !input.describing()) check_coordinates(input, "where", *region, Dim);
+  const Flow flow = read_flow(input, rules);
+  if (input.describing()) return;
+  if (input.sound("name")) {
+    const auto is_twin = [&](const auto& other) { return other.name == opening.name; };
+    check_column_name(input, opening.name, "opening", std::any_of(set.openings.begin(), set.openings.end(), is_twin));
+  }
+  const auto at = std::find(sides.begin(), sides.end(), side);
+  if (!input.sound("side") || at == sides.end()) return;
+  opening.side = static_cast<std::size_t>(at - sides.begin());
+  if (scene.grid.periodic[opening.side / 2]) {
+    input.problem("side", "periodic", fmt::format("a side with a wall: \"walls\" without periodic {}", side[0]), side);
+    return;
+  }
+  opening.kind = flow.kind;
+  opening.velocity = flow.velocity;
+  opening.rate = flow.rate;
+  opening.level = flow.level;
+  opening.pressure = flow.pressure;
+  opening.per_cell = flow.per_cell;
+  set.openings.push_back(std::move(opening));
+  where.push_back(region);
+}
+
+/// The liquid's equations with openings are those of the conforming discretization, and not all of its variants.
+void check_schemes(const Scene& scene, SeedProblems& problems) {
+  if (scene.facts.get<Discretization>().degree != 2)
+    problems.note("/discretization/degree", "not with openings", "2", "3");
+  if (scene.schemes.at("integrator") == "newmark")
+    problems.note("/integrator/scheme", "not with openings", R"("midpoint")", R"("newmark")");
+  if (scene.schemes.at("solver") == "umfpack")
+    problems.note("/solver/scheme", "not with openings", R"("block")", R"("umfpack")");
+}
+
+template <int Dim>
+void seed_openings(OpeningSet<Dim> set, const std::vector<std::optional<Expression>>& where, const Scene& scene,
+                   World& world, SeedProblems& problems) {
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  const auto* bodies = scene.facts.find<BodiesOfScene>();
+  find_shares<Dim>(
+      set, where,
+      {grid, world.resource<Splines<Dim>>(), world.resource<Walls<Dim>>(), bodies ? &bodies->of<Dim>() : nullptr},
+      problems);
+  world.resource<OpeningSet<Dim>>() = set;
+  std::size_t columns = 0;
+  world.resize<Openings>(set.openings.size());
+  for (std::size_t o = 0; o < set.openings.size(); ++o) {
+    columns += columns_of<Dim>(set.openings[o], grid);
+    world.column<opening::MassIn>()[o] = 0;
+    world.column<opening::EnergyIn>()[o] = 0;
+    world.column<opening::Drift<Dim>>()[o].setZero();
+  }
+  world.resize<OpeningColumns>(columns);
+  std::size_t k = 0;
+  // As a lattice of the grid would go on outside.
+  for (const Opening<Dim>& opening : set.openings) {
+    for (const std::size_t end = k + columns_of<Dim>(opening, grid); k < end; ++k) {
+      world.column<opening::Front>()[k] = -0.5 * opening.spacing(grid);
+      world.column<opening::Speed>()[k] = 0;
+    }
+  }
+}
+
+void number_on(const Scene&, World& world, SeedProblems&) {
+  world.resource<opening::NextId>().value = static_cast<std::int64_t>(world.rows<Particles>());
+}
+
+void add_systems_of_openings(const OpeningsOfScene& openings, const std::vector<std::optional<Expression>>& where,
+                             const Scene& scene, Recipe& recipe) {
+  recipe.add("configure", "let_in", When::step);
+  if (scene.facts.get<TransferScheme>().carries_gradient) recipe.add("configure", "give_gradient", When::step);
+  recipe.add("sort", "open_faces");
+  recipe.add("boundaries", "fill_at_openings");
+  recipe.add("boundaries", "hold_inflow");
+  recipe.add("forces", "prescribe_inflow");
+  with_dimension(scene.dimension, [&](auto dim) {
+    constexpr int Dim = dim();
+    recipe.seed([set = openings.of<Dim>(), where](const Scene& of, World& world, SeedProblems& problems) {
+      check_schemes(of, problems);
+      seed_openings<Dim>(set, where, of, world, problems);
+    });
+  });
+}
+
+Contribution read_openings(Input& input, Scene& scene) {
+  OpeningsOfScene openings;
+  std::vector<std::optional<Expression>> where;
+  const bool is_there = input.elements("openings").value_or(0) > 0;
+  FlowRules rules{scene.dimension, scene.constants, {}, scene.grid};
+  if (const auto* force = scene.facts.find<BodyForce>()) rules.vertical = vertical_of(*force);
+  input.list("openings", "where liquid comes in through sides of the box, or leaves", 0, [&](Input& in, std::size_t) {
+    with_dimension(scene.dimension,
+                   [&](auto dim) { read_opening<dim()>(in, scene, rules, openings.of<dim()>(), where); });
+  });
+  if (!is_there || input.describing()) return {};
+  if (!is_conforming(scene)) {
+    input.problem("openings", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
+  }
+  openings.in_plane.vertical = openings.in_space.vertical = rules.vertical;
+  scene.facts.set(openings);
+  return [openings, where](const Scene& of, Recipe& recipe) { add_systems_of_openings(openings, where, of, recipe); };
+}
+
+/// What comes behind the systems of other parts in a slot.
+Contribution read_nothing(Input&, Scene&) {
+  return [](const Scene& scene, Recipe& recipe) {
+    if (!scene.facts.find<OpeningsOfScene>()) return;
+    recipe.seed(number_on);
+    recipe.add("assemble", "push_at_openings");
+    recipe.add("solve", "require_outlet", When::step);
+    recipe.add("correct", "take_opening_velocities", When::step);
+    recipe.add("accept", "move_columns", When::step);
+    recipe.add("accept", "let_out", When::step);
+    recipe.add("measure", "measure_openings", When::step);
+    recipe.add("measure", "measure_openings_at_start", When::standing);
+    recipe.add("measure", "balance_energy_of_openings");
+  };
+}
+
+}  // namespace
+
+void add_openings(SystemRegistry& registry) {
+  registry.add<LetIn>("let_in");
+  registry.add<GiveGradient>("give_gradient");
+  registry.add<OpenFaces>("open_faces");
+  registry.add<FillAtOpenings>("fill_at_openings");
+  registry.add<HoldInflow>("hold_inflow");
+  registry.add<PrescribeInflow>("prescribe_inflow");
+  registry.add(Part{"openings", "where liquid comes in through sides of the box, or leaves", read_openings});
+}
+
+void add_behind_openings(SystemRegistry& registry) {
+  registry.add<PushAtOpenings>("push_at_openings");
+  registry.add<RequireOutlet>("require_outlet");
+  registry.add<TakeOpeningVelocities>("take_opening_velocities");
+  registry.add<MoveColumns>("move_columns");
+  registry.add<LetOut>("let_out");
+  registry.add<MeasureOpenings>("measure_openings");
+  registry.add<MeasureOpeningsAtStart>("measure_openings_at_start");
+  registry.add<BalanceEnergyOfOpenings>("balance_energy_of_openings");
+  registry.add(Part{"behind_openings", "pressure outside openings, what leaves, balances; no key", read_nothing});
+}
+
+}  // namespace minamo

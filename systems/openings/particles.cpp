@@ -1,0 +1,359 @@
+#include "systems/openings/particles.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Constant body force per unit mass, of which there is a potential; else zero.
+template <int Dim>
+Vec<Dim> constant_force(const Grid<Dim>& grid, const BodyForce& b) {
+  Vec<Dim> force = Vec<Dim>::Zero();
+  for (int d = 0; d < Dim; ++d) {
+    const Expression& component = b.of_place_and_time[static_cast<std::size_t>(d)];
+    if (!component.is_constant()) return Vec<Dim>::Zero();
+    force[d] = component({});
+    if (force[d] != 0 && grid.periodic[static_cast<std::size_t>(d)]) return Vec<Dim>::Zero();
+  }
+  return force;
+}
+
+template <int Dim>
+double energy_of(double mass, const Vec<Dim>& from_low, const Vec<Dim>& v, const Vec<Dim>& force) {
+  return mass * (0.5 * v.squaredNorm() - force.dot(from_low));
+}
+
+/// The columns of an opening.
+template <int Dim>
+class Columns {
+ public:
+  Columns(const Opening<Dim>& opening, const Grid<Dim>& grid)
+      : grid_(grid), axis_(opening.side / 2), spacing_(opening.spacing(grid)) {
+    for (std::size_t e = 0; e < Dim; ++e) count_[e] = e == axis_ ? 1 : columns_along<Dim>(opening, grid, e);
+  }
+  std::size_t size() const {
+    std::size_t size = 1;
+    for (const std::size_t count : count_) size *= count;
+    return size;
+  }
+  double spacing() const { return spacing_; }
+  /// Calls use(nearest column, place) for all columns, and those further out that drift in within a step: they are as
+  /// far as the last one.
+  template <class Use>
+  void for_each_that_may_come(const Vec<Dim>& drift, const Vec<Dim>& along, double plane, const Use& use) const {
+    std::array<std::int64_t, static_cast<std::size_t>(Dim)> number{};
+    std::array<std::int64_t, static_cast<std::size_t>(Dim)> beyond{};
+    for (std::size_t e = 0; e < Dim; ++e) {
+      const bool may_be_beyond = e != axis_ && !grid_.periodic[e];
+      if (may_be_beyond)
+        beyond[e] = static_cast<std::int64_t>(std::abs(along[static_cast<Eigen::Index>(e)]) / spacing_) + 1;
+      number[e] = -beyond[e];
+    }
+    for (;;) {
+      std::size_t nearest = 0;
+      Vec<Dim> x;
+      for (std::size_t e = Dim; e-- > 0;) {
+        const auto count = static_cast<std::int64_t>(count_[e]);
+        nearest = nearest * count_[e] + static_cast<std::size_t>(std::clamp<std::int64_t>(number[e], 0, count - 1));
+        x[static_cast<Eigen::Index>(e)] = e == axis_ ? plane : place(e, number[e], drift);
+      }
+      use(nearest, x);
+      std::size_t e = 0;
+      while (e < Dim && ++number[e] == static_cast<std::int64_t>(count_[e]) + beyond[e]) {
+        number[e] = -beyond[e];
+        ++e;
+      }
+      if (e == Dim) return;
+    }
+  }
+  /// Where a column meets the side when it has drifted; one before the low end of axes with walls.
+  Vec<Dim> place(std::size_t k, const Vec<Dim>& drift, double plane) const {
+    Vec<Dim> x;
+    for (std::size_t e = 0; e < Dim; ++e) {
+      x[static_cast<Eigen::Index>(e)] = e == axis_ ? plane : place(e, static_cast<std::int64_t>(k % count_[e]), drift);
+      k /= count_[e];
+    }
+    return x;
+  }
+  /// Whether a particle comes in at a point of the side, and not beyond its ends. Of one that comes over an edge
+  /// between two openings, the side with the lower number has it, whatever rounding says.
+  bool is_on_side(const Vec<Dim>& x, const OpeningSet<Dim>& set) const {
+    constexpr double rounding = 1e-8;
+    for (std::size_t e = 0; e < Dim; ++e) {
+      if (e == axis_ || grid_.periodic[e]) continue;
+      const auto margin = [&](std::size_t beside) {
+        if (!set.opens(beside)) return 0.0;
+        return (e > axis_ ? rounding : -rounding) * spacing_;
+      };
+      const double at = x[static_cast<Eigen::Index>(e)];
+      const double low = grid_.low[static_cast<Eigen::Index>(e)] - margin(2 * e);
+      const double high = grid_.high[static_cast<Eigen::Index>(e)] + margin(2 * e + 1);
+      if (at < low || at >= high) return false;
+    }
+    return true;
+  }
+  /// Takes whole spacings from the drift, so that columns change their numbers.
+  void renumber(Vec<Dim>& drift, std::span<double> values) const {
+    for (std::size_t e = 0; e < Dim; ++e) {
+      double& along = drift[static_cast<Eigen::Index>(e)];
+      for (; along >= spacing_; along -= spacing_) shift(e, -1, values);
+      for (; along < 0; along += spacing_) shift(e, 1, values);
+    }
+  }
+
+ private:
+  /// Of a column along an axis; with walls number 0 is one before the low end.
+  double place(std::size_t e, std::int64_t number, const Vec<Dim>& drift) const {
+    const auto d = static_cast<Eigen::Index>(e);
+    return grid_.low[d] + spacing_ * (static_cast<double>(number) + (grid_.periodic[e] ? 0.5 : -0.5)) + drift[d];
+  }
+  /// Column k gets the value of column k + by along an axis.
+  void shift(std::size_t e, std::int64_t by, std::span<double> values) const {
+    const std::vector<double> old(values.begin(), values.end());
+    const auto count = static_cast<std::int64_t>(count_[e]);
+    std::size_t stride = 1;
+    for (std::size_t g = 0; g < e; ++g) stride *= count_[g];
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto own = static_cast<std::int64_t>(k / stride) % count;
+      std::int64_t from = own + by;
+      from = grid_.periodic[e] ? (from + count) % count : std::clamp<std::int64_t>(from, 0, count - 1);
+      values[k] = old[static_cast<std::size_t>(static_cast<std::int64_t>(k) +
+                                               (from - own) * static_cast<std::int64_t>(stride))];
+    }
+  }
+
+  const Grid<Dim>& grid_;
+  std::size_t axis_;
+  double spacing_;
+  std::array<std::size_t, static_cast<std::size_t>(Dim)> count_{};
+};
+
+/// A particle that comes in.
+template <int Dim>
+struct Arrival {
+  std::size_t opening;
+  Vec<Dim> x;
+  double size;
+  typename Side<Dim>::Jet velocity;
+};
+
+/// Mean over an opening of the velocity along its side: how fast its columns drift. [m/s]
+template <int Dim>
+Vec<Dim> drift_speed(const Opening<Dim>& opening, const Side<Dim>& side, const opening::SideVelocity<Dim>& w) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  double area = 0;
+  for (std::size_t k = 0; k < opening.share.size(); ++k) {
+    if (opening.share[k] == 0) continue;
+    const Index<Dim> site = side.site(k, side.axis());
+    const double weight = opening.share[k] * side.area(site);
+    const Vec<Dim> v = side.at(w, side.place(site, side.axis())).value;
+    area += weight;
+    sum += weight * v;
+  }
+  if (area > 0) sum /= area;
+  sum[static_cast<Eigen::Index>(side.axis())] = 0;
+  return sum;
+}
+
+template <int Dim>
+class Emission {
+ public:
+  Emission(const Clock& clock, const Grid<Dim>& grid, const Splines<Dim>& splines, const OpeningSet<Dim>& set,
+           double density)
+      : clock_(clock), grid_(grid), splines_(splines), set_(set), density_(density) {}
+
+  /// Moves the columns of an opening that prescribes its velocity by a step.
+  void prescribe(std::size_t o, std::span<double> front, Vec<Dim>& drift) {
+    const Opening<Dim>& opening = set_.openings[o];
+    const Side<Dim> side(grid_, splines_, opening.side);
+    const auto axis = static_cast<Eigen::Index>(side.axis());
+    const auto w_start = prescribed_velocity<Dim>(opening, set_, grid_, splines_, clock_.time);
+    const auto w = prescribed_velocity<Dim>(opening, set_, grid_, splines_,
+                                            clock_.time + 0.5 * (clock_.end_of_step - clock_.time));
+    const Columns<Dim> columns(opening, grid_);
+    const Vec<Dim> along = clock_.step * drift_speed<Dim>(opening, side, w);
+    const double a = columns.spacing();
+    const auto moved = [&](const Vec<Dim>& x) {
+      return side.inward() * clock_.step * side.at(w, side.within(x + 0.5 * along)).value[axis];
+    };
+    columns.for_each_that_may_come(drift, along, side.plane(), [&](std::size_t k, const Vec<Dim>& x) {
+      const double across = moved(x);
+      for (double depth = front[k]; depth + across > 0; depth -= a) {
+        if (!columns.is_on_side(x + (-depth / across) * along, set_)) continue;
+        Arrival<Dim> arrival{o, x, a, side.at(w_start, side.within(x))};
+        arrival.x[axis] += side.inward() * depth;
+        arrivals_.push_back(arrival);
+      }
+    });
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      front[k] += moved(columns.place(k, drift, side.plane()));
+      while (front[k] > 0) front[k] -= a;
+      while (front[k] <= -a) front[k] += a;
+    }
+    drift += along;
+    columns.renumber(drift, front);
+  }
+  /// Foresees what comes in through an opening with a pressure outside, with the speeds of the last step.
+  void foresee(std::size_t o, std::span<const double> front, std::span<const double> speed) {
+    const Opening<Dim>& opening = set_.openings[o];
+    const Side<Dim> side(grid_, splines_, opening.side);
+    const auto axis = static_cast<Eigen::Index>(side.axis());
+    const Columns<Dim> columns(opening, grid_);
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      if (speed[k] <= 0) continue;
+      const Vec<Dim> x = columns.place(k, Vec<Dim>::Zero(), side.plane());
+      if (!columns.is_on_side(x, set_) || pressure_outside<Dim>(opening, set_, density_, x, clock_.time) <= 0) continue;
+      for (double depth = front[k]; depth + clock_.step * speed[k] > 0; depth -= columns.spacing()) {
+        Arrival<Dim> arrival{o, x, columns.spacing(), {Vec<Dim>::Zero(), Mat<Dim>::Zero()}};
+        arrival.x[axis] += side.inward() * depth;
+        arrival.velocity.value[axis] = side.inward() * speed[k];
+        arrivals_.push_back(arrival);
+      }
+    }
+  }
+  const std::vector<Arrival<Dim>>& arrivals() const { return arrivals_; }
+
+ private:
+  const Clock& clock_;
+  const Grid<Dim>& grid_;
+  const Splines<Dim>& splines_;
+  const OpeningSet<Dim>& set_;
+  double density_;
+  std::vector<Arrival<Dim>> arrivals_;
+};
+
+/// The numbers of the columns of an opening among those of all.
+template <int Dim, class Use>
+void for_each_opening(const OpeningSet<Dim>& set, const Grid<Dim>& grid, const Use& use) {
+  std::size_t first = 0;
+  for (std::size_t o = 0; o < set.openings.size(); ++o) {
+    const std::size_t count = columns_of<Dim>(set.openings[o], grid);
+    use(o, first, count);
+    first += count;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::size_t columns_along(const Opening<Dim>& opening, const Grid<Dim>& grid, std::size_t axis) {
+  // Where there are walls one more: the columns that drift in from one end.
+  return static_cast<std::size_t>(opening.per_cell * grid.cells[axis]) + (grid.periodic[axis] ? 0 : 1);
+}
+
+template <int Dim>
+std::size_t columns_of(const Opening<Dim>& opening, const Grid<Dim>& grid) {
+  if (!opening.is_inflow()) return 0;
+  std::size_t count = 1;
+  for (std::size_t e = 0; e < Dim; ++e) count *= e == opening.side / 2 ? 1 : columns_along<Dim>(opening, grid, e);
+  return count;
+}
+
+template <int Dim>
+void LetIn<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                            Read<BodyForce> b, Read<OpeningSet<Dim>> set, Resize<Particles> particles,
+                            Update<particle::Id> id, Update<particle::Mass> m_p, Update<particle::Volume> V_p,
+                            Update<particle::Position<Dim>> x_p, Update<particle::Velocity<Dim>> v_p,
+                            Write<opening::Arrivals<Dim>> arrivals, Update<opening::Front> front,
+                            Read<opening::Speed> speed, Update<opening::Drift<Dim>> drift,
+                            Update<opening::NextId> next_id, Update<opening::MassIn> mass_in,
+                            Update<opening::EnergyIn> energy_in) const {
+  Emission<Dim> emission(*clock, *grid, *splines, *set, fluid->density);
+  for_each_opening<Dim>(*set, *grid, [&](std::size_t o, std::size_t first, std::size_t count) {
+    if (set->openings[o].is_prescribed()) {
+      emission.prescribe(o, front.span().subspan(first, count), drift[o]);
+    } else if (count > 0) {
+      emission.foresee(o, front.span().subspan(first, count), speed.span().subspan(first, count));
+    }
+  });
+  const std::size_t before = particles.rows();
+  arrivals->first_row = before;
+  arrivals->velocity_gradient.clear();
+  if (emission.arrivals().empty()) return;
+  particles.resize(before + emission.arrivals().size());
+  const Vec<Dim> force = constant_force<Dim>(*grid, *b);
+  std::size_t p = before;
+  for (const Arrival<Dim>& arrival : emission.arrivals()) {
+    id[p] = next_id->value++;
+    V_p[p] = std::pow(arrival.size, Dim);
+    m_p[p] = fluid->density * V_p[p];
+    x_p[p] = arrival.x;
+    v_p[p] = arrival.velocity.value;
+    arrivals->velocity_gradient.push_back(arrival.velocity.gradient);
+    mass_in[arrival.opening] += m_p[p];
+    energy_in[arrival.opening] += energy_of<Dim>(m_p[p], x_p[p] - grid->low, v_p[p], force);
+    ++p;
+  }
+}
+
+template <int Dim>
+void GiveGradient<Dim>::operator()(Read<opening::Arrivals<Dim>> arrivals,
+                                   Update<particle::VelocityGradient<Dim>> grad_v_p) const {
+  for (std::size_t k = 0; k < arrivals->velocity_gradient.size(); ++k)
+    grad_v_p[arrivals->first_row + k] = arrivals->velocity_gradient[k];
+}
+
+template <int Dim>
+void MoveColumns<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                  Read<Fluid> fluid, Read<OpeningSet<Dim>> set,
+                                  Read<opening::Velocities<Dim>> velocities, Update<opening::Front> front,
+                                  Update<opening::Speed> speed) const {
+  for_each_opening<Dim>(*set, *grid, [&](std::size_t o, std::size_t first, std::size_t count) {
+    const Opening<Dim>& opening = set->openings[o];
+    if (!opening.has_pressure()) return;
+    const Side<Dim> side(*grid, *splines, opening.side);
+    const auto axis = static_cast<Eigen::Index>(side.axis());
+    const Columns<Dim> columns(opening, *grid);
+    const double a = columns.spacing();
+    for (std::size_t k = first; k < first + count; ++k) {
+      const Vec<Dim> x = columns.place(k - first, Vec<Dim>::Zero(), side.plane());
+      const bool is_wet =
+          columns.is_on_side(x, *set) && pressure_outside<Dim>(opening, *set, fluid->density, x, clock->time) > 0;
+      const double now = is_wet ? side.inward() * side.at(velocities->in_balances[o], side.within(x)).value[axis] : 0;
+      const double moved = clock->step * now;
+      // What was foreseen has come in as far as the column has moved.
+      double depth = front[k];
+      while (speed[k] > 0 && depth + std::min(clock->step * speed[k], moved) > 0) depth -= a;
+      front[k] = depth + moved;
+      while (front[k] <= -a) front[k] += a;
+      speed[k] = now;
+    }
+  });
+}
+
+template <int Dim>
+void LetOut<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodyForce> b,
+                             Read<OpeningSet<Dim>> set, Resize<Particles> particles, Read<particle::Mass> m_p,
+                             Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                             Update<opening::MassIn> mass_in, Update<opening::EnergyIn> energy_in) const {
+  const Vec<Dim> force = constant_force<Dim>(*grid, *b);
+  std::vector<std::optional<std::uint32_t>> stay;
+  stay.reserve(x_p.size());
+  for (std::size_t p = 0; p < x_p.size(); ++p) {
+    const int through = set->left_through(*grid, *splines, x_p[p]);
+    if (through == no_opening) {
+      stay.emplace_back(static_cast<std::uint32_t>(p));
+      continue;
+    }
+    const auto o = static_cast<std::size_t>(through);
+    mass_in[o] -= m_p[p];
+    energy_in[o] -= energy_of<Dim>(m_p[p], x_p[p] - grid->low, v_p[p], force);
+  }
+  if (stay.size() < x_p.size()) particles.renumber(stay);
+}
+
+template std::size_t columns_along<2>(const Opening<2>&, const Grid<2>&, std::size_t);
+template std::size_t columns_along<3>(const Opening<3>&, const Grid<3>&, std::size_t);
+template std::size_t columns_of<2>(const Opening<2>&, const Grid<2>&);
+template std::size_t columns_of<3>(const Opening<3>&, const Grid<3>&);
+template struct LetIn<2>;
+template struct LetIn<3>;
+template struct GiveGradient<2>;
+template struct GiveGradient<3>;
+template struct MoveColumns<2>;
+template struct MoveColumns<3>;
+template struct LetOut<2>;
+template struct LetOut<3>;
+
+}  // namespace minamo
