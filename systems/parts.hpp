@@ -12,11 +12,13 @@ void add_grid(SystemRegistry& registry);             // grid/
 void add_walls(SystemRegistry& registry);            // grid/
 void add_quadrature(SystemRegistry& registry);       // assemble/
 void add_fluid(SystemRegistry& registry);            // assemble/
+void add_opening_faces(SystemRegistry& registry);    // openings/
 void add_bodies(SystemRegistry& registry);           // bodies/
 void add_particles(SystemRegistry& registry);        // setup/
 void add_body_force(SystemRegistry& registry);       // time/
 void add_openings(SystemRegistry& registry);         // openings/
 void add_transfer(SystemRegistry& registry);         // transfer/
+void add_sponge(SystemRegistry& registry);           // openings/
 void add_integrator(SystemRegistry& registry);       // time/
 void add_solver(SystemRegistry& registry);           // solve/
 void add_stabilization(SystemRegistry& registry);    // assemble/

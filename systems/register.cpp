@@ -11,11 +11,13 @@ void register_parts(SystemRegistry& registry) {
   add_walls(registry);
   add_quadrature(registry);
   add_fluid(registry);
+  add_opening_faces(registry);
   add_bodies(registry);
   add_particles(registry);
   add_body_force(registry);
   add_openings(registry);
   add_transfer(registry);
+  add_sponge(registry);
   add_integrator(registry);
   add_solver(registry);
   add_stabilization(registry);

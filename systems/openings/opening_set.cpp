@@ -133,9 +133,12 @@ FaceCondition condition_at(const OpeningSet<Dim>& set, const Grid<Dim>& grid, co
       if ((walls.held[e][side % 2] & bit) != 0) return {true};
       continue;
     }
+    const Opening<Dim>& of_side = set.openings[static_cast<std::size_t>(opening)];
     // What is prescribed across a side goes before what is prescribed along another one.
-    if (set.openings[static_cast<std::size_t>(opening)].is_prescribed()) {
+    if (of_side.is_prescribed()) {
       if (!condition.is_held || e == d) condition = {true, opening};
+    } else if (of_side.has_pressure() && e != d) {
+      if (!condition.is_held) condition = {true, no_opening};
     } else if (!condition.is_held && (e == d || condition.opening == no_opening)) {
       condition.opening = opening;
     }

@@ -270,9 +270,7 @@ void add_systems_of_openings(const OpeningsOfScene& openings, const std::vector<
                              const Scene& scene, Recipe& recipe) {
   recipe.add("configure", "let_in", When::step);
   if (scene.facts.get<TransferScheme>().carries_gradient) recipe.add("configure", "give_gradient", When::step);
-  recipe.add("sort", "open_faces");
   recipe.add("boundaries", "fill_at_openings");
-  recipe.add("boundaries", "hold_inflow");
   recipe.add("forces", "prescribe_inflow");
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
@@ -302,6 +300,15 @@ Contribution read_openings(Input& input, Scene& scene) {
   return [openings, where](const Scene& of, Recipe& recipe) { add_systems_of_openings(openings, where, of, recipe); };
 }
 
+/// What comes before the bodies: they extend velocities to faces that nothing holds.
+Contribution read_nothing_before_bodies(Input&, Scene&) {
+  return [](const Scene& scene, Recipe& recipe) {
+    if (!scene.facts.find<OpeningsOfScene>()) return;
+    recipe.add("sort", "open_faces");
+    recipe.add("boundaries", "hold_inflow");
+  };
+}
+
 /// What comes behind the systems of other parts in a slot.
 Contribution read_nothing(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
@@ -320,12 +327,16 @@ Contribution read_nothing(Input&, Scene&) {
 
 }  // namespace
 
+void add_opening_faces(SystemRegistry& registry) {
+  registry.add<OpenFaces>("open_faces");
+  registry.add<HoldInflow>("hold_inflow");
+  registry.add(Part{"opening_faces", "faces that openings hold, or leave open; no key", read_nothing_before_bodies});
+}
+
 void add_openings(SystemRegistry& registry) {
   registry.add<LetIn>("let_in");
   registry.add<GiveGradient>("give_gradient");
-  registry.add<OpenFaces>("open_faces");
   registry.add<FillAtOpenings>("fill_at_openings");
-  registry.add<HoldInflow>("hold_inflow");
   registry.add<PrescribeInflow>("prescribe_inflow");
   registry.add(Part{"openings", "where liquid comes in through sides of the box, or leaves", read_openings});
 }

@@ -25,6 +25,14 @@ struct OpeningsOfScene {
   }
 };
 
+/// Most particles per cell and direction that come in.
+inline int most_per_cell(const OpeningsOfScene& openings) {
+  int most = 1;
+  for (const auto& opening : openings.in_plane.openings) most = std::max(most, opening.per_cell);
+  for (const auto& opening : openings.in_space.openings) most = std::max(most, opening.per_cell);
+  return most;
+}
+
 /// Whether liquid comes in, so that there may be more of it than at the start.
 inline bool has_inflow(const OpeningsOfScene& openings) {
   const auto is_inflow = [](const auto& opening) { return opening.is_inflow(); };

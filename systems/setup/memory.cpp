@@ -3,6 +3,7 @@
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/bodies/outlines.hpp"
 #include "systems/conforming/friction_choice.hpp"
+#include "systems/openings/openings_part.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
 
@@ -39,6 +40,17 @@ double bytes_of_bodies(const Scene& scene) {
   });
 }
 
+/// What comes in may fill the box.
+SceneSize grown(const Scene& scene, SceneSize size) {
+  const auto* openings = scene.facts.find<OpeningsOfScene>();
+  if (!openings || !has_inflow(*openings)) return size;
+  double places = 1;
+  for (const int cells : scene.grid.cells) places *= static_cast<double>(cells) * most_per_cell(*openings);
+  size.particles = std::max(size.particles, places);
+  size.nodes = size.all_nodes;
+  return size;
+}
+
 }  // namespace
 
 int fewest_per_cell(const Scene& scene) {
@@ -47,7 +59,8 @@ int fewest_per_cell(const Scene& scene) {
   return fewest;
 }
 
-double memory_of(const Scene& scene, const SceneSize& size) {
+double memory_of(const Scene& scene, const SceneSize& at_start) {
+  const SceneSize size = grown(scene, at_start);
   constexpr double program = 30e6;
   const double bytes_per_particle = scene.dimension == 2 ? 400 : 500;
   const double nodes = std::min(size.nodes * spread(scene), size.all_nodes);

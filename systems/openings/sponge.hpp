@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// Sponge layers: regions that draw the velocity of the liquid towards a given one, so that waves end there.
+
+#include "components/grid.hpp"
+#include "components/instant.hpp"
+#include "components/particle.hpp"
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+
+#include <optional>
+
+namespace minamo {
+
+struct Sponge {
+  std::optional<Expression> where;  ///< in x, y, z, t; none: everywhere
+  Expression rate;                  ///< in x, y, z, t; less than zero counts as zero [1/s]
+  std::vector<double> toward;       ///< [m/s]
+};
+
+struct Sponges {
+  std::vector<Sponge> sponges;
+  static constexpr ComponentInfo info{"sponges", "", "1/s, m/s", Lifetime::constant};
+};
+
+/// (E102)  v_p <- v_s + (v_p - v_s) exp(-r dt), at y_p.
+/// \throws StepRejected if a rate is not a number
+template <int Dim>
+struct SoakVelocity {
+  static constexpr std::string_view doc = "(E102) v_p in sponges";
+  void operator()(Read<Clock> clock, Read<Sponges> sponges, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Update<particle::Velocity<Dim>> v_p) const;
+};
+
+/// (E102)  grad v_p <- grad v_p exp(-r dt).
+template <int Dim>
+struct SoakGradient {
+  static constexpr std::string_view doc = "(E102) grad v_p in sponges";
+  void operator()(Read<Clock> clock, Read<Sponges> sponges, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Update<particle::VelocityGradient<Dim>> grad_v_p) const;
+};
+
+}  // namespace minamo

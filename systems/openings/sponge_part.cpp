@@ -1,0 +1,50 @@
+#include "systems/openings/sponge.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/discretization.hpp"
+#include "systems/setup/scene_checks.hpp"
+#include "systems/transfer/scheme.hpp"
+
+namespace minamo {
+
+namespace {
+
+Sponge read_one(Input& in, const Scene& scene) {
+  const ExpressionScope scope = scene_scope(scene.constants);
+  Sponge sponge;
+  sponge.where = in.optional_expression("where", scope, {.doc = "where it is; without it, everywhere"});
+  sponge.rate = in.expression(
+      "rate", scope,
+      {.unit = "1/s", .doc = "at which the liquid takes over the velocity; best rising slowly", .at_least = 0});
+  sponge.toward = in.numbers("toward", static_cast<std::size_t>(scene.dimension),
+                             {.unit = "m/s", .doc = "the velocity", .fallback = 0});
+  if (in.describing()) return sponge;
+  if (sponge.where) check_coordinates(in, "where", *sponge.where, scene.dimension);
+  check_coordinates(in, "rate", sponge.rate, scene.dimension);
+  return sponge;
+}
+
+Contribution read_sponges(Input& input, Scene& scene) {
+  Sponges sponges;
+  const bool is_there = input.elements("sponge").value_or(0) > 0;
+  input.list("sponge", "regions that draw the liquid towards a velocity, so that waves end there", 0,
+             [&](Input& in, std::size_t) { sponges.sponges.push_back(read_one(in, scene)); });
+  if (!is_there || input.describing()) return {};
+  if (!is_conforming(scene)) {
+    input.problem("sponge", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
+  }
+  return [sponges](const Scene& of, Recipe& recipe) {
+    recipe.constant(sponges);
+    recipe.add("g2p", "soak_velocity", When::step);
+    if (of.facts.get<TransferScheme>().carries_gradient) recipe.add("g2p", "soak_gradient", When::step);
+  };
+}
+
+}  // namespace
+
+void add_sponge(SystemRegistry& registry) {
+  registry.add<SoakVelocity>("soak_velocity");
+  registry.add<SoakGradient>("soak_gradient");
+  registry.add(Part{"sponge", "regions that draw the liquid towards a velocity", read_sponges});
+}
+
+}  // namespace minamo
