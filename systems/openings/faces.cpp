@@ -119,28 +119,33 @@ constexpr double full_from = 0.5;
 
 /// Weights of a point along an axis on the multipliers of its cell, with what a lattice that ends at an open side
 /// misses.
-template <int Dim, int K>
+template <int K>
 struct EndWeights {
   std::array<double, K> plain{};
   std::array<double, K> ended{};
 };
 
-template <int Dim, int K>
-EndWeights<Dim, K> end_weights(const CellFrame<Dim>& frame, std::size_t e, double xi, double size, bool low,
-                               bool high) {
-  EndWeights<Dim, K> weights;
-  const CellSplines& of = *frame.splines[e];
-  for (std::size_t a = 0; a < K; ++a) weights.plain[a] = polynomial<K - 1>(of.across[a], xi);
+/// From 0 to 1 within rounding of zero: of particles that a lattice has on a side and a spacing away, one counts for
+/// the other, whatever rounding says about each. \param s  distance [a]
+double past(double s) {
+  constexpr double rounding = 1e-9;
+  return std::clamp((s + rounding) / (2 * rounding), 0.0, 1.0);
+}
+
+/// \param splines  of the cell along the axis
+/// \param xi       place in the cell
+/// \param s        distance from the open side, less than zero outside [a]
+template <int K>
+EndWeights<K> end_weights(const CellSplines& splines, double xi, const std::array<std::optional<double>, 2>& s) {
+  EndWeights<K> weights;
+  for (std::size_t a = 0; a < K; ++a) weights.plain[a] = polynomial<K - 1>(splines.across[a], xi);
   weights.ended = weights.plain;
-  const auto end_at = [&](double distance, std::size_t outermost) {
-    if (distance <= 2 * off_wall) {
-      weights.ended.fill(0);
-    } else if (distance < size) {
-      weights.ended[outermost] += distance / size - 0.5;
-    }
-  };
-  if (low) end_at(xi, 0);
-  if (high) end_at(1 - xi, K - 1);
+  for (const std::size_t end : {0, 1}) {
+    if (!s[end]) continue;
+    const double is_in = past(*s[end]);
+    for (double& weight : weights.ended) weight *= is_in;
+    weights.ended[end == 0 ? 0 : K - 1] += (is_in - past(*s[end] - 1)) * (*s[end] - 0.5);
+  }
   return weights;
 }
 
@@ -180,33 +185,42 @@ void PrescribeInflow<Dim>::operator()(Read<Clock> clock, Read<Rates> rates, Read
 }
 
 template <int Dim>
-void FillAtOpenings<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
-                                     Read<GridCells<Dim>> cells, Read<CellSites> sites,
+void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                     Read<OpeningSet<Dim>> set, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+                                     Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                                      Update<multiplier::Volume> v_l) const {
+  const auto is_beside = [&](const Index<Dim>& cell, std::size_t side) {
+    return set->opens(side) && cell[side / 2] == (side % 2 == 0 ? 0 : grid->cells[side / 2] - 1);
+  };
+  // y_p is kept inside the box; how far outside a particle is tells where it would be.
+  const auto distance = [&](std::size_t p, std::size_t side) {
+    const Side<Dim> of(*grid, *splines, side);
+    const auto axis = static_cast<Eigen::Index>(of.axis());
+    const double inside = of.inward() * (y_p[p][axis] - of.plane());
+    if (inside > 2 * off_wall * grid->spacing) return inside;
+    return of.inward() * (x_p[p][axis] + 0.5 * clock->step * v_p[p][axis] - of.plane());
+  };
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
-      bool is_beside = false;
-      for (std::size_t side = 0; side < 2 * Dim; ++side) {
-        const int outermost = side % 2 == 0 ? 0 : grid->cells[side / 2] - 1;
-        is_beside = is_beside || (set->opens(side) && cell.node[side / 2] == outermost);
-      }
-      if (!is_beside) return;
-      const auto opens = [&](std::size_t side, std::size_t p) {
-        const int outermost = side % 2 == 0 ? 0 : grid->cells[side / 2] - 1;
-        return set->opens(side) && cell.node[side / 2] == outermost &&
-               set->at(*grid, *splines, side, y_p[p]) != no_opening;
-      };
+      bool is_at_end = false;
+      for (std::size_t side = 0; side < 2 * Dim; ++side) is_at_end = is_at_end || is_beside(cell.node, side);
+      if (!is_at_end) return;
       const CellFrame<Dim> frame(*grid, *splines, cell.node);
       const std::uint32_t* rows = sites->of(c);
       for (std::size_t p = cell.begin; p < cell.end; ++p) {
         const Vec<Dim> xi = frame.local(y_p[p]);
-        const double size = std::pow(V_p[p], 1.0 / Dim) / grid->spacing;
-        std::array<EndWeights<Dim, K>, static_cast<std::size_t>(Dim)> weights;
+        const double size = std::pow(V_p[p], 1.0 / Dim);
+        std::array<EndWeights<K>, static_cast<std::size_t>(Dim)> weights;
         for (std::size_t e = 0; e < Dim; ++e) {
-          weights[e] = end_weights<Dim, K>(frame, e, xi[static_cast<Eigen::Index>(e)], size, opens(2 * e, p),
-                                           opens(2 * e + 1, p));
+          std::array<std::optional<double>, 2> s;
+          for (const std::size_t end : {0, 1}) {
+            const std::size_t side = 2 * e + end;
+            if (is_beside(cell.node, side) && set->at(*grid, *splines, side, y_p[p]) != no_opening)
+              s[end] = distance(p, side) / size;
+          }
+          weights[e] = end_weights<K>(*frame.splines[e], xi[static_cast<Eigen::Index>(e)], s);
         }
         for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
           double plain = V_p[p];

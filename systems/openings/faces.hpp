@@ -44,8 +44,9 @@ struct PrescribeInflow {
 template <int Dim>
 struct FillAtOpenings {
   static constexpr std::string_view doc = "(E98) V~_l beside openings, where lattices end";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
-                  Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
+                  Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Position<Dim>> x_p,
+                  Read<particle::Velocity<Dim>> v_p, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Volume> V_p, Update<multiplier::Volume> v_l) const;
 };
 

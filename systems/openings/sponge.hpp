@@ -23,21 +23,25 @@ struct Sponges {
   static constexpr ComponentInfo info{"sponges", "", "1/s, m/s", Lifetime::constant};
 };
 
+/// Share exp(-r dt) of what sponges leave of a particle's velocity relative to theirs. [1]
+struct SpongeShare : Column<Particles, double> {
+  static constexpr ComponentInfo info{"sponge.share", "", "1", Lifetime::scratch};
+};
+
 /// (E102)  v_p <- v_s + (v_p - v_s) exp(-r dt), at y_p.
 /// \throws StepRejected if a rate is not a number
 template <int Dim>
 struct SoakVelocity {
   static constexpr std::string_view doc = "(E102) v_p in sponges";
   void operator()(Read<Clock> clock, Read<Sponges> sponges, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Update<particle::Velocity<Dim>> v_p) const;
+                  Write<SpongeShare> kept, Update<particle::Velocity<Dim>> v_p) const;
 };
 
 /// (E102)  grad v_p <- grad v_p exp(-r dt).
 template <int Dim>
 struct SoakGradient {
   static constexpr std::string_view doc = "(E102) grad v_p in sponges";
-  void operator()(Read<Clock> clock, Read<Sponges> sponges, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Update<particle::VelocityGradient<Dim>> grad_v_p) const;
+  void operator()(Read<SpongeShare> kept, Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 
 }  // namespace minamo
