@@ -189,7 +189,8 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
                                      Read<OpeningSet<Dim>> set, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                      Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
-                                     Update<multiplier::Volume> v_l) const {
+                                     Update<multiplier::Volume> v_l, Update<multiplier::Curvature> curvature) const {
+  const std::vector<double> plain_volume(v_l.begin(), v_l.end());
   const auto is_beside = [&](const Index<Dim>& cell, std::size_t side) {
     return set->opens(side) && cell[side / 2] == (side % 2 == 0 ? 0 : grid->cells[side / 2] - 1);
   };
@@ -233,6 +234,13 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
         });
       }
     });
+  });
+  for_each_row(v_l.size(), [&](std::size_t i) {
+    if (v_l[i] == plain_volume[i]) return;
+    // Where all particles are outside, rounding is left, and nothing must be divided by it.
+    constexpr double rounding = 1e-10;
+    if (v_l[i] < rounding * plain_volume[i]) v_l[i] = 0;
+    curvature[i] *= v_l[i] / plain_volume[i];
   });
 }
 

@@ -40,14 +40,15 @@ struct PrescribeInflow {
 
 /// (E98)  Particles that lie nearer to an opening than their size a are where a lattice ends: what a sum over it misses
 /// or has too much, (s/a - 1/2) V_p N_l on the side at a distance s, is added to V~_l. Particles that are outside in
-/// the middle of the step count nothing.
+/// the middle of the step count nothing. What particles bring of (E63) is in proportion.
 template <int Dim>
 struct FillAtOpenings {
   static constexpr std::string_view doc = "(E98) V~_l beside openings, where lattices end";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Volume> V_p, Update<multiplier::Volume> v_l) const;
+                  Read<particle::Volume> V_p, Update<multiplier::Volume> v_l,
+                  Update<multiplier::Curvature> curvature) const;
 };
 
 /// (E99)  v*_f gets tau F_f/m_f of the pressure outside, F_f = -n int N_f p dA; of what comes in p is less by
