@@ -1,0 +1,33 @@
+#include "systems/bodies/read_body_wall.hpp"
+
+#include "systems/grid/read_wall.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+BodyWall read_body_wall(Input& input, const Scene& scene) {
+  const WallWords words{.names = {"slip", "no_slip"},
+                        .lengths = {"slip_length"},
+                        .shortest = 1e-9 * scene.grid.spacing,
+                        .constants = scene.constants};
+  const Json schema{{"description", R"(what its surface does to the liquid: "slip", "no_slip" or {"slip_length": m})"},
+                    {"oneOf", {{{"enum", words.names}}, slip_length_schema(words)}}};
+  const Side side = read_wall(input, "wall", input.raw("wall", schema, "slip"), words, words.names);
+  if (side.length > 0) return {BodyWall::Kind::slip_length, side.length};
+  return {side.condition == "slip" ? BodyWall::Kind::slip : BodyWall::Kind::no_slip};
+}
+
+BodyWall wall_on_grid(const BodyWall& wall, Friction friction, double spacing) {
+  if (wall.kind == BodyWall::Kind::slip) return wall;
+  if (friction == Friction::at_start) {
+    constexpr double film = 0.05;
+    return {BodyWall::Kind::slip_length, std::max(wall.slip_length, film * spacing)};
+  }
+  constexpr double none_below = 0.1;
+  constexpr double least = 0.2;
+  if (wall.slip_length < none_below * spacing) return {BodyWall::Kind::no_slip};
+  return {BodyWall::Kind::slip_length, std::max(wall.slip_length, least * spacing)};
+}
+
+}  // namespace minamo
