@@ -178,13 +178,6 @@ void seed_bodies(BodySet<Dim> set, World& world) {
   }
 }
 
-/// (E110) costs something: not where a liquid that flows easily slips along all bodies.
-bool finds_friction(const BodiesOfScene& bodies, const Scene& scene) {
-  const Friction friction = friction_of(scene);
-  const bool any_rubs = bodies.in_plane.any_rubs() || bodies.in_space.any_rubs();
-  return friction == Friction::in_balances || (friction == Friction::at_start && any_rubs);
-}
-
 void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
   const bool rubs = finds_friction(bodies, scene);
   recipe.add("sort", "place_bodies");
@@ -257,6 +250,12 @@ Contribution read_nothing(Input&, Scene&) {
 }
 
 }  // namespace
+
+bool finds_friction(const BodiesOfScene& bodies, const Scene& scene) {
+  const Friction friction = friction_of(scene);
+  const bool any_rubs = bodies.in_plane.any_rubs() || bodies.in_space.any_rubs();
+  return friction == Friction::in_balances || (friction == Friction::at_start && any_rubs);
+}
 
 void add_bodies(SystemRegistry& registry) {
   registry.add<PlaceBodies>("place_bodies");

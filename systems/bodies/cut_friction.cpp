@@ -213,18 +213,30 @@ void fill_cell_of_degree(const Cutters<Dim>& cutters, const Grid<Dim>& grid, con
 }
 
 template <int Dim>
+std::size_t cells_of(const Grid<Dim>& grid) {
+  std::size_t cells = 1;
+  for (const int count : grid.cells) cells *= static_cast<std::size_t>(count);
+  return cells;
+}
+
+template <int Dim>
 std::size_t faces_of_cell(int degree) {
   return degree == 2 ? cell_faces<Dim, 2> : cell_faces<Dim, 3>;
 }
 
 }  // namespace
 
-double bytes_per_cut_cell(int dimension, int degree) {
-  const auto bytes = [](std::size_t faces, std::size_t motions) {
-    return static_cast<double>(sizeof(double) * (faces * faces + faces + faces * motions + motions * motions));
-  };
-  return dimension == 2 ? bytes(faces_of_cell<2>(degree), rigid_motions<2>)
-                        : bytes(faces_of_cell<3>(degree), rigid_motions<3>);
+template <int Dim>
+double cut_friction_bytes(const BodySet<Dim>& set, const Grid<Dim>& grid, int degree) {
+  const auto bodies = PlacedBodies<Dim>::at_start(set);
+  std::size_t cut = 0;
+  for (std::size_t c = 0; c < cells_of<Dim>(grid); ++c) {
+    const double distance = bodies.distance(middle_of<Dim>(grid, index_in<Dim>(grid.cells, c)));
+    if (!bodies.bounded() || std::abs(distance) <= reach_of_cell<Dim>(grid)) ++cut;
+  }
+  CutMatrices<Dim> one;
+  one.clear(faces_of_cell<Dim>(degree));
+  return static_cast<double>(cut * one.bytes_per_cell());
 }
 
 template <int Dim>
@@ -232,14 +244,14 @@ FrictionAtRest<Dim> friction_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
   FrictionAtRest<Dim> friction;
   if (std::all_of(set.bodies.begin(), set.bodies.end(), [](const auto& body) { return body.moves(); })) return friction;
   const auto bodies = PlacedBodies<Dim>::at_start(set);
-  std::size_t cells = 1;
-  for (const int count : grid.cells) cells *= static_cast<std::size_t>(count);
+  const std::size_t cells = cells_of<Dim>(grid);
   friction.place.assign(cells, CutFriction<Dim>::whole);
   friction.matrices.clear(faces_of_cell<Dim>(splines.degree));
   std::vector<std::size_t> cut;
   for (std::size_t c = 0; c < cells; ++c) {
     const double distance = bodies.distance(middle_of<Dim>(grid, index_in<Dim>(grid.cells, c)), false);
-    if (bodies.bounded() && distance > reach_of_cell<Dim>(grid)) continue;
+    // Deep inside there are no particles.
+    if (bodies.bounded() && std::abs(distance) > reach_of_cell<Dim>(grid)) continue;
     friction.place[c] = static_cast<std::int32_t>(cut.size());
     cut.push_back(c);
   }
@@ -282,6 +294,8 @@ void FindCutFriction<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
   });
 }
 
+template double cut_friction_bytes<2>(const BodySet<2>&, const Grid<2>&, int);
+template double cut_friction_bytes<3>(const BodySet<3>&, const Grid<3>&, int);
 template FrictionAtRest<2> friction_at_rest<2>(const BodySet<2>&, const Grid<2>&, const Splines<2>&);
 template FrictionAtRest<3> friction_at_rest<3>(const BodySet<3>&, const Grid<3>&, const Splines<3>&);
 template struct FindCutFriction<2>;

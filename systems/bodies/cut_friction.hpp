@@ -15,8 +15,9 @@ namespace minamo {
 template <int Dim>
 FrictionAtRest<Dim> friction_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines);
 
-/// Bytes of those matrices per cell that is cut.
-double bytes_per_cut_cell(int dimension, int degree);
+/// Largest memory that friction of cut cells takes: that of all bodies where they are at the start. [byte]
+template <int Dim>
+double cut_friction_bytes(const BodySet<Dim>& set, const Grid<Dim>& grid, int degree);
 
 template <int Dim>
 struct FindCutFriction {

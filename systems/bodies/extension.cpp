@@ -1,6 +1,7 @@
 #include "systems/bodies/extension.hpp"
 
 #include "systems/bodies/cut.hpp"
+#include "systems/conforming/friction_matrices.hpp"
 
 #include <Eigen/Dense>
 
@@ -21,6 +22,7 @@ template <int Dim>
 struct Around {
   std::array<std::uint32_t, power(across, Dim)> row;
   std::array<Vec<Dim>, power(across, Dim)> offset;  ///< in units of h
+  std::array<double, power(across, Dim)> filled;    ///< what of the cells around is liquid [1]
   std::size_t count = 0;
 };
 
@@ -37,7 +39,7 @@ void fit(const Around<Dim>& around, std::span<double> weight) {
   };
   const auto nearness = [&](std::size_t k) {
     const double square = around.offset[k].squaredNorm();
-    return 1 / (square * square);
+    return around.filled[k] / (square * square);
   };
   double sum = 0;
   for (std::size_t k = 0; k < around.count; ++k) {
@@ -58,7 +60,7 @@ void fit_beside_wall(const Around<Dim>& around, const Vec<Dim>& wall, std::span<
   double sum = 0;
   for (std::size_t k = 0; k < around.count; ++k) {
     const Vec<Dim> from_wall = around.offset[k] - wall;
-    const double near = 1 / around.offset[k].squaredNorm();
+    const double near = around.filled[k] / around.offset[k].squaredNorm();
     normal += near * from_wall * from_wall.transpose();
     sum += near;
   }
@@ -66,7 +68,7 @@ void fit_beside_wall(const Around<Dim>& around, const Vec<Dim>& wall, std::span<
   const Vec<Dim> slope = normal.ldlt().solve(Vec<Dim>(-wall));
   for (std::size_t k = 0; k < around.count; ++k) {
     const Vec<Dim> from_wall = around.offset[k] - wall;
-    weight[k] = slope.dot(from_wall) / around.offset[k].squaredNorm();
+    weight[k] = around.filled[k] / around.offset[k].squaredNorm() * slope.dot(from_wall);
   }
 }
 
@@ -80,6 +82,26 @@ Vec<Dim> nearest_of_surface(const Shape<Dim>& shape, const Placement<Dim>& place
     x -= placement.distance(shape, x) / square * slope;
   }
   return x;
+}
+
+/// What of the cells that a face covers its particles fill, by row and direction; some of it at least. [1]
+template <int Dim>
+std::vector<Vec<Dim>> filled_around_faces(const Grid<Dim>& grid, const Splines<Dim>& splines,
+                                          const OccupiedCells<Dim>& cells, const CellSites& sites,
+                                          std::span<const double> V_p, std::size_t rows) {
+  constexpr double some = 1e-6;
+  std::vector<Vec<Dim>> filled(rows, Vec<Dim>::Constant(some));
+  with_degree(splines.degree, [&](auto degree) {
+    constexpr int K = degree();
+    const double per_volume = std::pow(grid.spacing, -Dim) * Dim / static_cast<double>(cell_faces<Dim, K>);
+    for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto& cell) {
+      double volume = 0;
+      for (std::size_t p = cell.begin; p < cell.end; ++p) volume += V_p[p];
+      for_each_cell_face<Dim, K>(
+          [&](std::size_t, std::size_t k, Eigen::Index d) { filled[sites.of(c)[k]][d] += per_volume * volume; });
+    });
+  });
+  return filled;
 }
 
 /// The body that liquid at a place sticks to, if the nearest one is such a body.
@@ -102,16 +124,17 @@ struct Sticks {
 }  // namespace
 
 template <int Dim>
-void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                        Read<StaggeredIndex<Dim>> rows, Read<BodySet<Dim>> set,
-                                        Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                                        Read<staggered::Site<Dim>> site, Read<face::Held> held,
-                                        Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
-                                        Write<FaceExtension<Dim>> extension) const {
+void FindFaceExtension<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<BodySet<Dim>> set,
+    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells,
+    Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<staggered::Site<Dim>> site, Read<face::Held> held,
+    Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume, Write<FaceExtension<Dim>> extension) const {
   constexpr std::size_t most = power(across, Dim);
   const SitePlaces<Dim> places(*grid, *splines);
   const Sticks<Dim> sticks{*set, {*set, c_b.span(), R_b.span()}};
   const bool rubs = set->any_rubs();
+  std::vector<Vec<Dim>> filled;
+  if (set->rubs) filled = filled_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), site.size());
   std::vector<std::uint8_t> is_open(site.size());
   for_each_row(site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -164,6 +187,7 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
         if (!splines->axis[d].periodic()) offset[axis] = (y[axis] - x[axis]) / grid->spacing;
       }
       around.row[around.count] = *row;
+      around.filled[around.count] = filled.empty() ? 1 : filled[*row][target.direction];
       around.offset[around.count++] = offset;
     }
     const auto weight = std::span(extension->weight).subspan(target.begin, most);

@@ -6,10 +6,13 @@
 /// by much, as beside a fast body, such a function leads far away: a value stays near those that it is made of.
 ///
 /// (E110) Beside a body that the liquid sticks to the function has the velocity of the body at the nearest point of its
-/// surface, and faces close to it count as closed.
+/// surface, and faces close to it count as closed. Where friction pulls at closed faces, an open one counts as much as
+/// it has particles around: one with next to none would otherwise follow a closed one at any speed.
 
 #include "components/body.hpp"
+#include "components/cells.hpp"
 #include "components/grid.hpp"
+#include "components/particle.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
@@ -27,6 +30,7 @@ struct FindFaceExtension {
   static constexpr std::string_view doc = "(E87) what velocities of closed faces are made of";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                  Read<GridCells<Dim>> cells, Read<CellSites> cell_sites, Read<particle::Volume> V_p,
                   Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Open<Dim>> open,
                   Read<face::OpenVolume<Dim>> open_volume, Write<FaceExtension<Dim>> extension) const;
 };

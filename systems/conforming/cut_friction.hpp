@@ -32,6 +32,8 @@ class CutMatrices {
     return first;
   }
 
+  std::size_t bytes_per_cell() const { return stride() * sizeof(double); }
+
   /// Share of the cell that no wall takes. [1]
   double& share(std::size_t k) { return share_[k]; }
   double share(std::size_t k) const { return share_[k]; }

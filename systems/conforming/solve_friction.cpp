@@ -50,6 +50,10 @@ struct FrictionSystem {
     if (walls_rub()) {
       add_diagonal(work.tie,
                    [&](std::size_t c) { return friction.matrices.of(friction.splines, friction.cells.cells[c].node); });
+      // A face through which nothing passes has no velocity of its own.
+      for_each_row(work.tie.size(), [&](std::size_t f) {
+        if (work.mass[f] == 0) work.tie[f] = 0;
+      });
       move_diagonal_to_open_faces<Dim>(*friction.extension, work.tie, work.per_g);
     }
     for_each_row(work.mass.size(), [&](std::size_t f) {
