@@ -122,7 +122,9 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
   body.name = input.text("name", {.doc = "its columns are NAME_force_x, NAME_torque, NAME_position_x, ..."});
   input.object("shape", "where the body is at the start", Input::Presence::required,
                [&](Input& shape) { body.shape = read_shape<Dim>(shape, scene, ShapePlace::anywhere); });
-  input.choice("wall", std::vector<std::string>{"slip"}, "what its surface does to the liquid", "slip");
+  const auto wall = input.choice("wall", std::vector<std::string>{"slip", "separating"},
+                                 "what its surface does to the liquid", "slip");
+  body.separates = wall == "separating";
   body.pivot = middle_of<Dim>(body.shape);
   read_motion<Dim>(input, scene, body);
   if (input.describing() || !body.shape) return;
@@ -208,6 +210,10 @@ Contribution read_bodies(Input& input, Scene& scene) {
   scene.facts.set(bodies);
   if (bodies.in_plane.any_is_free() || bodies.in_space.any_is_free())
     scene.facts.set(CompletesMultipliers{{"couple_free_bodies"}});
+  if (bodies.in_plane.any_separates() || bodies.in_space.any_separates()) {
+    const auto* sides = scene.facts.find<RepeatsBalances>();
+    scene.facts.set(RepeatsBalances{.at_sides = sides != nullptr && sides->at_sides, .at_bodies = true});
+  }
   return [bodies](const Scene& of, Recipe& recipe) { add_systems_of_bodies(bodies, of, recipe); };
 }
 

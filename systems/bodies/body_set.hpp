@@ -60,6 +60,7 @@ struct BodyScene {
   SharedShape<Dim> shape;             ///< at the start
   Vec<Dim> pivot = Vec<Dim>::Zero();  ///< the point that it turns about, at the start [m]
   std::variant<Fixed, Prescribed<Dim>, Tabulated<Dim>, Free<Dim>> motion;
+  bool separates = false;         ///< whether the liquid may leave its surface
   std::vector<Vec<Dim>> surface;  ///< points of the surface at the start, where bodies touch; of finite shapes [m]
 
   bool moves() const { return !std::holds_alternative<Fixed>(motion); }
@@ -76,6 +77,9 @@ struct BodySet {
       if (body.moves()) return true;
     }
     return false;
+  }
+  bool any_separates() const {
+    return std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.separates; });
   }
   bool any_is_free() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.free() != nullptr; });

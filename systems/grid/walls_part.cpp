@@ -1,3 +1,4 @@
+#include "components/contact.hpp"
 #include "components/grid.hpp"
 #include "systems/grid/walls.hpp"
 #include "systems/parts.hpp"
@@ -20,7 +21,8 @@ const std::vector<std::string> axis_names{"x", "y", "z"};
 struct Conditions {
   std::vector<std::string> names;    ///< given as a name
   std::vector<std::string> lengths;  ///< given as {name: slip length}
-  bool may_have_length = true;       ///< whether the discretization can
+  std::vector<std::string> separating;  ///< of the names, those that let the liquid leave
+  bool is_conforming = true;         ///< only that discretization has walls with a length and separating ones
   double shortest = 0;               ///< length that is told from none [m]
   std::map<std::string, double> constants;
 };
@@ -29,11 +31,24 @@ Conditions conditions_of(const Scene& scene) {
   Conditions conditions;
   for (const WallCondition& condition : registry_of(scene).in_order<WallCondition>()) {
     (condition.is_length ? conditions.lengths : conditions.names).push_back(condition.name);
+    if (condition.separates) conditions.separating.push_back(condition.name);
   }
-  conditions.may_have_length = is_conforming(scene);
+  conditions.is_conforming = is_conforming(scene);
   conditions.shortest = 1e-9 * scene.grid.spacing;
   conditions.constants = scene.constants;
   return conditions;
+}
+
+/// The names that the discretization has, and `more`.
+std::vector<std::string> known_names(const Conditions& conditions, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> known;
+  for (const std::string& name : conditions.names) {
+    const bool separates =
+        std::find(conditions.separating.begin(), conditions.separating.end(), name) != conditions.separating.end();
+    if (conditions.is_conforming || !separates) known.push_back(name);
+  }
+  known.insert(known.end(), more.begin(), more.end());
+  return known;
 }
 
 /// A side of the box.
@@ -79,7 +94,7 @@ Json schema(const Conditions& conditions) {
   return {
       {"description",
        R"("slip" or "no_slip" for all sides, or per axis {"x": "slip"}, {"x": "periodic"}, or [low side, high side]; )"
-       R"(with the conforming discretization also {"slip_length": m})"},
+       R"(with the conforming discretization also "separating" and {"slip_length": m})"},
       {"type", {"string", "object"}},
       {"oneOf", {{{"enum", conditions.names}}, length_schema(conditions), axes}}};
 }
@@ -95,9 +110,10 @@ bool is_length(const Json& value, const Conditions& conditions) {
 
 /// The problems of an object of its own are those of the scene at a place.
 Side read_length_at(Input& input, const std::string& at, const Json& value, const Conditions& conditions) {
-  if (!conditions.may_have_length) {
+  if (!conditions.is_conforming) {
     input.problem(at, "a slip length needs the conforming discretization",
-                  fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})", one_of_text(conditions.names)),
+                  fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})",
+                              one_of_text(known_names(conditions))),
                   shown(value));
     return {conditions.names.front()};
   }
@@ -120,24 +136,29 @@ Side read_wall(Input& input, const std::string& at, const Json& value, const Con
                const std::vector<std::string>& names) {
   if (value.is_object()) return read_length_at(input, at, value, conditions);
   const std::string name = value.is_string() ? value.get<std::string>() : "";
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
+  if (std::find(names.begin(), names.end(), name) != names.end()) return {name};
+  const bool separates =
+      std::find(conditions.separating.begin(), conditions.separating.end(), name) != conditions.separating.end();
+  if (separates && !conditions.is_conforming) {
+    input.problem(at, "a wall that the liquid may leave needs the conforming discretization",
+                  fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})", one_of_text(names)),
+                  shown(value));
+  } else {
     input.problem(at, value.is_string() ? "unknown name" : "wrong type", one_of_text(names), shown(value),
                   closest_name(name, names));
-    return {names.front()};
   }
-  return {name};
+  return {names.front()};
 }
 
 std::array<Side, 2> read_axis(Input& input, const std::string& at, const Json& value, const Conditions& conditions) {
   if (!value.is_array()) {
-    std::vector<std::string> names = conditions.names;
-    names.emplace_back(periodic);
-    const Side both = read_wall(input, at, value, conditions, names);
+    const Side both =
+        read_wall(input, at, value, conditions, known_names(conditions, {std::string(periodic)}));
     return {both, both};
   }
   if (value.size() == 2) {
-    return {read_wall(input, at + "/0", value[0], conditions, conditions.names),
-            read_wall(input, at + "/1", value[1], conditions, conditions.names)};
+    return {read_wall(input, at + "/0", value[0], conditions, known_names(conditions)),
+            read_wall(input, at + "/1", value[1], conditions, known_names(conditions))};
   }
   input.problem(at, "wrong length", "one wall, or a list of two: low side, high side", shown(value));
   return {Side{conditions.names.front()}, Side{conditions.names.front()}};
@@ -156,7 +177,7 @@ Sides read_sides(Input& input, std::span<const int> cells, const Conditions& con
   const Json walls = input.raw("walls", schema(conditions), usual.condition);
   Sides all(cells.size(), {usual, usual});
   if (walls.is_string() || is_length(walls, conditions)) {
-    const Side wall = read_wall(input, "walls", walls, conditions, conditions.names);
+    const Side wall = read_wall(input, "walls", walls, conditions, known_names(conditions));
     std::fill(all.begin(), all.end(), std::array{wall, wall});
     return all;
   }
@@ -196,6 +217,28 @@ Walls<Dim> make_walls(const Sides& sides, const SystemRegistry& registry) {
   return walls;
 }
 
+template <int Dim>
+SeparatingSides<Dim> separating_of(const Sides& sides, const SystemRegistry& registry) {
+  SeparatingSides<Dim> separating;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::string& condition = sides[d][end].condition;
+      if (condition != periodic)
+        separating.side[d][end] = registry.choices<WallCondition>().at(condition).separates;
+    }
+  }
+  return separating;
+}
+
+bool any_separates(const Sides& sides, const Conditions& conditions) {
+  return std::any_of(sides.begin(), sides.end(), [&](const auto& axis) {
+    return std::any_of(axis.begin(), axis.end(), [&](const Side& side) {
+      return std::find(conditions.separating.begin(), conditions.separating.end(), side.condition) !=
+             conditions.separating.end();
+    });
+  });
+}
+
 WallFriction friction_of(const Sides& sides) {
   WallFriction friction;
   for (const auto& axis : sides) {
@@ -208,12 +251,18 @@ WallFriction friction_of(const Sides& sides) {
 
 /// `"slip"` for all sides, or per axis `{"x": "slip", "y": ["no_slip", {"slip_length": 1e-3}]}`.
 Contribution read_walls(Input& input, Scene& scene) {
-  const Sides sides = read_sides(input, scene.grid.cells, conditions_of(scene));
+  const Conditions conditions = conditions_of(scene);
+  const Sides sides = read_sides(input, scene.grid.cells, conditions);
   for (std::size_t d = 0; d < sides.size(); ++d) scene.grid.periodic[d] = sides[d][0].condition == periodic;
   scene.facts.set(friction_of(sides));
-  return [sides](const Scene& of, Recipe& recipe) {
+  const bool separates = any_separates(sides, conditions);
+  if (separates) scene.facts.set(RepeatsBalances{.at_sides = true});
+  return [sides, separates](const Scene& of, Recipe& recipe) {
     add_systems(of, recipe, "boundaries", {{"apply_wall_condition"}, {"hold_faces"}});
-    with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_walls<dim()>(sides, recipe.registry())); });
+    with_dimension(of.dimension, [&](auto dim) {
+      recipe.constant(make_walls<dim()>(sides, recipe.registry()));
+      if (separates) recipe.constant(separating_of<dim()>(sides, recipe.registry()));
+    });
   };
 }
 
@@ -226,7 +275,10 @@ void add_walls(SystemRegistry& registry) {
   registry.add(WallCondition{"no_slip", "no flow at the wall",
                              [](int dimension, int) { return static_cast<std::uint8_t>((1U << dimension) - 1); }});
   registry.add(WallCondition{"slip_length", "friction mu v/b along the wall, {\"slip_length\": b}; conforming",
-                             no_flow_through, true});
+                             no_flow_through, false, true});
+  const auto nothing = [](int, int) { return std::uint8_t{0}; };
+  registry.add(WallCondition{"separating", "no flow into the wall and no suction: the liquid may leave it; conforming",
+                             nothing, true});
   const auto schemes = [](const SystemRegistry& all) { return schemes_of<WallCondition>(all); };
   registry.add(Part{"walls", "conditions at the sides of the box", read_walls, schemes});
 }

@@ -1,0 +1,139 @@
+#include "systems/separating/surfaces.hpp"
+
+#include "systems/bodies/cut.hpp"
+#include "systems/conforming/incidence.hpp"
+#include "systems/separating/loop.hpp"
+#include "systems/separating/stretched.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace minamo {
+
+template <int Dim>
+void FindSeparatingRows<Dim>::operator()(Read<BodySet<Dim>> set, Read<Splines<Dim>> splines,
+                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                         Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
+                                         Read<multiplier::Released> released,
+                                         Write<SeparatingRows<Dim>> separating) const {
+  const auto separates = [&](std::size_t f, std::size_t d) {
+    for (const std::size_t moving : {0, 1}) {
+      const std::int16_t b = closer[f][d][moving];
+      if (b >= 0 && closed[f][d][moving] > 0 && set->bodies[static_cast<std::size_t>(b)].separates) return true;
+    }
+    return false;
+  };
+  separating->rows.clear();
+  for (std::size_t i = 0; i < site.size(); ++i) {
+    if (!splines->has_multiplier(site[i])) continue;
+    bool is_beside = false;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const std::int32_t above = neighbour[i][2 * d + 1];
+      is_beside = is_beside || separates(i, d);
+      is_beside = is_beside || (above != staggered::none && separates(static_cast<std::size_t>(above), d));
+    }
+    if (is_beside) separating->rows.push_back({static_cast<std::uint32_t>(i), released[i] != 0});
+  }
+}
+
+template <int Dim>
+void StartContactOfBodies<Dim>::operator()(Read<face::AttachedMass<Dim>> attached, Read<body::MeanVelocity<Dim>> V_b,
+                                           Read<body::MeanSpin<Dim>> omega_b, Read<body::Work> W_b,
+                                           Update<SeparatingRows<Dim>> separating) const {
+  separating->attached.assign(attached.begin(), attached.end());
+  separating->velocity.assign(V_b.begin(), V_b.end());
+  separating->spin.assign(omega_b.begin(), omega_b.end());
+  separating->work.assign(W_b.begin(), W_b.end());
+}
+
+template <int Dim>
+void ReleaseFromBodies<Dim>::operator()(Read<SeparatingRows<Dim>> separating,
+                                        Read<staggered::Neighbour<Dim>> neighbour, Write<multiplier::Released> released,
+                                        Write<face::AttachedMass<Dim>> attached, Write<body::MeanVelocity<Dim>> V_b,
+                                        Write<body::MeanSpin<Dim>> omega_b, Write<body::Work> W_b) const {
+  std::copy(separating->attached.begin(), separating->attached.end(), attached.begin());
+  std::copy(separating->velocity.begin(), separating->velocity.end(), V_b.begin());
+  std::copy(separating->spin.begin(), separating->spin.end(), omega_b.begin());
+  std::copy(separating->work.begin(), separating->work.end(), W_b.begin());
+  std::fill(released.begin(), released.end(), std::uint8_t{0});
+  for (const auto& row : separating->rows) {
+    if (!row.is_released) continue;
+    released[row.multiplier] = 1;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const std::int32_t above = neighbour[row.multiplier][2 * d + 1];
+      attached[row.multiplier][axis] = 0;
+      if (above != staggered::none) attached[static_cast<std::size_t>(above)][axis] = 0;
+    }
+  }
+}
+
+template <int Dim>
+void CompareContactOfBodies<Dim>::operator()(
+    Read<SolverTolerance> tolerance, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed,
+    Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
+    Read<body::MeanSpin<Dim>> omega_b, Read<face::BalanceVelocity<Dim>> v_f, Read<multiplier::Row> row,
+    Read<unknown::Solution> solution, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
+    Read<MultiplierSolver<Dim>> solver, Update<SeparatingRows<Dim>> separating, Update<ContactLoop> loop) const {
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const SitePlaces<Dim> places(*grid, *splines);
+  const auto through = [&](std::size_t f, std::size_t d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    double flux = open[f][axis] * v_f[f][axis];
+    if (closer[f][d][1] >= 0) {
+      const auto b = static_cast<std::size_t>(closer[f][d][1]);
+      flux += closed[f][d][1] * rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(places.face(site[f], d) - c_b[b]))[axis];
+    }
+    return flux;
+  };
+  struct Rate {
+    double sum = 0;       ///< of what flows out [1/s]
+    double absolute = 0;  ///< the same of absolute values [1/s]
+  };
+  const auto outflow = [&](std::size_t i) {
+    Rate rate;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (neighbour[i][2 * d + 1] == staggered::none) return Rate{};
+      const double above = through(incidence.above(i, d), d);
+      const double below = through(i, d);
+      rate.sum += incidence.per_width(i, d) * (above - below);
+      rate.absolute += incidence.per_width(i, d) * (std::abs(above) + std::abs(below));
+    }
+    return rate;
+  };
+  const auto pull = [&](std::int32_t l) {
+    const unknown::Sources& x = solution[static_cast<std::size_t>(l)];
+    return x[unknown::damping] + x[unknown::balance];
+  };
+  double most_pull = 0;
+  double most_flow = 0;
+  for (const auto& at : separating->rows) {
+    const std::int32_t l = row[at.multiplier];
+    if (l != staggered::none) most_pull = std::max(most_pull, std::abs(pull(l)));
+    if (at.is_released) most_flow = std::max(most_flow, outflow(at.multiplier).absolute);
+  }
+  const double rounding = rounding_of_contact(*tolerance);
+  const StretchedComponents stretched(solver->closed(), null_vector.span(), source.span());
+  const bool is_last = loop->pass + 1 == most_contact_passes;
+  for (auto& at : separating->rows) {
+    const std::int32_t l = row[at.multiplier];
+    const bool pulls = l != staggered::none && !stretched.must_stay(static_cast<std::size_t>(l)) &&
+                       pull(l) > rounding * most_pull;
+    const bool squeezes = at.is_released && outflow(at.multiplier).sum < -rounding * most_flow;
+    if (!pulls && !squeezes) continue;
+    ++loop->changes;
+    if (!is_last) at.is_released = !at.is_released;
+  }
+}
+
+template struct FindSeparatingRows<2>;
+template struct FindSeparatingRows<3>;
+template struct StartContactOfBodies<2>;
+template struct StartContactOfBodies<3>;
+template struct ReleaseFromBodies<2>;
+template struct ReleaseFromBodies<3>;
+template struct CompareContactOfBodies<2>;
+template struct CompareContactOfBodies<3>;
+
+}  // namespace minamo
