@@ -66,6 +66,7 @@ struct SeparatingRows {
   std::vector<Vec<Dim>> velocity;               ///< of every body [m/s]
   std::vector<Vec<rotations<Dim>>> spin;        ///< of every body [1/s]
   std::vector<double> work;                     ///< on every body [J]
+  std::vector<std::uint8_t> known;              ///< of every site, work space of systems
   using rows_of = Staggered;
   static constexpr ComponentInfo info{"separating.rows", "", "", Lifetime::scratch};
 };

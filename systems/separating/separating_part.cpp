@@ -34,6 +34,7 @@ System contact_loop(const Scene& scene, const Recipe& recipe, When when) {
   if (walls.at_sides) add({"hold_contact_of_sides"});
   if (walls.at_bodies) add({"release_from_bodies"});
   add({"assemble_multipliers", "fill_contact_source"});
+  if (walls.at_bodies) add({"detach_from_bodies"});
   for (const System& system :
        placed_in(recipe, "right_hand_side", when, {"damp_face_divergence", "face_volume_source"})) {
     body.push_back(system);
@@ -58,6 +59,7 @@ void add_contact(const Scene& scene, Recipe& recipe) {
   }
   if (walls.at_bodies) {
     recipe.add("sort", "find_separating_rows");
+    recipe.add("p2g", "fill_empty_faces");
     recipe.add("right_hand_side", "start_contact_of_bodies");
   }
   for (const When when : {When::step, When::standing}) recipe.add("solve", contact_loop(scene, recipe, when), when);
@@ -105,6 +107,8 @@ void add_separating(SystemRegistry& registry) {
   registry.add<StartContactOfSides>("start_contact_of_sides");
   registry.add<HoldContactOfSides>("hold_contact_of_sides");
   registry.add<FindSeparatingRows>("find_separating_rows");
+  registry.add<FillEmptyFaces>("fill_empty_faces");
+  registry.add<DetachFromBodies>("detach_from_bodies");
   registry.add<StartContactOfBodies>("start_contact_of_bodies");
   registry.add<ReleaseFromBodies>("release_from_bodies");
   registry.add<CompareContactOfBodies>("compare_contact_of_bodies");

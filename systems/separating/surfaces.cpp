@@ -37,6 +37,38 @@ void FindSeparatingRows<Dim>::operator()(Read<BodySet<Dim>> set, Read<Splines<Di
 }
 
 template <int Dim>
+void FillEmptyFaces<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
+                                     Update<SeparatingRows<Dim>> separating, Update<face::Velocity<Dim>> v_f) const {
+  constexpr int rings = 3;
+  std::vector<std::uint8_t>& known = separating->known;
+  known.assign(m_f.size(), 0);
+  for (std::size_t i = 0; i < m_f.size(); ++i) {
+    for (int d = 0; d < Dim; ++d) {
+      if (m_f[i][d] > 0) known[i] = static_cast<std::uint8_t>(known[i] | (1U << d));
+    }
+  }
+  // A face becomes known, in the upper half of the byte, after its ring.
+  for (int ring = 0; ring < rings; ++ring) {
+    for (std::size_t i = 0; i < m_f.size(); ++i) {
+      for (int d = 0; d < Dim; ++d) {
+        if ((known[i] >> d & 1) != 0) continue;
+        double sum = 0;
+        int count = 0;
+        for (const std::int32_t beside : neighbour[i]) {
+          if (beside == staggered::none || (known[static_cast<std::size_t>(beside)] >> d & 1) == 0) continue;
+          sum += v_f[static_cast<std::size_t>(beside)][d];
+          ++count;
+        }
+        if (count == 0) continue;
+        v_f[i][d] = sum / count;
+        known[i] = static_cast<std::uint8_t>(known[i] | (16U << d));
+      }
+    }
+    for (std::uint8_t& directions : known) directions = static_cast<std::uint8_t>((directions | directions >> 4) & 15);
+  }
+}
+
+template <int Dim>
 void StartContactOfBodies<Dim>::operator()(Read<face::AttachedMass<Dim>> attached, Read<body::MeanVelocity<Dim>> V_b,
                                            Read<body::MeanSpin<Dim>> omega_b, Read<body::Work> W_b,
                                            Update<SeparatingRows<Dim>> separating) const {
@@ -48,24 +80,42 @@ void StartContactOfBodies<Dim>::operator()(Read<face::AttachedMass<Dim>> attache
 
 template <int Dim>
 void ReleaseFromBodies<Dim>::operator()(Read<SeparatingRows<Dim>> separating,
-                                        Read<staggered::Neighbour<Dim>> neighbour, Write<multiplier::Released> released,
-                                        Write<face::AttachedMass<Dim>> attached, Write<body::MeanVelocity<Dim>> V_b,
+                                        Write<multiplier::Released> released, Write<body::MeanVelocity<Dim>> V_b,
                                         Write<body::MeanSpin<Dim>> omega_b, Write<body::Work> W_b) const {
-  std::copy(separating->attached.begin(), separating->attached.end(), attached.begin());
   std::copy(separating->velocity.begin(), separating->velocity.end(), V_b.begin());
   std::copy(separating->spin.begin(), separating->spin.end(), omega_b.begin());
   std::copy(separating->work.begin(), separating->work.end(), W_b.begin());
   std::fill(released.begin(), released.end(), std::uint8_t{0});
   for (const auto& row : separating->rows) {
-    if (!row.is_released) continue;
-    released[row.multiplier] = 1;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const auto axis = static_cast<Eigen::Index>(d);
-      const std::int32_t above = neighbour[row.multiplier][2 * d + 1];
-      attached[row.multiplier][axis] = 0;
-      if (above != staggered::none) attached[static_cast<std::size_t>(above)][axis] = 0;
-    }
+    released[row.multiplier] = row.is_released ? 1 : 0;
   }
+}
+
+template <int Dim>
+void DetachFromBodies<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Row> row,
+                                       Update<SeparatingRows<Dim>> separating,
+                                       Write<face::AttachedMass<Dim>> attached) const {
+  constexpr std::uint8_t presses = 1;
+  constexpr std::uint8_t is_dry = 2;
+  std::vector<std::uint8_t>& state = separating->known;
+  state.assign(row.size(), 0);
+  for (const auto& at : separating->rows) state[at.multiplier] = row[at.multiplier] == staggered::none ? is_dry : presses;
+  for_each_row(attached.size(), [&](std::size_t i) {
+    attached[i] = separating->attached[i];
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (attached[i][static_cast<Eigen::Index>(d)] == 0) continue;
+      // The two multipliers of the face, and one more to each side.
+      unsigned around = state[i];
+      const auto look = [&](std::int32_t from, std::size_t side) {
+        const std::int32_t at = from == staggered::none ? from : neighbour[static_cast<std::size_t>(from)][side];
+        if (at != staggered::none) around |= state[static_cast<std::size_t>(at)];
+        return at;
+      };
+      look(look(static_cast<std::int32_t>(i), 2 * d), 2 * d);
+      look(static_cast<std::int32_t>(i), 2 * d + 1);
+      if (around == is_dry) attached[i][static_cast<Eigen::Index>(d)] = 0;
+    }
+  });
 }
 
 template <int Dim>
@@ -129,6 +179,10 @@ void CompareContactOfBodies<Dim>::operator()(
 
 template struct FindSeparatingRows<2>;
 template struct FindSeparatingRows<3>;
+template struct FillEmptyFaces<2>;
+template struct FillEmptyFaces<3>;
+template struct DetachFromBodies<2>;
+template struct DetachFromBodies<3>;
 template struct StartContactOfBodies<2>;
 template struct StartContactOfBodies<3>;
 template struct ReleaseFromBodies<2>;

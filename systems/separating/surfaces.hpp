@@ -23,6 +23,16 @@ struct FindSeparatingRows {
                   Write<SeparatingRows<Dim>> separating) const;
 };
 
+/// (E108) Faces that no particle touches take the mean velocity of those beside them that have one, up to three faces
+/// away. They count among those that velocities of closed faces are made of (E87): at rest in a falling liquid they would
+/// hold it at the body.
+template <int Dim>
+struct FillEmptyFaces {
+  static constexpr std::string_view doc = "(E108) v_f^n of faces without mass";
+  void operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
+                  Update<SeparatingRows<Dim>> separating, Update<face::Velocity<Dim>> v_f) const;
+};
+
 /// What the passes of the loop change of bodies, for each to start from.
 template <int Dim>
 struct StartContactOfBodies {
@@ -31,13 +41,20 @@ struct StartContactOfBodies {
                   Read<body::MeanSpin<Dim>> omega_b, Read<body::Work> W_b, Update<SeparatingRows<Dim>> separating) const;
 };
 
-/// (E108) Sets which multipliers are released. Liquid there does not move with the body, (E94).
+/// (E108) Sets which multipliers are released, and takes back what the last pass has changed of bodies.
 template <int Dim>
 struct ReleaseFromBodies {
   static constexpr std::string_view doc = "(E108) multipliers that liquid leaving a body has no pressure at";
-  void operator()(Read<SeparatingRows<Dim>> separating, Read<staggered::Neighbour<Dim>> neighbour,
-                  Write<multiplier::Released> released, Write<face::AttachedMass<Dim>> attached,
+  void operator()(Read<SeparatingRows<Dim>> separating, Write<multiplier::Released> released,
                   Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b, Write<body::Work> W_b) const;
+};
+
+/// (E108) Liquid moves with a separating body, (E94), only where it presses it.
+template <int Dim>
+struct DetachFromBodies {
+  static constexpr std::string_view doc = "(E108) no attached mass where liquid leaves a body";
+  void operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Row> row,
+                  Update<SeparatingRows<Dim>> separating, Write<face::AttachedMass<Dim>> attached) const;
 };
 
 /// (E108) Releases multipliers that pull, and takes back those around which the liquid would be squeezed. Enclosed

@@ -96,7 +96,7 @@ Json piston(const std::string& velocity, const std::string& wall) {
     "grid": {"low": [0, 0], "high": [2, 0.5], "cells": [40, 10]}, "fluid": {"density": 1000, "viscosity": 0},
     "particles": [{"shape": {"box": {"low": [0.5, 0], "high": [1.5, 0.5]}}, "per_cell": 2}],
     "bodies": [{"name": "piston", "shape": {"box": {"low": [-0.5, -1], "high": [0.5185, 1.5]}}}],
-    "time": {"end": 1, "step": 0.005}})json");
+    "volume": {"scheme": "none"}, "time": {"end": 1, "step": 0.005}})json");
   scene["bodies"][0]["motion"]["prescribed"]["velocity"] = {velocity, 0};
   scene["bodies"][0]["wall"] = wall;
   return scene;
@@ -184,10 +184,10 @@ TEST_CASE("a dam that breaks in a low box of separating walls gains no energy", 
 }
 
 TEST_CASE("liquid under a separating body falls freely", "[verification]") {
-  const double bottom = GENERATE(0.9, 0.87);
-  const auto volume = GENERATE("none", "projection");
+  // Across a cell particles are cut, too, and the volume correction moves them.
+  const auto [bottom, volume] = GENERATE(table<double, const char*>({{0.9, "none"}, {0.9, "projection"}, {0.87, "none"}}));
   CAPTURE(bottom, volume);
-  const auto falling = [&](const std::string& wall) {
+  const auto falling = [bottom = bottom, volume = volume](const std::string& wall) {
     Json scene = under_lid(2, "slip");
     scene["bodies"] = {{{"name", "lid"}, {"wall", wall}, {"shape", {{"box", {{"low", {0.1, bottom}}, {"high", {0.9, 2}}}}}}}};
     scene["volume"]["scheme"] = volume;
@@ -202,6 +202,7 @@ TEST_CASE("liquid under a separating body falls freely in space", "[verification
   Json scene = under_lid(3, "slip");
   scene["bodies"] = Json::parse(
       R"([{"name": "lid", "wall": "separating", "shape": {"box": {"low": [0.1, 0.1, 0.87], "high": [0.9, 0.9, 2]}}}])");
+  scene["volume"]["scheme"] = "none";
   SceneRun run(scene);
   CHECK(off_free_fall<3>(run, 20, 0.01) < 1e-10);
 }
