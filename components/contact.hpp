@@ -62,11 +62,11 @@ struct SeparatingRows {
   };
   std::vector<Row> rows;
   // What a pass changes, as it is before the first one.
-  std::vector<Vec<Dim>> attached;               ///< of every face [kg]
-  std::vector<Vec<Dim>> velocity;               ///< of every body [m/s]
-  std::vector<Vec<rotations<Dim>>> spin;        ///< of every body [1/s]
-  std::vector<double> work;                     ///< on every body [J]
-  std::vector<std::uint8_t> known;              ///< of every site, work space of systems
+  std::vector<Vec<Dim>> attached;         ///< of every face [kg]
+  std::vector<Vec<Dim>> velocity;         ///< of every body [m/s]
+  std::vector<Vec<rotations<Dim>>> spin;  ///< of every body [1/s]
+  std::vector<double> work;               ///< on every body [J]
+  std::vector<std::uint8_t> known;        ///< of every site, work space of systems
   using rows_of = Staggered;
   static constexpr ComponentInfo info{"separating.rows", "", "", Lifetime::scratch};
 };

@@ -19,11 +19,11 @@ const std::vector<std::string> axis_names{"x", "y", "z"};
 
 /// What the sides of a scene may be.
 struct Conditions {
-  std::vector<std::string> names;    ///< given as a name
-  std::vector<std::string> lengths;  ///< given as {name: slip length}
+  std::vector<std::string> names;       ///< given as a name
+  std::vector<std::string> lengths;     ///< given as {name: slip length}
   std::vector<std::string> separating;  ///< of the names, those that let the liquid leave
-  bool is_conforming = true;         ///< only that discretization has walls with a length and separating ones
-  double shortest = 0;               ///< length that is told from none [m]
+  bool is_conforming = true;            ///< only that discretization has walls with a length and separating ones
+  double shortest = 0;                  ///< length that is told from none [m]
   std::map<std::string, double> constants;
 };
 
@@ -111,10 +111,10 @@ bool is_length(const Json& value, const Conditions& conditions) {
 /// The problems of an object of its own are those of the scene at a place.
 Side read_length_at(Input& input, const std::string& at, const Json& value, const Conditions& conditions) {
   if (!conditions.is_conforming) {
-    input.problem(at, "a slip length needs the conforming discretization",
-                  fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})",
-                              one_of_text(known_names(conditions))),
-                  shown(value));
+    input.problem(
+        at, "a slip length needs the conforming discretization",
+        fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})", one_of_text(known_names(conditions))),
+        shown(value));
     return {conditions.names.front()};
   }
   Input::Document document(value, "");
@@ -152,8 +152,7 @@ Side read_wall(Input& input, const std::string& at, const Json& value, const Con
 
 std::array<Side, 2> read_axis(Input& input, const std::string& at, const Json& value, const Conditions& conditions) {
   if (!value.is_array()) {
-    const Side both =
-        read_wall(input, at, value, conditions, known_names(conditions, {std::string(periodic)}));
+    const Side both = read_wall(input, at, value, conditions, known_names(conditions, {std::string(periodic)}));
     return {both, both};
   }
   if (value.size() == 2) {
@@ -223,8 +222,7 @@ SeparatingSides<Dim> separating_of(const Sides& sides, const SystemRegistry& reg
   for (std::size_t d = 0; d < Dim; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
       const std::string& condition = sides[d][end].condition;
-      if (condition != periodic)
-        separating.side[d][end] = registry.choices<WallCondition>().at(condition).separates;
+      if (condition != periodic) separating.side[d][end] = registry.choices<WallCondition>().at(condition).separates;
     }
   }
   return separating;

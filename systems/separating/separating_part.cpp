@@ -83,7 +83,7 @@ void check_scene(const Scene& scene, SeedProblems& problems) {
     note("/fluid/rheology", "not with separating walls", "a constant viscosity", "a rheology");
   } else if (friction_of(scene) == Friction::in_balances) {
     note("/fluid/viscosity", "too large for separating walls", "nu dt/h^2 up to 0.01, and no slip length",
-                  fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
+         fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
   }
   if (scene.schemes.at("integrator") == "newmark")
     note("/integrator/scheme", "not with separating walls", R"("midpoint")", R"("newmark")");
@@ -119,8 +119,8 @@ void add_separating(SystemRegistry& registry) {
   registry.add<KeepContactOfSides>("keep_contact_of_sides");
   registry.add<StopNewVelocityAtSides>("stop_new_velocity_at_sides");
   registry.add<MeasureContact>("measure_contact");
-  registry.add(Part{"separating", "walls that the liquid may leave; no key, \"wall\" and \"walls\" say which",
-                    read_nothing});
+  registry.add(
+      Part{"separating", "walls that the liquid may leave; no key, \"wall\" and \"walls\" say which", read_nothing});
 }
 
 }  // namespace minamo

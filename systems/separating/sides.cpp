@@ -89,7 +89,8 @@ void CompareContactOfSides<Dim>::operator()(Read<SolverTolerance> tolerance, Rea
     return -face.mobility * face.weight * (x[unknown::damping] + x[unknown::balance]);
   };
   double largest = 0;
-  for (const auto& face : separating->faces) largest = std::max(largest, std::abs(face.predictor) + std::abs(change(face)));
+  for (const auto& face : separating->faces)
+    largest = std::max(largest, std::abs(face.predictor) + std::abs(change(face)));
   const double rounding = rounding_of_contact(*tolerance) * largest;
   const StretchedComponents stretched(solver->closed(), null_vector.span(), source.span());
   const bool is_last = loop->pass + 1 == most_contact_passes;

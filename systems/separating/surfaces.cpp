@@ -79,9 +79,9 @@ void StartContactOfBodies<Dim>::operator()(Read<face::AttachedMass<Dim>> attache
 }
 
 template <int Dim>
-void ReleaseFromBodies<Dim>::operator()(Read<SeparatingRows<Dim>> separating,
-                                        Write<multiplier::Released> released, Write<body::MeanVelocity<Dim>> V_b,
-                                        Write<body::MeanSpin<Dim>> omega_b, Write<body::Work> W_b) const {
+void ReleaseFromBodies<Dim>::operator()(Read<SeparatingRows<Dim>> separating, Write<multiplier::Released> released,
+                                        Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b,
+                                        Write<body::Work> W_b) const {
   std::copy(separating->velocity.begin(), separating->velocity.end(), V_b.begin());
   std::copy(separating->spin.begin(), separating->spin.end(), omega_b.begin());
   std::copy(separating->work.begin(), separating->work.end(), W_b.begin());
@@ -96,10 +96,14 @@ void DetachFromBodies<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour
                                        Update<SeparatingRows<Dim>> separating,
                                        Write<face::AttachedMass<Dim>> attached) const {
   constexpr std::uint8_t presses = 1;
-  constexpr std::uint8_t is_dry = 2;
+  constexpr std::uint8_t is_dry = 2;  // or inside the body
+  constexpr std::uint8_t is_left = 4;
   std::vector<std::uint8_t>& state = separating->known;
   state.assign(row.size(), 0);
-  for (const auto& at : separating->rows) state[at.multiplier] = row[at.multiplier] == staggered::none ? is_dry : presses;
+  for (const auto& at : separating->rows) {
+    const bool has_pressure = row[at.multiplier] != staggered::none;
+    state[at.multiplier] = at.is_released ? is_left : has_pressure ? presses : is_dry;
+  }
   for_each_row(attached.size(), [&](std::size_t i) {
     attached[i] = separating->attached[i];
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -113,7 +117,7 @@ void DetachFromBodies<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour
       };
       look(look(static_cast<std::int32_t>(i), 2 * d), 2 * d);
       look(static_cast<std::int32_t>(i), 2 * d + 1);
-      if (around == is_dry) attached[i][static_cast<Eigen::Index>(d)] = 0;
+      if (around == is_dry || (around & is_left) != 0) attached[i][static_cast<Eigen::Index>(d)] = 0;
     }
   });
 }
@@ -168,8 +172,8 @@ void CompareContactOfBodies<Dim>::operator()(
   const bool is_last = loop->pass + 1 == most_contact_passes;
   for (auto& at : separating->rows) {
     const std::int32_t l = row[at.multiplier];
-    const bool pulls = l != staggered::none && !stretched.must_stay(static_cast<std::size_t>(l)) &&
-                       pull(l) > rounding * most_pull;
+    const bool pulls =
+        l != staggered::none && !stretched.must_stay(static_cast<std::size_t>(l)) && pull(l) > rounding * most_pull;
     const bool squeezes = at.is_released && outflow(at.multiplier).sum < -rounding * most_flow;
     if (!pulls && !squeezes) continue;
     ++loop->changes;

@@ -24,8 +24,8 @@ struct FindSeparatingRows {
 };
 
 /// (E108) Faces that no particle touches take the mean velocity of those beside them that have one, up to three faces
-/// away. They count among those that velocities of closed faces are made of (E87): at rest in a falling liquid they would
-/// hold it at the body.
+/// away. They count among those that velocities of closed faces are made of (E87): at rest in a falling liquid they
+/// would hold it at the body.
 template <int Dim>
 struct FillEmptyFaces {
   static constexpr std::string_view doc = "(E108) v_f^n of faces without mass";
@@ -38,7 +38,8 @@ template <int Dim>
 struct StartContactOfBodies {
   static constexpr std::string_view doc = "(E108) bodies before the first pass";
   void operator()(Read<face::AttachedMass<Dim>> attached, Read<body::MeanVelocity<Dim>> V_b,
-                  Read<body::MeanSpin<Dim>> omega_b, Read<body::Work> W_b, Update<SeparatingRows<Dim>> separating) const;
+                  Read<body::MeanSpin<Dim>> omega_b, Read<body::Work> W_b,
+                  Update<SeparatingRows<Dim>> separating) const;
 };
 
 /// (E108) Sets which multipliers are released, and takes back what the last pass has changed of bodies.

@@ -108,10 +108,10 @@ TEST_CASE("liquid under a separating lid falls freely", "[verification]") {
   const auto scheme = GENERATE("tpic", "tpic2", "flip", "apic");
   const int degree = GENERATE(2, 3);
   CAPTURE(scheme, degree);
-  Json scene = with(under_lid(2, "separating"), {R"(/transfer={"scheme": ")" + std::string(scheme) + "\"}",
-                                                 R"(/discretization={"scheme": "conforming", "degree": )" +
-                                                     std::to_string(degree) + "}",
-                                                 R"(/volume={"scheme": "none"})"});
+  Json scene = with(under_lid(2, "separating"),
+                    {R"(/transfer={"scheme": ")" + std::string(scheme) + "\"}",
+                     R"(/discretization={"scheme": "conforming", "degree": )" + std::to_string(degree) + "}",
+                     R"(/volume={"scheme": "none"})"});
   SceneRun run(scene);
   CHECK(off_free_fall<2>(run, 20, 0.01) < 1e-10);
   CHECK(column(run.world(), "contact_unsettled") == 0);
@@ -185,11 +185,13 @@ TEST_CASE("a dam that breaks in a low box of separating walls gains no energy", 
 
 TEST_CASE("liquid under a separating body falls freely", "[verification]") {
   // Across a cell particles are cut, too, and the volume correction moves them.
-  const auto [bottom, volume] = GENERATE(table<double, const char*>({{0.9, "none"}, {0.9, "projection"}, {0.87, "none"}}));
+  const auto [bottom, volume] =
+      GENERATE(table<double, const char*>({{0.9, "none"}, {0.9, "projection"}, {0.87, "none"}}));
   CAPTURE(bottom, volume);
   const auto falling = [bottom = bottom, volume = volume](const std::string& wall) {
     Json scene = under_lid(2, "slip");
-    scene["bodies"] = {{{"name", "lid"}, {"wall", wall}, {"shape", {{"box", {{"low", {0.1, bottom}}, {"high", {0.9, 2}}}}}}}};
+    scene["bodies"] = {
+        {{"name", "lid"}, {"wall", wall}, {"shape", {{"box", {{"low", {0.1, bottom}}, {"high", {0.9, 2}}}}}}}};
     scene["volume"]["scheme"] = volume;
     SceneRun run(scene);
     return off_free_fall<2>(run, 20, 0.01);
