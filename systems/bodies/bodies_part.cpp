@@ -235,6 +235,10 @@ Contribution read_bodies(Input& input, Scene& scene) {
   set_wall_friction(bodies, scene);
   if (bodies.in_plane.any_is_free() || bodies.in_space.any_is_free())
     scene.facts.set(CompletesMultipliers{{"couple_free_bodies"}});
+  if (bodies.in_plane.any_separates() || bodies.in_space.any_separates()) {
+    const auto* sides = scene.facts.find<RepeatsBalances>();
+    scene.facts.set(RepeatsBalances{.at_sides = sides != nullptr && sides->at_sides, .at_bodies = true});
+  }
   return [bodies](const Scene& of, Recipe& recipe) { add_systems_of_bodies(bodies, of, recipe); };
 }
 

@@ -55,9 +55,9 @@ struct Free {
 
 /// What the surface of a body does to the liquid that moves along it.
 struct BodyWall {
-  enum class Kind { slip, no_slip, slip_length };
+  enum class Kind { slip, no_slip, slip_length, separating };
   Kind kind = Kind::slip;
-  double slip_length = 0;  ///< of the last kind [m]
+  double slip_length = 0;  ///< of that kind [m]
 };
 
 template <int Dim>
@@ -87,6 +87,7 @@ struct BodySet {
   }
   bool any_rubs() const { return any_is(BodyWall::Kind::no_slip) || any_has_slip_length(); }
   bool any_has_slip_length() const { return any_is(BodyWall::Kind::slip_length); }
+  bool any_separates() const { return any_is(BodyWall::Kind::separating); }
   bool any_is_free() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.free() != nullptr; });
   }

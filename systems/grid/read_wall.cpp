@@ -25,10 +25,11 @@ Side read_length(Input& input, const WallWords& words) {
 
 /// The problems of an object of its own are those of the scene at a place.
 Side read_length_at(Input& input, const std::string& at, const Json& value, const WallWords& words) {
-  if (!words.may_have_length) {
-    input.problem(at, "a slip length needs the conforming discretization",
-                  fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})", one_of_text(words.names)),
-                  shown(value));
+  if (!words.is_conforming) {
+    input.problem(
+        at, "a slip length needs the conforming discretization",
+        fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})", one_of_text(known_names(words))),
+        shown(value));
     return {words.names.front()};
   }
   Input::Document document(value, "");
@@ -40,12 +41,23 @@ Side read_length_at(Input& input, const std::string& at, const Json& value, cons
   }
   if (!document.problems().empty()) return {words.names.front()};
   if (side.length >= words.shortest) return side;
-  input.problem(at, "a slip length that is none", fmt::format(R"(at least {:.3g} m, or "no_slip")", words.shortest),
-                shown(value));
+  input.problem(at, "a slip length that is none",
+                fmt::format(R"(at least {:.3g} m, or "no_slip")", words.shortest), shown(value));
   return {words.names.front()};
 }
 
 }  // namespace
+
+std::vector<std::string> known_names(const WallWords& words, const std::vector<std::string>& more) {
+  std::vector<std::string> known;
+  for (const std::string& name : words.names) {
+    const bool separates =
+        std::find(words.separating.begin(), words.separating.end(), name) != words.separating.end();
+    if (words.is_conforming || !separates) known.push_back(name);
+  }
+  known.insert(known.end(), more.begin(), more.end());
+  return known;
+}
 
 Json slip_length_schema(const WallWords& words) {
   auto description = Input::Document::describe();
@@ -60,12 +72,18 @@ Side read_wall(Input& input, const std::string& at, const Json& value, const Wal
                const std::vector<std::string>& names) {
   if (value.is_object()) return read_length_at(input, at, value, words);
   const std::string name = value.is_string() ? value.get<std::string>() : "";
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
+  if (std::find(names.begin(), names.end(), name) != names.end()) return {name};
+  const bool separates =
+      std::find(words.separating.begin(), words.separating.end(), name) != words.separating.end();
+  if (separates && !words.is_conforming) {
+    input.problem(at, "a wall that the liquid may leave needs the conforming discretization",
+                  fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})", one_of_text(names)),
+                  shown(value));
+  } else {
     input.problem(at, value.is_string() ? "unknown name" : "wrong type", one_of_text(names), shown(value),
                   closest_name(name, names));
-    return {names.front()};
   }
-  return {name};
+  return {names.front()};
 }
 
 }  // namespace minamo

@@ -12,10 +12,11 @@ namespace minamo {
 
 /// What a wall of a scene may be.
 struct WallWords {
-  std::vector<std::string> names;    ///< given as a name
-  std::vector<std::string> lengths;  ///< given as {name: slip length}
-  bool may_have_length = true;       ///< whether the discretization can
-  double shortest = 0;               ///< length that is told from none [m]
+  std::vector<std::string> names;       ///< given as a name
+  std::vector<std::string> lengths;     ///< given as {name: slip length}
+  std::vector<std::string> separating;  ///< of the names, those that let the liquid leave
+  bool is_conforming = true;            ///< only that discretization has walls with a length and separating ones
+  double shortest = 0;                  ///< length that is told from none [m]
   std::map<std::string, double> constants;
 };
 
@@ -24,6 +25,9 @@ struct Side {
   std::string condition;
   double length = 0;  ///< of those that have one [m]
 };
+
+/// The names that the discretization has, and `more`.
+std::vector<std::string> known_names(const WallWords& words, const std::vector<std::string>& more = {});
 
 /// Of {"slip_length": m}.
 Json slip_length_schema(const WallWords& words);

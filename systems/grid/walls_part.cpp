@@ -1,3 +1,4 @@
+#include "components/contact.hpp"
 #include "components/grid.hpp"
 #include "systems/grid/read_wall.hpp"
 #include "systems/grid/walls.hpp"
@@ -21,8 +22,9 @@ WallWords words_of(const Scene& scene) {
   WallWords words;
   for (const WallCondition& condition : registry_of(scene).in_order<WallCondition>()) {
     (condition.is_length ? words.lengths : words.names).push_back(condition.name);
+    if (condition.separates) words.separating.push_back(condition.name);
   }
-  words.may_have_length = is_conforming(scene);
+  words.is_conforming = is_conforming(scene);
   words.shortest = 1e-9 * scene.grid.spacing;
   words.constants = scene.constants;
   return words;
@@ -41,7 +43,7 @@ Json schema(const WallWords& words) {
   return {
       {"description",
        R"("slip" or "no_slip" for all sides, or per axis {"x": "slip"}, {"x": "periodic"}, or [low side, high side]; )"
-       R"(with the conforming discretization also {"slip_length": m})"},
+       R"(with the conforming discretization also "separating" and {"slip_length": m})"},
       {"type", {"string", "object"}},
       {"oneOf", {{{"enum", words.names}}, slip_length_schema(words), axes}}};
 }
@@ -57,14 +59,12 @@ bool is_length(const Json& value, const WallWords& words) {
 
 std::array<Side, 2> read_axis(Input& input, const std::string& at, const Json& value, const WallWords& words) {
   if (!value.is_array()) {
-    std::vector<std::string> names = words.names;
-    names.emplace_back(periodic);
-    const Side both = read_wall(input, at, value, words, names);
+    const Side both = read_wall(input, at, value, words, known_names(words, {std::string(periodic)}));
     return {both, both};
   }
   if (value.size() == 2) {
-    return {read_wall(input, at + "/0", value[0], words, words.names),
-            read_wall(input, at + "/1", value[1], words, words.names)};
+    return {read_wall(input, at + "/0", value[0], words, known_names(words)),
+            read_wall(input, at + "/1", value[1], words, known_names(words))};
   }
   input.problem(at, "wrong length", "one wall, or a list of two: low side, high side", shown(value));
   return {Side{words.names.front()}, Side{words.names.front()}};
@@ -83,7 +83,7 @@ Sides read_sides(Input& input, std::span<const int> cells, const WallWords& word
   const Json walls = input.raw("walls", schema(words), usual.condition);
   Sides all(cells.size(), {usual, usual});
   if (walls.is_string() || is_length(walls, words)) {
-    const Side wall = read_wall(input, "walls", walls, words, words.names);
+    const Side wall = read_wall(input, "walls", walls, words, known_names(words));
     std::fill(all.begin(), all.end(), std::array{wall, wall});
     return all;
   }
@@ -123,6 +123,27 @@ Walls<Dim> make_walls(const Sides& sides, const SystemRegistry& registry) {
   return walls;
 }
 
+template <int Dim>
+SeparatingSides<Dim> separating_of(const Sides& sides, const SystemRegistry& registry) {
+  SeparatingSides<Dim> separating;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::string& condition = sides[d][end].condition;
+      if (condition != periodic) separating.side[d][end] = registry.choices<WallCondition>().at(condition).separates;
+    }
+  }
+  return separating;
+}
+
+bool any_separates(const Sides& sides, const WallWords& words) {
+  return std::any_of(sides.begin(), sides.end(), [&](const auto& axis) {
+    return std::any_of(axis.begin(), axis.end(), [&](const Side& side) {
+      return std::find(words.separating.begin(), words.separating.end(), side.condition) !=
+             words.separating.end();
+    });
+  });
+}
+
 WallFriction friction_of(const Sides& sides) {
   WallFriction friction;
   for (const auto& axis : sides) {
@@ -135,12 +156,18 @@ WallFriction friction_of(const Sides& sides) {
 
 /// `"slip"` for all sides, or per axis `{"x": "slip", "y": ["no_slip", {"slip_length": 1e-3}]}`.
 Contribution read_walls(Input& input, Scene& scene) {
-  const Sides sides = read_sides(input, scene.grid.cells, words_of(scene));
+  const WallWords words = words_of(scene);
+  const Sides sides = read_sides(input, scene.grid.cells, words);
   for (std::size_t d = 0; d < sides.size(); ++d) scene.grid.periodic[d] = sides[d][0].condition == periodic;
   scene.facts.set(friction_of(sides));
-  return [sides](const Scene& of, Recipe& recipe) {
+  const bool separates = any_separates(sides, words);
+  if (separates) scene.facts.set(RepeatsBalances{.at_sides = true});
+  return [sides, separates](const Scene& of, Recipe& recipe) {
     add_systems(of, recipe, "boundaries", {{"apply_wall_condition"}, {"hold_faces"}});
-    with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_walls<dim()>(sides, recipe.registry())); });
+    with_dimension(of.dimension, [&](auto dim) {
+      recipe.constant(make_walls<dim()>(sides, recipe.registry()));
+      if (separates) recipe.constant(separating_of<dim()>(sides, recipe.registry()));
+    });
   };
 }
 
@@ -153,9 +180,12 @@ void add_walls(SystemRegistry& registry) {
   registry.add(WallCondition{"no_slip", "no flow at the wall",
                              [](int dimension, int) { return static_cast<std::uint8_t>((1U << dimension) - 1); }});
   registry.add(WallCondition{"slip_length", "friction mu v/b along the wall, {\"slip_length\": b}; conforming",
-                             no_flow_through, true});
+                             no_flow_through, false, true});
+  const auto nothing = [](int, int) { return std::uint8_t{0}; };
+  registry.add(WallCondition{"separating", "no flow into the wall and no suction: the liquid may leave it; conforming",
+                             nothing, true});
   const auto schemes = [](const SystemRegistry& all) { return schemes_of<WallCondition>(all); };
-  registry.add(Part{"walls", "conditions at the sides of the box", read_walls, schemes});
+  registry.add(Part{"walls", "words at the sides of the box", read_walls, schemes});
 }
 
 }  // namespace minamo
