@@ -127,6 +127,8 @@ class Refused(unittest.TestCase):
         self.refused(minamo.InputError, "reads: no system of this scene names it", lambda a: None, slot="g2p",
                      reads=["node.pressure"])
         self.refused(minamo.InputError, "reads: is no column", lambda a: None, slot="g2p", reads=["grid"])
+        self.refused(minamo.InputError, "updates: can be read, not written", lambda a: None, slot="g2p",
+                     updates=["particle.id"])
         self.refused(minamo.InputError, "updates: wrong access", lambda a: None, slot="g2p", updates=["clock"])
 
     def test_what_is_not_there_yet(self):
@@ -234,6 +236,14 @@ class Fails(unittest.TestCase):
 
         column = minamo.column("particle.half", lifetime="scratch")
         self.step(write, "writes particle.half, but row .* is not a number", minamo.RunError, slot="g2p", writes=[column])
+
+    def test_a_place_outside_the_grid(self):
+        for place in (2, np.nan, np.inf):
+            def throw(x, place=place):
+                x[1] = place
+
+            self.step(throw, r'system "bad" has gone wrong: particle.position: row 1 was set to a place outside the grid',
+                      minamo.RunError, slot="advect", updates=["particle.position"])
 
     def test_what_is_not_declared_is_out_of_reach(self):
         def look():

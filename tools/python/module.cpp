@@ -3,6 +3,7 @@
 
 #include "listings.hpp"
 #include "problems.hpp"
+#include "run.hpp"
 #include "simulation.hpp"
 
 #include <minamo_version.hpp>

@@ -1,9 +1,10 @@
 #include "python_system.hpp"
 
+#include "written.hpp"
+
 #include "components/measure.hpp"
 #include "engine/clock.hpp"
 #include "engine/step_control.hpp"
-#include "systems/setup/part.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -27,50 +28,6 @@ class HistoryColumns {
   measure::Columns* columns_;
 };
 
-namespace {
-
-constexpr std::string_view clock_name = Clock::info.name;
-constexpr std::string_view history_name = measure::Columns::info.name;
-
-bool is_resource_for_python(std::string_view name) { return name == clock_name || name == history_name; }
-
-}  // namespace
-
-KnownComponents::KnownComponents(const SystemRegistry& registry, int dimension) {
-  for (const auto& [name, entry] : registry.entries()) {
-    for (const Access& access : entry.make(dimension, nullptr).access) {
-      if (access.info) by_name_.emplace(access.component, access);
-    }
-  }
-}
-
-const Access* KnownComponents::find(std::string_view name) const {
-  const auto found = by_name_.find(name);
-  return found == by_name_.end() ? nullptr : &found->second;
-}
-
-std::string_view KnownComponents::table(std::string_view name) const {
-  for (const auto& [component, access] : by_name_) {
-    if (access.table == name) return access.table;
-  }
-  return {};
-}
-
-std::vector<std::string> KnownComponents::names() const {
-  std::vector<std::string> names;
-  for (const auto& [name, access] : by_name_) names.push_back(name);
-  return names;
-}
-
-std::vector<std::string> KnownComponents::tables() const {
-  std::vector<std::string> tables;
-  for (const auto& [name, access] : by_name_) {
-    const std::string table(access.table);
-    if (!table.empty() && std::find(tables.begin(), tables.end(), table) == tables.end()) tables.push_back(table);
-  }
-  return tables;
-}
-
 std::size_t Failures::add(Views views, std::optional<py::error_already_set> error) {
   failures_.push_back({std::move(views), std::move(error)});
   return failures_.size() - 1;
@@ -93,122 +50,6 @@ void Failures::rethrow_first() {
 
 namespace {
 
-py::handle require_system(const py::handle& system) {
-  if (py::isinstance(system, py::module_::import("minamo.systems").attr("System"))) return system;
-  throw py::type_error("expected a system, as minamo.system makes them, got " + py::repr(system).cast<std::string>());
-}
-
-}  // namespace
-
-PythonSystem::PythonSystem(const py::handle& system)
-    : name(require_system(system).attr("name").cast<std::string>()),
-      slot(system.attr("slot").cast<std::string>()),
-      standing(system.attr("standing").cast<bool>()),
-      function(system.attr("function")) {
-  const std::pair<const char*, Mode> modes[] = {
-      {"reads", Mode::read}, {"writes", Mode::write}, {"updates", Mode::update}};
-  for (const auto& [key, mode] : modes) {
-    for (const py::handle& component : system.attr(key)) {
-      if (py::isinstance<DescribedColumn>(component)) {
-        const auto described = component.cast<std::shared_ptr<DescribedColumn>>();
-        declared.push_back({mode, std::string(described->info().name), described});
-      } else {
-        declared.push_back({mode, component.cast<std::string>(), nullptr});
-      }
-    }
-  }
-}
-
-PythonSystem::~PythonSystem() {
-  const py::gil_scoped_acquire lock;
-  function = py::object();
-}
-
-namespace {
-
-std::string key_of(Mode mode) { return mode == Mode::read ? "reads" : mode == Mode::write ? "writes" : "updates"; }
-
-std::string place_of(const PythonSystem& system) { return "system \"" + system.name + "\""; }
-
-Problem unknown_name(const std::string& file, const std::string& pointer, const std::string& what,
-                     const std::string& name, const std::vector<std::string>& known) {
-  return {file, pointer, what, one_of_text(known), shown(Json(name)), closest_name(name, known)};
-}
-
-std::optional<Problem> problem_of(const std::string& file, const Declared& declared, const KnownComponents& known) {
-  const std::string key = key_of(declared.mode);
-  if (declared.described) {
-    if (known.find(declared.component)) {
-      return Problem{file,
-                     key,
-                     "a column of one's own has the name of a component of the program",
-                     "another name, or that name as a text",
-                     shown(Json(declared.component)),
-                     {}};
-    }
-    const std::string table = declared.described->table();
-    if (!known.table(table).empty()) return {};
-    return unknown_name(file, key, "column of an unknown table", table, known.tables());
-  }
-  const Access* access = known.find(declared.component);
-  if (!access) return unknown_name(file, key, "unknown component", declared.component, known.names());
-  if (access->table.empty() && !is_resource_for_python(declared.component)) {
-    return Problem{file,
-                   key,
-                   "is no column",
-                   fmt::format("a column, \"{}\" or \"{}\"", clock_name, history_name),
-                   shown(Json(declared.component)),
-                   {}};
-  }
-  const bool is_wrong_mode = (declared.component == clock_name && declared.mode != Mode::read) ||
-                             (declared.component == history_name && declared.mode != Mode::update);
-  if (!is_wrong_mode) return {};
-  return Problem{file,
-                 key,
-                 "wrong access",
-                 declared.component == clock_name ? "reads" : "updates",
-                 shown(Json(declared.component)),
-                 {}};
-}
-
-}  // namespace
-
-std::vector<Problem> problems_of(const PythonSystem& system, const KnownComponents& known) {
-  std::vector<Problem> problems;
-  std::vector<std::string> names;
-  for (const Slot& slot : slots()) names.emplace_back(slot.name);
-  if (std::find(names.begin(), names.end(), system.slot) == names.end())
-    problems.push_back(unknown_name(place_of(system), "slot", "unknown slot", system.slot, names));
-  for (const Declared& declared : system.declared) {
-    if (const auto problem = problem_of(place_of(system), declared, known)) problems.push_back(*problem);
-  }
-  return problems;
-}
-
-std::vector<Problem> missing_components(const PythonSystem& system, const World& world) {
-  std::vector<Problem> problems;
-  std::vector<std::string> columns;
-  for (const auto& [name, storage] : world.components()) {
-    if (storage->layout().number != ValueLayout::Number::none) columns.push_back(name);
-  }
-  for (const Declared& declared : system.declared) {
-    const auto found = world.components().find(declared.component);
-    const bool is_there = found != world.components().end();
-    if (is_there &&
-        (is_resource_for_python(declared.component) || found->second->layout().number != ValueLayout::Number::none)) {
-      continue;
-    }
-    Problem problem = unknown_name(place_of(system), key_of(declared.mode),
-                                   is_there ? "its values are not made of numbers" : "no system of this scene names it",
-                                   declared.component, columns);
-    if (problem.closest == declared.component) problem.closest.clear();
-    problems.push_back(std::move(problem));
-  }
-  return problems;
-}
-
-namespace {
-
 /// One call of a python function within a step.
 class Call {
  public:
@@ -221,6 +62,9 @@ class Call {
     if (error) end(std::move(error));
     if (views_.are_held()) fail("keeps an array of a column beyond its call; keep a copy");
     for (Storage* written : written_) require_all_rows(*written);
+    for (Storage* changed : changed_) {
+      if (const auto problem = problem_with_places(*changed, world_)) fail("has gone wrong: " + problem->text());
+    }
   }
 
  private:
@@ -237,8 +81,8 @@ class Call {
   }
 
   py::object argument(const Declared& declared) {
-    if (declared.component == clock_name) return py::cast(Clock(world_.resource<Clock>()));
-    if (declared.component == history_name) {
+    if (declared.component == Clock::info.name) return py::cast(Clock(world_.resource<Clock>()));
+    if (declared.component == measure::Columns::info.name) {
       history_ = std::make_shared<HistoryColumns>(world_.resource<measure::Columns>());
       return py::cast(history_);
     }
@@ -248,6 +92,7 @@ class Call {
     if (declared.mode == Mode::read) return views_.view(column, Writable::no, nullptr);
     column.keep(declared.mode == Mode::update ? Old::needed : Old::unread);
     if (declared.mode == Mode::write) mark_unwritten(column);
+    changed_.push_back(&column);
     return views_.view(column, Writable::yes, nullptr);
   }
 
@@ -304,6 +149,7 @@ class Call {
   Views views_;
   std::shared_ptr<HistoryColumns> history_;
   std::vector<Storage*> written_;
+  std::vector<Storage*> changed_;
 };
 
 Access access_of(const Declared& declared, const KnownComponents& known) {

@@ -1,16 +1,14 @@
 #include "simulation.hpp"
 
 #include "problems.hpp"
+#include "run.hpp"
+#include "written.hpp"
 
 #include "components/measure.hpp"
-#include "components/particle.hpp"
 #include "engine/simulation.hpp"
 #include "systems/output/history.hpp"
 #include "systems/pipeline.hpp"
 #include "systems/setup/time_plan.hpp"
-#include "systems/transfer/advect.hpp"
-#include "tools/machine.hpp"
-#include "tools/single_run.hpp"
 
 #include <oneapi/tbb/task_arena.h>
 #include <spdlog/fmt/fmt.h>
@@ -19,19 +17,10 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cmath>
-#include <csignal>
 
 namespace minamo::python {
 
 namespace {
-
-/// The process-wide limit is that of the simulation with most threads; each keeps to its own in its arena.
-int allow_threads(int wanted) {
-  static int most = 0;
-  if (wanted == 0 || wanted > most) most = prepare_threads(wanted);
-  return wanted == 0 ? most : wanted;
-}
 
 /// The names of the columns of the history.
 template <int Dim>
@@ -62,40 +51,6 @@ bool is_column(const Storage& component) { return component.layout().number != V
 
 bool is_writable(const Storage& column) {
   return column.info().lifetime == Lifetime::state && column.layout().number == ValueLayout::Number::real;
-}
-
-/// What somebody has written must be something that a step can begin with.
-void require_finite(Storage& column) {
-  const std::span<std::byte> bytes = column.bytes();
-  const std::span values(reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double));
-  const auto wrong = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
-  if (wrong == values.end()) return;
-  const std::size_t row = static_cast<std::size_t>(wrong - values.begin()) / column.doubles_per_value();
-  throw InputError({{std::string(column.info().name),
-                     {},
-                     fmt::format("row {} was set to what is not finite", row),
-                     "finite numbers",
-                     fmt::format("{}", *wrong),
-                     {}}});
-}
-
-/// A place on a wall is moved off it as far as advection would.
-template <int Dim>
-void put_inside(World& world) {
-  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
-  const std::span<Vec<Dim>> x_p = world.column<particle::Position<Dim>>();
-  for (std::size_t p = 0; p < x_p.size(); ++p) {
-    const bool is_outside = (x_p[p].array() < grid.low.array()).any() || (x_p[p].array() > grid.high.array()).any();
-    if (is_outside) {
-      throw InputError({{std::string(particle::Position<Dim>::info.name),
-                         {},
-                         fmt::format("row {} was set to a place outside the grid", p),
-                         fmt::format("[{}] to [{}] m", fmt::join(grid.low, ", "), fmt::join(grid.high, ", ")),
-                         fmt::format("[{}] m", fmt::join(x_p[p], ", ")),
-                         {}}});
-    }
-    x_p[p] = inside_box<Dim>(grid, x_p[p]).x;
-  }
 }
 
 /// Without the interpreter's lock while it lives, but for a look at signals now and then.
@@ -248,13 +203,8 @@ void Simulation::State::require_idle() const {
 
 void Simulation::State::check_written() {
   for (Storage* column : views.written()) {
-    require_finite(*column);
-    if (column->info().name != particle::Position<2>::info.name) continue;
-    if (prepared.file.scene.dimension == 2) {
-      put_inside<2>(world);
-    } else {
-      put_inside<3>(world);
-    }
+    if (auto problem = problem_with_numbers(*column)) throw InputError({*problem});
+    if (auto problem = problem_with_places(*column, world)) throw InputError({*problem});
   }
 }
 
@@ -361,51 +311,5 @@ py::array_t<double> Simulation::history(std::size_t rows) const {
 }
 
 std::size_t Simulation::history_rows() const { return state_->rows.size(); }
-
-namespace {
-
-std::atomic<bool> stop_requested = false;
-
-/// While it lives Ctrl-C asks the run to stop.
-class StopOnSignal {
- public:
-  StopOnSignal() {
-    stop_requested = false;
-    before_ = std::signal(SIGINT, [](int) { stop_requested = true; });
-  }
-  ~StopOnSignal() { std::signal(SIGINT, before_); }
-  StopOnSignal(const StopOnSignal&) = delete;
-  StopOnSignal& operator=(const StopOnSignal&) = delete;
-
- private:
-  void (*before_)(int);
-};
-
-}  // namespace
-
-void run_into(PreparedScene scene, const std::string& folder, int threads, std::optional<std::int64_t> steps,
-              bool resume, bool quiet) {
-  const RunPlan plan{.scene = scene.name,
-                     .folder = folder,
-                     .threads = allow_threads(threads),
-                     .steps = steps,
-                     .beginning = resume ? Beginning::continuation : Beginning::start,
-                     .quiet = quiet,
-                     .at_end = {}};
-  RunResult result;
-  {
-    const py::gil_scoped_release unlocked;
-    const StopOnSignal stop;
-    Profiler profiler(false);
-    tbb::task_arena arena(plan.threads);
-    arena.execute([&] { result = run_into_folder(scene.file, plan, profiler, stop_requested); });
-  }
-  scene.failures->rethrow_first();
-  if (result.outcome.ending == Ending::failed) throw RunFailed(result.outcome.message);
-  if (result.outcome.ending == Ending::interrupted) {
-    PyErr_SetNone(PyExc_KeyboardInterrupt);
-    throw py::error_already_set();
-  }
-}
 
 }  // namespace minamo::python

@@ -1,12 +1,14 @@
 #pragma once
 /// \file
-/// A run in memory, a step at a time, and a run into a folder.
+/// A run in memory, a step at a time.
 
 #include "part.hpp"
 
-#include <atomic>
-#include <functional>
-#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace minamo::python {
 
@@ -48,10 +50,5 @@ class Simulation {
   struct State;
   std::shared_ptr<State> state_;
 };
-
-/// What `minamo run` does, with Ctrl-C as a request to stop after the step.
-/// \throws InputError, ScheduleError, RunFailed, KeyboardInterrupt
-void run_into(PreparedScene scene, const std::string& folder, int threads, std::optional<std::int64_t> steps,
-              bool resume, bool quiet);
 
 }  // namespace minamo::python
