@@ -8,7 +8,8 @@
 
 namespace minamo {
 
-namespace {
+// Not unnamed: TimeLoop, which others see, holds one.
+namespace detail {
 
 /// Multiples of an interval, met one after the other.
 class Recurrence {
@@ -88,7 +89,7 @@ class Stepper {
   std::int64_t ticks_ = 0;  ///< where the attempt ends, or those before it
 };
 
-std::string shown(double seconds) {
+static std::string shown(double seconds) {
   std::ostringstream text;
   text << std::setprecision(6) << seconds;
   return text.str();
@@ -112,15 +113,23 @@ class Loop {
     frame_.run();
   }
 
+  /// One accepted step. \return whether it had a frame
+  bool take_step(Recurrence& frames) {
+    attempt_until_accepted(frames.next());
+    if (observers_.after_step) observers_.after_step(clock_);
+    const bool has_frame = frames.due(clock_.time, clock_.step);
+    if (has_frame) take_frame();
+    return has_frame;
+  }
+
+  Recurrence frames_ahead() const { return {plan_.frame_every, clock_.time, clock_.step}; }
+
   /// \return how the run ended
   Ending run(const std::atomic<bool>& stop) {
-    Recurrence frames(plan_.frame_every, clock_.time, clock_.step);
+    Recurrence frames = frames_ahead();
     Recurrence checkpoints(plan_.checkpoint_every, clock_.time, clock_.step);
     while (!is_over()) {
-      take_step(frames.next());
-      if (observers_.after_step) observers_.after_step(clock_);
-      const bool has_frame = frames.due(clock_.time, clock_.step);
-      if (has_frame) take_frame();
+      const bool has_frame = take_step(frames);
       if (checkpoints.due(clock_.time, clock_.step) || is_over() || stop) checkpoint();
       if (is_over() && !has_frame) frame_.run();
       if (stop && !is_over()) return Ending::interrupted;
@@ -132,11 +141,11 @@ class Loop {
     if (observers_.write_checkpoint) observers_.write_checkpoint();
   }
 
- private:
   bool is_over() const { return minamo::is_over(plan_, clock_); }
 
-  /// One accepted step, after as many attempts as it takes.
-  void take_step(double next_frame) {
+ private:
+  /// As many attempts at a step as it takes.
+  void attempt_until_accepted(double next_frame) {
     for (;;) {
       stepper_.plan(next_frame);
       world_.mark();
@@ -196,6 +205,12 @@ class Loop {
   Stepper stepper_;
 };
 
+}  // namespace detail
+
+namespace {
+
+using detail::Loop;
+
 /// What went wrong, also where there is no memory left to say much.
 std::string message_of(const std::exception& failure) {
   if (dynamic_cast<const std::bad_alloc*>(&failure)) return "out of memory";
@@ -218,6 +233,26 @@ std::string last_words(const Loop& loop, std::string message) {
 bool is_over(const TimePlan& plan, const Clock& clock) {
   return clock.time >= plan.end || (plan.max_steps && clock.index >= *plan.max_steps);
 }
+
+struct TimeLoop::Impl {
+  Loop loop;
+  std::optional<detail::Recurrence> frames = {};  // known when the first step's length is
+};
+
+TimeLoop::TimeLoop(World& world, Schedule& step, Schedule& frame, const TimePlan& plan, const Observers& observers)
+    : impl_(new Impl{.loop = {world, step, frame, plan, observers}}) {}
+TimeLoop::~TimeLoop() = default;
+TimeLoop::TimeLoop(TimeLoop&&) noexcept = default;
+TimeLoop& TimeLoop::operator=(TimeLoop&&) noexcept = default;
+
+void TimeLoop::begin(Schedule& start) {
+  impl_->loop.start(start);
+  impl_->frames = impl_->loop.frames_ahead();
+}
+
+bool TimeLoop::is_over() const { return impl_->loop.is_over(); }
+
+void TimeLoop::take_step() { impl_->loop.take_step(*impl_->frames); }
 
 Outcome run_simulation(World& world, Schedule& start, Schedule& step, Schedule& frame, const TimePlan& plan,
                        const Observers& observers, const std::atomic<bool>& stop, Beginning beginning) {

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -47,6 +48,29 @@ struct Outcome {
 enum class Beginning {
   start,         ///< with the schedule `start` and a frame
   continuation,  ///< with the state that is in the world, which a checkpoint has left
+};
+
+/// The loop of run_simulation() for a caller that looks at the world between steps, or changes it.
+class TimeLoop {
+ public:
+  /// All must outlive the loop.
+  TimeLoop(World& world, Schedule& step, Schedule& frame, const TimePlan& plan, const Observers& observers);
+  ~TimeLoop();
+  TimeLoop(TimeLoop&&) noexcept;
+  TimeLoop& operator=(TimeLoop&&) noexcept;
+
+  /// The first frame. \throws what a system throws
+  void begin(Schedule& start);
+  bool is_over() const;
+  /// One accepted step, after as many attempts as it takes, and the frame that it reaches.
+  /// \throws std::runtime_error if the shortest attempt is rejected, or what a system throws; the state is then that
+  /// before the step.
+  /// \pre begin() was called.
+  void take_step();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Runs `start` and a frame once, then steps up to the end. Frames and checkpoints fall on the first step that reaches

@@ -6,18 +6,39 @@
 #include "engine/component.hpp"
 #include "engine/parallel.hpp"
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <typeinfo>
 #include <vector>
 
 namespace minamo {
 
-/// A stored component, without its type: what the checkpoint and the listings need.
+/// How a value lies in memory, for who does not know its type: a number, a vector or a matrix of numbers.
+struct ValueLayout {
+  enum class Number { none, real, integer, natural };
+  struct Axis {
+    std::size_t extent;
+    std::size_t stride;  ///< [byte]
+  };
+  Number number = Number::none;  ///< none: the value is not made of numbers
+  std::size_t number_bytes = 0;
+  int axes = 0;  ///< 0 of a number, 1 of a vector, 2 of a matrix
+  std::array<Axis, 2> axis{};
+};
+
+/// What a writer of all values may do with the old ones.
+enum class Old {
+  needed,
+  unread,
+};
+
+/// A stored component, without its type: what the checkpoint, the listings and other languages need.
 class Storage {
  public:
   Storage(const ComponentInfo& info, std::string_view table) : info_(&info), table_(table) {}
@@ -41,6 +62,12 @@ class Storage {
   virtual std::size_t value_bytes() const = 0;        ///< 0 if the value is not trivially copyable
   virtual std::span<std::byte> bytes() = 0;           ///< empty if the value is not trivially copyable
   virtual std::size_t doubles_per_value() const = 0;  ///< 0 unless the value is made of doubles alone
+  virtual ValueLayout layout() const = 0;             ///< of a value of a column; of a resource none
+  /// To be called before a change. Where all values are written anew, the old ones are set aside instead of copied.
+  virtual void keep(Old old) = 0;
+  /// Gives a buffer of this column away, of values as they are, as they were or of neither, to whoever holds on to what
+  /// is returned; a copy takes its place. Null if it is no buffer of this column.
+  virtual std::shared_ptr<void> give_away(const void* buffer) = 0;
 
  private:
   const ComponentInfo* info_;
@@ -76,6 +103,42 @@ std::span<std::byte> bytes_of(std::span<T> values) {
   }
 }
 
+template <class T>
+constexpr ValueLayout::Number number_of() {
+  if constexpr (std::is_floating_point_v<T>) return ValueLayout::Number::real;
+  if constexpr (std::is_integral_v<T>) {
+    return std::is_signed_v<T> ? ValueLayout::Number::integer : ValueLayout::Number::natural;
+  }
+  return ValueLayout::Number::none;
+}
+
+template <class T>
+constexpr ValueLayout layout_of() {
+  if constexpr (std::is_arithmetic_v<T>) {
+    return {.number = number_of<T>(), .number_bytes = sizeof(T), .axes = 0, .axis = {}};
+  } else if constexpr (requires {
+                         typename T::Scalar;
+                         { T::SizeAtCompileTime } -> std::convertible_to<int>;
+                       }) {
+    constexpr std::size_t number = sizeof(typename T::Scalar);
+    constexpr std::size_t rows = T::RowsAtCompileTime;
+    constexpr std::size_t columns = T::ColsAtCompileTime;
+    constexpr bool by_row = T::IsRowMajor && columns > 1;
+    return {.number = number_of<typename T::Scalar>(),
+            .number_bytes = number,
+            .axes = columns == 1 ? 1 : 2,
+            .axis = {{{rows, by_row ? columns * number : number}, {columns, by_row ? number : rows * number}}}};
+  } else if constexpr (requires { std::tuple_size<T>::value; }) {
+    using Scalar = typename T::value_type;
+    return {.number = number_of<Scalar>(),
+            .number_bytes = sizeof(Scalar),
+            .axes = 1,
+            .axis = {{{std::tuple_size_v<T>, sizeof(Scalar)}}}};
+  } else {
+    return {};
+  }
+}
+
 /// Whether a change keeps what was there before it.
 enum class Keeping {
   off,
@@ -84,12 +147,6 @@ enum class Keeping {
 };
 
 }  // namespace detail
-
-/// What a writer of all values may do with the old ones.
-enum class Old {
-  needed,
-  unread,
-};
 
 /// Columns of the same type of value share its code.
 template <class T>
@@ -112,8 +169,7 @@ class ColumnStorage final : public Storage {
     take_spare();
   }
   void mark() override { keeping_ = detail::Keeping::due; }
-  /// To be called before a change. Where all values are written anew, the old ones are set aside instead of copied.
-  void keep(Old old) {
+  void keep(Old old) override {
     if (keeping_ == detail::Keeping::due) keep_now(old);
   }
   void roll_back() override {
@@ -125,6 +181,16 @@ class ColumnStorage final : public Storage {
   std::size_t value_bytes() const override { return detail::bytes_are_value<T> ? sizeof(T) : 0; }
   std::span<std::byte> bytes() override { return detail::bytes_of(std::span<T>(values_)); }
   std::size_t doubles_per_value() const override { return detail::doubles_in<T>(); }
+  ValueLayout layout() const override { return detail::layout_of<T>(); }
+  std::shared_ptr<void> give_away(const void* buffer) override {
+    for (std::vector<T>* values : {&values_, &spare_, &kept_}) {
+      if (values->data() != buffer || values->empty()) continue;
+      auto given = std::make_shared<std::vector<T>>(std::move(*values));
+      *values = *given;
+      return given;
+    }
+    return nullptr;
+  }
 
  private:
   [[gnu::noinline]] void keep_now(Old old) {
@@ -169,6 +235,9 @@ class ResourceStorage final : public Storage {
   std::size_t value_bytes() const override { return detail::bytes_are_value<C> ? sizeof(C) : 0; }
   std::span<std::byte> bytes() override { return detail::bytes_of(std::span<C>(&value_, 1)); }
   std::size_t doubles_per_value() const override { return 0; }
+  ValueLayout layout() const override { return {}; }
+  void keep(Old) override {}  // mark() has copied it
+  std::shared_ptr<void> give_away(const void*) override { return nullptr; }
 
  private:
   static constexpr bool is_state = C::info.lifetime == Lifetime::state;
@@ -191,6 +260,17 @@ class World {
   template <ColumnComponent C>
   ColumnStorage<typename C::value_type>& storage() {
     return stored<C, ColumnStorage<typename C::value_type>>(C::table::name);
+  }
+
+  /// A column that no type stands for: who adds it describes it, and finds it again by its name.
+  /// \pre `info` and what `table` refers to outlive the world.
+  /// \throws std::logic_error if there is a component of that name.
+  template <class T>
+  ColumnStorage<T>& add_column(const ComponentInfo& info, std::string_view table) {
+    auto storage = std::make_unique<ColumnStorage<T>>(info, table);
+    ColumnStorage<T>& added = *storage;
+    insert(detail::next_component_id(), std::move(storage));
+    return added;
   }
 
   template <ResourceComponent C>

@@ -4,6 +4,7 @@
 #include "systems/bodies/contact.hpp"
 #include "systems/bodies/couple.hpp"
 #include "systems/bodies/cut.hpp"
+#include "systems/bodies/cut_friction.hpp"
 #include "systems/bodies/extension.hpp"
 #include "systems/bodies/fill.hpp"
 #include "systems/bodies/forces.hpp"
@@ -11,6 +12,7 @@
 #include "systems/bodies/motion.hpp"
 #include "systems/bodies/motion_table.hpp"
 #include "systems/bodies/outlines.hpp"
+#include "systems/bodies/read_body_wall.hpp"
 #include "systems/bodies/read_free.hpp"
 #include "systems/bodies/room.hpp"
 #include "systems/bodies/solid.hpp"
@@ -122,7 +124,7 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
   body.name = input.text("name", {.doc = "its columns are NAME_force_x, NAME_torque, NAME_position_x, ..."});
   input.object("shape", "where the body is at the start", Input::Presence::required,
                [&](Input& shape) { body.shape = read_shape<Dim>(shape, scene, ShapePlace::anywhere); });
-  input.choice("wall", std::vector<std::string>{"slip"}, "what its surface does to the liquid", "slip");
+  body.wall = read_body_wall(input, scene);
   body.pivot = middle_of<Dim>(body.shape);
   read_motion<Dim>(input, scene, body);
   if (input.describing() || !body.shape) return;
@@ -134,12 +136,13 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
   set.bodies.push_back(std::move(body));
 }
 
-/// What is solved with friction in the balances, or by UMFPACK, does not know of open shares.
+/// What free bodies take of friction is known at the start of the step alone, and UMFPACK does not know of open shares.
 void check_solver(bool any_is_free, bool any_moves, const Scene& scene, SeedProblems& problems) {
-  if (scene.facts.find<Rheology>() != nullptr) {
-    problems.note("/fluid/rheology", "not beside bodies", "a constant viscosity", "a rheology");
-  } else if (friction_of(scene) == Friction::in_balances) {
-    problems.note("/fluid/viscosity", "too large beside bodies", "nu dt/h^2 up to 0.01, and no slip length",
+  if (any_is_free && scene.facts.find<Rheology>() != nullptr) {
+    problems.note("/fluid/rheology", "not with free bodies", "a constant viscosity", "a rheology");
+  } else if (any_is_free && friction_of(scene) == Friction::in_balances) {
+    problems.note("/fluid/viscosity", "too large for free bodies",
+                  "nu dt/h^2 up to 0.01, and no slip length shorter than h",
                   fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
   }
   // The acceleration that it carries along a wall that moves grows without bound in four of ten hard cases.
@@ -162,6 +165,8 @@ void seed_bodies(BodySet<Dim> set, World& world) {
   world.resource<BodySet<Dim>>() = set;
   world.resource<BodyOutlines<Dim>>() = outlines_of<Dim>(set, {grid.low, grid.high}, grid.spacing);
   world.resource<StaticCut<Dim>>() = cut_by_bodies_at_rest<Dim>(set, grid, world.resource<Splines<Dim>>());
+  if (set.rubs)
+    world.resource<FrictionAtRest<Dim>>() = friction_at_rest<Dim>(set, grid, world.resource<Splines<Dim>>());
   world.resize<Bodies>(set.bodies.size());
   for (std::size_t b = 0; b < set.bodies.size(); ++b) {
     world.column<body::Position<Dim>>()[b] = set.bodies[b].pivot;
@@ -174,9 +179,11 @@ void seed_bodies(BodySet<Dim> set, World& world) {
 }
 
 void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
+  const bool rubs = finds_friction(bodies, scene);
   recipe.add("sort", "place_bodies");
   recipe.add("sort", "cut_faces");
   recipe.add("sort", "find_face_extension");
+  if (rubs) recipe.add("sort", "find_cut_friction");
   recipe.add("boundaries", "extend_old_velocity");
   recipe.add("material", "fill_beside_bodies");
   recipe.add("material", "find_uncut_mass");
@@ -188,11 +195,30 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   recipe.add("measure", "measure_bodies_at_start", When::standing);
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
-    recipe.seed([set = bodies.of<Dim>()](const Scene& of, World& world, SeedProblems& problems) {
+    BodySet<Dim> set = bodies.of<Dim>();
+    set.rubs = rubs;
+    for (auto& body : set.bodies) body.wall = wall_on_grid(body.wall, friction_of(scene), scene.grid.spacing);
+    recipe.seed([set](const Scene& of, World& world, SeedProblems& problems) {
       check_solver(set.any_is_free(), set.any_moves(), of, problems);
       seed_bodies<Dim>(set, world);
     });
   });
+}
+
+/// The shortest slip length of a scene, those of bodies included, tells how friction is solved; one below a tenth of a
+/// cell says no more than that.
+void set_wall_friction(const BodiesOfScene& bodies, Scene& scene) {
+  WallFriction friction = scene.facts.get<WallFriction>();
+  const auto take = [&](const auto& set) {
+    for (const auto& body : set.bodies) {
+      if (body.wall.kind == BodyWall::Kind::slip_length)
+        friction.largest_per_length =
+            std::max(friction.largest_per_length, 1 / std::max(body.wall.slip_length, 0.1 * scene.grid.spacing));
+    }
+  };
+  take(bodies.in_plane);
+  take(bodies.in_space);
+  scene.facts.set(friction);
 }
 
 Contribution read_bodies(Input& input, Scene& scene) {
@@ -206,8 +232,13 @@ Contribution read_bodies(Input& input, Scene& scene) {
     input.problem("bodies", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
   }
   scene.facts.set(bodies);
+  set_wall_friction(bodies, scene);
   if (bodies.in_plane.any_is_free() || bodies.in_space.any_is_free())
     scene.facts.set(CompletesMultipliers{{"couple_free_bodies"}});
+  if (bodies.in_plane.any_separates() || bodies.in_space.any_separates()) {
+    const auto* sides = scene.facts.find<RepeatsBalances>();
+    scene.facts.set(RepeatsBalances{.at_sides = sides != nullptr && sides->at_sides, .at_bodies = true});
+  }
   return [bodies](const Scene& of, Recipe& recipe) { add_systems_of_bodies(bodies, of, recipe); };
 }
 
@@ -224,10 +255,17 @@ Contribution read_nothing(Input&, Scene&) {
 
 }  // namespace
 
+bool finds_friction(const BodiesOfScene& bodies, const Scene& scene) {
+  const Friction friction = friction_of(scene);
+  const bool any_rubs = bodies.in_plane.any_rubs() || bodies.in_space.any_rubs();
+  return friction == Friction::in_balances || (friction == Friction::at_start && any_rubs);
+}
+
 void add_bodies(SystemRegistry& registry) {
   registry.add<PlaceBodies>("place_bodies");
   registry.add<CutFaces>("cut_faces");
   registry.add<FindFaceExtension>("find_face_extension");
+  registry.add<FindCutFriction>("find_cut_friction");
   registry.add<ExtendOldVelocity>("extend_old_velocity");
   registry.add<FillBesideBodies>("fill_beside_bodies");
   registry.add<FindUncutMass>("find_uncut_mass");

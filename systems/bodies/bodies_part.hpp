@@ -3,6 +3,7 @@
 /// What other parts know of the bodies of a scene.
 
 #include "systems/bodies/body_set.hpp"
+#include "systems/setup/scene.hpp"
 
 namespace minamo {
 
@@ -24,5 +25,9 @@ struct BodiesOfScene {
     return const_cast<BodySet<Dim>&>(std::as_const(*this).template of<Dim>());
   }
 };
+
+/// Whether friction is found beside the bodies, (E110). It costs something: not where a liquid that flows easily slips
+/// along all of them.
+bool finds_friction(const BodiesOfScene& bodies, const Scene& scene);
 
 }  // namespace minamo

@@ -3,11 +3,10 @@
 /// The bodies of a scene: shapes, and how they move.
 
 #include "components/body.hpp"
+#include "components/rigid.hpp"
 #include "engine/expression.hpp"
 #include "systems/shapes/placement.hpp"
 #include "systems/shapes/shape.hpp"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <string>
@@ -54,12 +53,20 @@ struct Free {
   Spring<Dim> spring;
 };
 
+/// What the surface of a body does to the liquid that moves along it.
+struct BodyWall {
+  enum class Kind { slip, no_slip, slip_length, separating };
+  Kind kind = Kind::slip;
+  double slip_length = 0;  ///< of that kind [m]
+};
+
 template <int Dim>
 struct BodyScene {
   std::string name;
   SharedShape<Dim> shape;             ///< at the start
   Vec<Dim> pivot = Vec<Dim>::Zero();  ///< the point that it turns about, at the start [m]
   std::variant<Fixed, Prescribed<Dim>, Tabulated<Dim>, Free<Dim>> motion;
+  BodyWall wall;
   std::vector<Vec<Dim>> surface;  ///< points of the surface at the start, where bodies touch; of finite shapes [m]
 
   bool moves() const { return !std::holds_alternative<Fixed>(motion); }
@@ -69,6 +76,7 @@ struct BodyScene {
 template <int Dim>
 struct BodySet {
   std::vector<BodyScene<Dim>> bodies;
+  bool rubs = false;  ///< whether friction is found beside the bodies (E110)
   static constexpr ComponentInfo info{"bodies", "", "", Lifetime::constant};
 
   bool any_moves() const {
@@ -77,21 +85,17 @@ struct BodySet {
     }
     return false;
   }
+  bool any_rubs() const { return any_is(BodyWall::Kind::no_slip) || any_has_slip_length(); }
+  bool any_has_slip_length() const { return any_is(BodyWall::Kind::slip_length); }
+  bool any_separates() const { return any_is(BodyWall::Kind::separating); }
   bool any_is_free() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.free() != nullptr; });
   }
+
+ private:
+  bool any_is(BodyWall::Kind kind) const {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) { return body.wall.kind == kind; });
+  }
 };
-
-/// The velocity of a point at a distance r from the one that a body turns about: V + omega x r.
-inline Vec<2> rigid_velocity(const Vec<2>& velocity, const Vec<1>& spin, const Vec<2>& r) {
-  return {velocity[0] - spin[0] * r[1], velocity[1] + spin[0] * r[0]};
-}
-inline Vec<3> rigid_velocity(const Vec<3>& velocity, const Vec<3>& spin, const Vec<3>& r) {
-  return velocity + spin.cross(r);
-}
-
-/// r x f.
-inline Vec<1> moment_of(const Vec<2>& r, const Vec<2>& f) { return Vec<1>(r[0] * f[1] - r[1] * f[0]); }
-inline Vec<3> moment_of(const Vec<3>& r, const Vec<3>& f) { return r.cross(f); }
 
 }  // namespace minamo

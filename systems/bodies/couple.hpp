@@ -9,6 +9,7 @@
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
+#include "systems/conforming/cut_friction.hpp"
 #include "systems/conforming/solve.hpp"
 
 namespace minamo {
@@ -31,8 +32,8 @@ struct CoupleFreeBodies {
                   Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
                   Read<unknown::NullVector> null_vector, Read<unknown::Source> source, Read<multiplier::Volume> v_l,
-                  Read<multiplier::Capacity> capacity, Update<MultiplierSolver<Dim>> solver,
-                  Update<unknown::Solution> solution, Update<SolveReport> report,
+                  Read<multiplier::Capacity> capacity, Optional<Read<FrictionOnWalls<Dim>>> friction,
+                  Update<MultiplierSolver<Dim>> solver, Update<unknown::Solution> solution, Update<SolveReport> report,
                   Update<body::MeanVelocity<Dim>> V_mean, Update<body::MeanSpin<Dim>> omega_mean,
                   Update<body::Work> W_b, Write<body::EndVelocity<Dim>> V_end,
                   Write<body::EndSpin<Dim>> omega_end) const;

@@ -5,6 +5,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <optional>
+
 namespace minamo {
 
 namespace {
@@ -18,6 +20,7 @@ struct BodyRow {
   Vec<rotations<Dim>> angle;
   Vec<rotations<Dim>> spin;
   double work;
+  std::optional<RigidVector<Dim>> friction = {};
 };
 
 template <int Dim>
@@ -39,6 +42,9 @@ void set_columns(measure::Columns& columns, const std::string& name, const BodyR
   rotation("angle", row.angle);
   rotation("rotation", row.spin);
   columns.set(name + "_work", row.work);
+  if (!row.friction) return;
+  vector("friction", row.friction->template head<Dim>());
+  rotation("friction_torque", row.friction->template tail<rotations<Dim>>());
 }
 
 }  // namespace
@@ -51,8 +57,8 @@ void PushBodies<Dim>::operator()(
     Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
     Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
     Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-    Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Write<body::Force<Dim>> F_b,
-    Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
+    Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
+    Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
@@ -93,17 +99,22 @@ void PushBodies<Dim>::operator()(
       }
     }
   }
-  for (std::size_t b = 0; b < set->bodies.size(); ++b)
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     W_b[b] += clock->step * (F_b[b].dot(V_b[b]) + T_b[b].dot(omega_b[b]));
+    if (set->rubs) W_b[b] += clock->step * friction->of[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
+  }
 }
 
 template <int Dim>
 void MeasureBodies<Dim>::operator()(Read<BodySet<Dim>> set, Read<body::Force<Dim>> F_b, Read<body::Torque<Dim>> T_b,
                                     Read<body::Position<Dim>> c_b, Read<body::Velocity<Dim>> V_b,
                                     Read<body::Angle<Dim>> alpha_b, Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b,
+                                    Optional<Read<FrictionOnWalls<Dim>>> friction,
                                     Update<measure::Columns> columns) const {
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
-    set_columns<Dim>(*columns, set->bodies[b].name, {F_b[b], T_b[b], c_b[b], V_b[b], alpha_b[b], omega_b[b], W_b[b]});
+    BodyRow<Dim> row{F_b[b], T_b[b], c_b[b], V_b[b], alpha_b[b], omega_b[b], W_b[b]};
+    if (set->rubs) row.friction = friction->of[b];
+    set_columns<Dim>(*columns, set->bodies[b].name, row);
   }
 }
 
@@ -114,9 +125,15 @@ void MeasureBodiesAtStart<Dim>::operator()(Read<BodySet<Dim>> set, Read<body::Po
                                            Update<measure::Columns> columns) const {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
-    set_columns<Dim>(*columns, set->bodies[b].name,
-                     {Vec<Dim>::Constant(nothing), Vec<rotations<Dim>>::Constant(nothing), c_b[b], V_b[b], alpha_b[b],
-                      omega_b[b], W_b[b]});
+    BodyRow<Dim> row{Vec<Dim>::Constant(nothing),
+                     Vec<rotations<Dim>>::Constant(nothing),
+                     c_b[b],
+                     V_b[b],
+                     alpha_b[b],
+                     omega_b[b],
+                     W_b[b]};
+    if (set->rubs) row.friction = RigidVector<Dim>::Constant(nothing);
+    set_columns<Dim>(*columns, set->bodies[b].name, row);
   }
 }
 

@@ -9,12 +9,13 @@
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
+#include "systems/conforming/cut_friction.hpp"
 #include "systems/conforming/splines.hpp"
 
 namespace minamo {
 
 /// (E90)  F_b = sum_f c_fb (B^T lambda)_f e_f and its moment: the force that does the work of the wall velocities in
-/// the balance of mass.
+/// the balance of mass. Friction (E110) does work, too.
 template <int Dim>
 struct PushBodies {
   static constexpr std::string_view doc = "(E90) force, torque and work of the pressure on bodies";
@@ -25,18 +26,19 @@ struct PushBodies {
                   Read<multiplier::Row> row, Read<unknown::Solution> solution, Read<face::Open<Dim>> open,
                   Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
-                  Read<body::MeanSpin<Dim>> omega_b, Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
-                  Update<body::Work> W_b) const;
+                  Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
+                  Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
 };
 
 /// Columns of the history: NAME_force_x, ..., NAME_torque, NAME_position_x, ..., NAME_velocity_x, ..., NAME_angle,
-/// NAME_rotation, NAME_work.
+/// NAME_rotation, NAME_work; where bodies rub also NAME_friction_x, ..., NAME_friction_torque.
 template <int Dim>
 struct MeasureBodies {
   static constexpr std::string_view doc = "forces, places and velocities of bodies";
   void operator()(Read<BodySet<Dim>> set, Read<body::Force<Dim>> F_b, Read<body::Torque<Dim>> T_b,
                   Read<body::Position<Dim>> c_b, Read<body::Velocity<Dim>> V_b, Read<body::Angle<Dim>> alpha_b,
-                  Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b, Update<measure::Columns> columns) const;
+                  Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
+                  Update<measure::Columns> columns) const;
 };
 
 /// The same of the start, where there is no force yet.

@@ -165,8 +165,8 @@ template <int Dim>
 void AssembleMultipliers<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
     Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
-    Optional<Read<face::Open<Dim>>> open, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
-    Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+    Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released, Resize<Unknowns> unknowns,
+    Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
     Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
     Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
@@ -183,7 +183,8 @@ void AssembleMultipliers<Dim>::operator()(
   };
   std::int32_t count = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
-    row[i] = phi[i] > active_from<Dim> && moves(i) ? count++ : staggered::none;
+    const bool is_released = released && released[i] != 0;
+    row[i] = phi[i] > active_from<Dim> && !is_released && moves(i) ? count++ : staggered::none;
   }
   unknowns.resize(static_cast<std::size_t>(count));
   for_each_row(row.size(), [&](std::size_t i) {

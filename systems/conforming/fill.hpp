@@ -4,6 +4,7 @@
 
 #include "components/body.hpp"
 #include "components/cells.hpp"
+#include "components/contact.hpp"
 #include "components/fluid.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
@@ -67,11 +68,11 @@ struct AssembleMultipliers {
   static constexpr std::string_view doc = "(E77) (E78) active multipliers, S = B m^-1 B^T";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
-                  Read<multiplier::FillFraction> phi, Optional<Read<face::Open<Dim>>> open, Resize<Unknowns> unknowns,
-                  Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
-                  Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
-                  Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
-                  Write<unknown::NullVector> null_vector) const;
+                  Read<multiplier::FillFraction> phi, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<multiplier::Released>> released, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
+                  Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+                  Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
+                  Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const;
 };
 
 }  // namespace minamo

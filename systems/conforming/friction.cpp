@@ -1,23 +1,23 @@
 #include "systems/conforming/friction.hpp"
 
-#include "systems/conforming/friction_operator.hpp"
+#include "systems/conforming/cell_room.hpp"
+#include "systems/conforming/wall_friction.hpp"
 #include "systems/grid/filled_nodes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace minamo {
 
 namespace {
 
 template <int Dim>
-double* numbers(std::span<Vec<Dim>> of_faces) {
+std::span<double> numbers(std::span<Vec<Dim>> of_faces) {
   static_assert(sizeof(Vec<Dim>) == Dim * sizeof(double));
-  return of_faces.empty() ? nullptr : of_faces.front().data();
+  return {of_faces.empty() ? nullptr : of_faces.front().data(), Dim * of_faces.size()};
 }
 template <int Dim>
-const double* numbers(std::span<const Vec<Dim>> of_faces) {
-  return of_faces.empty() ? nullptr : of_faces.front().data();
+std::span<const double> numbers(std::span<const Vec<Dim>> of_faces) {
+  return {of_faces.empty() ? nullptr : of_faces.front().data(), Dim * of_faces.size()};
 }
 
 }  // namespace
@@ -25,15 +25,17 @@ const double* numbers(std::span<const Vec<Dim>> of_faces) {
 template <int Dim>
 void FindCellViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                         Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Volume> V_p,
-                                        Read<multiplier::FillFraction> phi, Write<cell::Viscosity> mu_c) const {
-  const double per_cell = std::pow(grid->spacing, -Dim);
+                                        Read<multiplier::FillFraction> phi, Optional<Read<CutFriction<Dim>>> cut,
+                                        Optional<Read<FrictionAtRest<Dim>>> at_rest,
+                                        Write<cell::Viscosity> mu_c) const {
+  const CellRoom<Dim> room(grid->spacing, cut, at_rest);
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       double volume = 0;
       for (std::size_t p = cell.begin; p < cell.end; ++p) volume += V_p[p];
       const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), phi.span()));
-      mu_c[c] = fluid->viscosity * ((1 - theta) * volume * per_cell + theta);
+      mu_c[c] = fluid->viscosity * room.liquid_share(c, theta, volume);
     });
   });
 }
@@ -41,30 +43,58 @@ void FindCellViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
 template <int Dim>
 void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> matrices,
                                Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
+                               Optional<Read<face::Open<Dim>>> open, Optional<Read<FaceExtension<Dim>>> extension,
+                               Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest,
                                Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
-                               Write<face::Friction<Dim>> friction, Update<face::Predictor<Dim>> predictor) const {
+                               Write<face::Friction<Dim>> friction, Write<FrictionOnWalls<Dim>> on_walls,
+                               Update<face::Predictor<Dim>> predictor) const {
   const double tau = rates->velocity / rates->acceleration;
-  const FrictionOf<Dim> of{*splines, *matrices, *cells, *sites, mu_c.span()};
+  const bool walls_rub = static_cast<bool>(cut);
+  FrictionOf<Dim> of{*splines, *matrices, *cells, *sites, mu_c.span()};
+  if (walls_rub) {
+    of.extension = &*extension;
+    of.cut = &*cut;
+    of.at_rest = &*at_rest;
+  }
+  // 1/m_f: what bodies leave open of a face stands in its mobility, too.
+  const auto per_mass = [&](std::size_t i, Eigen::Index d) {
+    return walls_rub && open[i][d] > 0 ? mobility[i][d] / open[i][d] : mobility[i][d];
+  };
   for_each_row(bound.size(), [&](std::size_t i) {
     bound[i].setZero();
     friction[i].setZero();
   });
-  add_friction_diagonal<Dim>(of, numbers<Dim>(bound.span()), [&](const Index<Dim>& cell, std::size_t f, std::size_t) {
-    return matrices->bounds_of(*splines, cell)[f];
+  add_friction_diagonal<Dim>(of, numbers<Dim>(bound.span()).data(),
+                             [&](std::size_t c, std::size_t f, std::size_t) { return of.bounds_of(c)[f]; });
+  if (walls_rub) bound_by_open_faces<Dim>(*extension, numbers<Dim>(bound.span()));
+  // 2 tau D_f/m_f takes the place of the bound.
+  for_each_row(bound.size(), [&](std::size_t i) {
+    for (Eigen::Index d = 0; d < Dim; ++d) bound[i][d] = 2 * tau * bound[i][d] * per_mass(i, d);
   });
+  if (walls_rub) most_of_open_faces<Dim>(*extension, numbers<Dim>(bound.span()));
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto&) {
       const std::uint32_t* rows = sites->of(c);
       double largest = 1;
-      for_each_cell_face<Dim, K>([&](std::size_t, std::size_t k, Eigen::Index d) {
-        largest = std::max(largest, 2 * tau * bound[rows[k]][d] * mobility[rows[k]][d]);
-      });
+      for_each_cell_face<Dim, K>(
+          [&](std::size_t, std::size_t k, Eigen::Index d) { largest = std::max(largest, bound[rows[k]][d]); });
       mu_c[c] /= largest;
     });
   });
-  apply_friction<Dim>(of, numbers<Dim>(std::span<const Vec<Dim>>(predictor.span())), numbers<Dim>(friction.span()));
-  for_each_row(predictor.size(), [&](std::size_t i) { predictor[i] -= tau * mobility[i].cwiseProduct(friction[i]); });
+  if (walls_rub) {
+    on_walls->of.assign(cut->motion.size(), RigidVector<Dim>::Zero());
+    // The bound is not read again: room for the extended velocities.
+    apply_wall_friction<Dim>(of, WallsMove::yes, {}, numbers<Dim>(std::span<const Vec<Dim>>(predictor.span())),
+                             numbers<Dim>(bound.span()), numbers<Dim>(friction.span()), &on_walls->of);
+  } else {
+    on_walls->of.clear();
+    apply_friction<Dim>(of, numbers<Dim>(std::span<const Vec<Dim>>(predictor.span())).data(),
+                        numbers<Dim>(friction.span()).data());
+  }
+  for_each_row(predictor.size(), [&](std::size_t i) {
+    for (Eigen::Index d = 0; d < Dim; ++d) predictor[i][d] -= tau * (per_mass(i, d) * friction[i][d]);
+  });
 }
 
 template struct FindCellViscosity<2>;

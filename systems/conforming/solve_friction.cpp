@@ -1,6 +1,6 @@
 #include "systems/conforming/solve_friction.hpp"
 
-#include "systems/conforming/friction_operator.hpp"
+#include "systems/conforming/wall_friction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,13 +19,49 @@ struct FrictionSystem {
   Incidence<Dim> incidence;
   std::span<const std::uint32_t> of_unknown;
   std::span<const std::int32_t> row;
+  Passage<Dim> passage;
   FrictionWork<Dim>& work;
+
+  bool walls_rub() const { return friction.cut != nullptr; }
 
   /// out = (m/tau + K) v; nothing at faces that walls hold.
   void apply(const Values& v, Values& out) const {
-    std::fill(out.begin(), out.end(), 0.0);
-    apply_friction<Dim>(friction, v.data(), out.data());
+    rub(v, out, WallsMove::no, nullptr);
     for_each_row(v.size(), [&](std::size_t f) { out[f] = work.mass[f] == 0 ? 0 : out[f] + work.mass[f] * v[f]; });
+  }
+  /// out = K v.
+  void rub(const Values& v, Values& out, WallsMove move, std::vector<RigidVector<Dim>>* on_walls) const {
+    if (walls_rub()) {
+      apply_wall_friction<Dim>(friction, move, work.tie, v, work.extended, out, on_walls);
+    } else {
+      std::fill(out.begin(), out.end(), 0.0);
+      apply_friction<Dim>(friction, v.data(), out.data());
+    }
+  }
+  /// G^-1 by face, and the ties: as stiff as whole cells around.
+  void precondition() const {
+    const auto add_diagonal = [&](Values& out, const auto& matrix_of) {
+      std::fill(out.begin(), out.end(), 0.0);
+      add_friction_diagonal<Dim>(friction, out.data(), [&](std::size_t c, std::size_t f, std::size_t faces) {
+        return matrix_of(c)[f * (faces + 1)];
+      });
+    };
+    add_diagonal(work.per_g, [&](std::size_t c) { return friction.matrix_of(c); });
+    if (walls_rub()) {
+      add_diagonal(work.tie,
+                   [&](std::size_t c) { return friction.matrices.of(friction.splines, friction.cells.cells[c].node); });
+      // A face through which nothing passes has no velocity of its own.
+      for_each_row(work.tie.size(), [&](std::size_t f) {
+        if (work.mass[f] == 0) work.tie[f] = 0;
+      });
+      move_diagonal_to_open_faces<Dim>(*friction.extension, work.tie, work.per_g);
+    }
+    for_each_row(work.mass.size(), [&](std::size_t f) {
+      const bool is_held = work.mass[f] == 0;
+      work.per_g[f] = is_held ? 0 : 1 / (work.mass[f] + work.per_g[f]);
+      const double a = passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim));
+      work.through[f] = a * a * work.per_g[f];
+    });
   }
   /// G z = r - B^T y with B z = 0; r becomes r - B^T y. \return r . z
   double project() const {
@@ -35,7 +71,7 @@ struct FrictionSystem {
       for (std::size_t d = 0; d < Dim; ++d) {
         const std::size_t low = Dim * i + d;
         const std::size_t high = Dim * incidence.above(i, d) + d;
-        sum += incidence.per_width(i, d) * (work.per_g[high] * work.r[high] - work.per_g[low] * work.r[low]);
+        sum += incidence.per_width(i, d) * (through(high) - through(low));
       }
       work.divergence[l] = sum;
     });
@@ -45,15 +81,28 @@ struct FrictionSystem {
     for_each_row(work.r.size(), [&](std::size_t f) { work.z[f] = work.per_g[f] * work.r[f]; });
     return dot(work.r, work.z);
   }
-  /// r -= B^T y; nothing at faces that walls hold.
+  /// What passes a face of G^-1 r.
+  double through(std::size_t f) const {
+    return passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) * work.per_g[f] * work.r[f];
+  }
+  /// r -= a B^T y; nothing at faces that walls hold.
   void subtract_gradient(const Values& y, Values& r) const {
     const auto at = [&](std::size_t i) {
       return row[i] == staggered::none ? 0.0 : y[static_cast<std::size_t>(row[i])];
     };
     for_each_row(row.size(), [&](std::size_t i) {
       for (std::size_t d = 0; d < Dim; ++d) {
-        if (work.per_g[Dim * i + d] != 0) r[Dim * i + d] -= incidence.gradient(i, d, at);
+        if (work.per_g[Dim * i + d] == 0) continue;
+        r[Dim * i + d] -= passage.share(i, static_cast<Eigen::Index>(d)) * incidence.gradient(i, d, at);
       }
+    });
+  }
+  /// f less the pull of walls that move past a liquid at rest.
+  void subtract_moving_walls() const {
+    std::fill(work.z.begin(), work.z.end(), 0.0);
+    rub(work.z, work.product, WallsMove::yes, nullptr);
+    for_each_row(work.f.size(), [&](std::size_t f) {
+      if (work.mass[f] != 0) work.f[f] -= work.product[f];
     });
   }
   /// |f - A v + B^T lambda| in the norm of G^-1, of what was found and not of the iteration.
@@ -84,57 +133,63 @@ struct FrictionSystem {
 };
 
 template <int Dim>
-void resize(FrictionWork<Dim>& work, std::size_t faces, std::size_t unknowns) {
+void resize(FrictionWork<Dim>& work, std::size_t faces, std::size_t unknowns, bool walls_rub) {
   for (Values* of_face :
-       {&work.mass, &work.per_g, &work.f, &work.v, &work.r, &work.z, &work.direction, &work.product}) {
+       {&work.mass, &work.per_g, &work.through, &work.f, &work.v, &work.r, &work.z, &work.direction, &work.product}) {
     of_face->resize(faces);
   }
+  for (Values* of_wall : {&work.tie, &work.extended}) of_wall->resize(walls_rub ? faces : 0);
   for (Values* of_unknown : {&work.divergence, &work.y, &work.sum_of_y}) of_unknown->resize(unknowns);
 }
 
 }  // namespace
 
 template <int Dim>
-void SolveFriction<Dim>::operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid,
-                                    Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> matrices,
-                                    Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<staggered::Site<Dim>> site,
-                                    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
-                                    Read<cell::Viscosity> mu_c, Read<face::Predictor<Dim>> predictor,
-                                    Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
-                                    Read<unknown::Site<Dim>> unknown_site,
-                                    Read<unknown::Neighbour<Dim>> unknown_neighbour,
-                                    Read<unknown::NullVector> null_vector, Read<multiplier::Row> row,
-                                    Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
-                                    Update<multiplier::Force> lambda, Update<SolveReport> report) const {
+void SolveFriction<Dim>::operator()(
+    Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+    Read<FrictionMatrices<Dim>> matrices, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
+    Optional<Read<face::Open<Dim>>> open, Optional<Read<FaceExtension<Dim>>> extension,
+    Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest, Read<cell::Viscosity> mu_c,
+    Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
+    Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
+    Read<unknown::NullVector> null_vector, Read<multiplier::Row> row, Update<FrictionWork<Dim>> work,
+    Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda, Write<FrictionOnWalls<Dim>> on_walls,
+    Update<SolveReport> report) const {
   const double per_tau = rates->acceleration / rates->velocity;
-  resize(*work, Dim * v_f.size(), of_unknown.size());
-  const FrictionSystem<Dim> system{{*splines, *matrices, *cells, *sites, mu_c.span()},
-                                   {*grid, *splines, site.span(), neighbour.span()},
-                                   of_unknown.span(),
-                                   row.span(),
-                                   *work};
-  std::fill(work->per_g.begin(), work->per_g.end(), 0.0);
-  add_friction_diagonal<Dim>(system.friction, work->per_g.data(),
-                             [&](const Index<Dim>& cell, std::size_t f, std::size_t faces) {
-                               return matrices->of(*splines, cell)[f * (faces + 1)];
-                             });
+  const bool walls_rub = static_cast<bool>(cut);
+  resize(*work, Dim * v_f.size(), of_unknown.size(), walls_rub);
+  FrictionSystem<Dim> system{{*splines, *matrices, *cells, *sites, mu_c.span()},
+                             {*grid, *splines, site.span(), neighbour.span()},
+                             of_unknown.span(),
+                             row.span(),
+                             {open.span(), {}},
+                             *work};
+  if (walls_rub) {
+    system.friction.extension = &*extension;
+    system.friction.cut = &*cut;
+    system.friction.at_rest = &*at_rest;
+  }
   for_each_row(v_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const std::size_t f = Dim * i + d;
       const bool is_held = mobility[i][axis] == 0;
-      work->mass[f] = is_held ? 0 : per_tau / mobility[i][axis];
-      work->per_g[f] = is_held ? 0 : 1 / (work->mass[f] + work->per_g[f]);
+      work->mass[f] = is_held ? 0 : system.passage.share(i, axis) * (per_tau / mobility[i][axis]);
       work->f[f] = work->mass[f] * (predictor[i][axis] + damping[i][axis]);
       work->v[f] = v_f[i][axis];
     }
   });
+  system.precondition();
+  if (walls_rub) system.subtract_moving_walls();
   work->multipliers.prepare(*splines, system.incidence,
                             {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span()},
-                            work->per_g);
+                            work->through);
   const double size = std::sqrt(weighted_square(work->per_g, work->f));
   report->iterations = system.solve(tolerance->relative * size);
   if (size > 0) report->residual = std::max(report->residual, system.residual() / size);
+  on_walls->of.assign(walls_rub ? cut->motion.size() : 0, RigidVector<Dim>::Zero());
+  if (walls_rub) system.rub(work->v, work->product, WallsMove::yes, &on_walls->of);
   for_each_row(v_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) v_f[i][static_cast<Eigen::Index>(d)] = work->v[Dim * i + d];
     lambda[i] = row[i] == staggered::none ? 0 : -work->sum_of_y[static_cast<std::size_t>(row[i])];

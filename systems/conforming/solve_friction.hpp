@@ -6,12 +6,17 @@
 /// every iterate has no divergence and the multipliers come as the sum of the y. In thin liquids it ends at once, since
 /// G is the matrix. N. I. M. Gould, M. E. Hribar, J. Nocedal, SIAM J. Sci. Comput. 23 (2001) 1376, algorithm 6.2 with
 /// the residual update of section 6: preconditioned projected conjugate gradients.
+///
+/// Beside bodies B a v takes the place of B v (E85), and (E110) that of K v.
 
+#include "components/body.hpp"
 #include "components/friction.hpp"
 #include "components/grid.hpp"
 #include "components/step.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
+#include "systems/conforming/cut_friction.hpp"
+#include "systems/conforming/face_extension.hpp"
 #include "systems/conforming/friction_matrices.hpp"
 #include "systems/conforming/multiplier_matrix.hpp"
 #include "systems/solve/gmres.hpp"
@@ -23,6 +28,9 @@ template <int Dim>
 struct FrictionWork {
   MultiplierMatrix<Dim> multipliers;
   Values mass, per_g;  ///< m/tau, 0 at faces that walls hold; G^-1
+  Values through;      ///< a_f^2 G^-1
+  Values tie;          ///< of closed faces where bodies rub, else empty [kg/s]
+  Values extended;     ///< room for velocities of closed faces
   Values f, v, r, z, direction, product;
   Values divergence, y, sum_of_y;
   static constexpr ComponentInfo info{"solve.friction_work", "", "", Lifetime::cache};
@@ -36,11 +44,14 @@ struct SolveFriction {
   void operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                   Read<FrictionMatrices<Dim>> matrices, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c, Read<face::Predictor<Dim>> predictor,
-                  Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
-                  Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
-                  Read<unknown::NullVector> null_vector, Read<multiplier::Row> row, Update<FrictionWork<Dim>> work,
-                  Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda,
+                  Read<face::Mobility<Dim>> mobility, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<FaceExtension<Dim>>> extension, Optional<Read<CutFriction<Dim>>> cut,
+                  Optional<Read<FrictionAtRest<Dim>>> at_rest, Read<cell::Viscosity> mu_c,
+                  Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
+                  Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
+                  Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::NullVector> null_vector,
+                  Read<multiplier::Row> row, Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
+                  Update<multiplier::Force> lambda, Write<FrictionOnWalls<Dim>> on_walls,
                   Update<SolveReport> report) const;
 };
 

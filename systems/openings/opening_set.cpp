@@ -70,8 +70,8 @@ void for_each_gauss_point(const Grid<Dim>& grid, std::size_t across, const Vec<D
   }
 }
 
-/// Velocities at faces have not quite the flow of the velocity that is given; in proportion they do. Not where some
-/// liquid comes in and some leaves.
+/// (E104)  Velocities at faces have not quite the flow of the velocity that is given; in proportion they do. Not where
+/// some liquid comes in and some leaves.
 template <int Dim>
 void scale_to_flow(const Opening<Dim>& opening, const Grid<Dim>& grid, const Side<Dim>& side, Arguments& arguments,
                    std::vector<double>& across) {

@@ -1,5 +1,6 @@
 #include "systems/openings/openings_part.hpp"
 
+#include "components/contact.hpp"
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/openings/faces.hpp"
 #include "systems/openings/measures.hpp"
@@ -242,6 +243,13 @@ void seed_openings(OpeningSet<Dim> set, const std::vector<std::optional<Expressi
       set, where,
       {grid, world.resource<Splines<Dim>>(), world.resource<Walls<Dim>>(), bodies ? &bodies->of<Dim>() : nullptr},
       problems);
+  // Whether a face is the liquid's to leave, or the opening's, both would say.
+  for (std::size_t o = 0; o < set.openings.size() && world.has<SeparatingSides<Dim>>(); ++o) {
+    const std::size_t side = set.openings[o].side;
+    if (!world.resource<SeparatingSides<Dim>>().side[side / 2][side % 2]) continue;
+    problems.note(fmt::format("/openings/{}/side", o), "not on a separating side", R"(a side with another wall)",
+                  side_names(Dim)[side]);
+  }
   world.resource<OpeningSet<Dim>>() = set;
   std::size_t columns = 0;
   world.resize<Openings>(set.openings.size());

@@ -43,10 +43,10 @@ struct GiveGradient {
   void operator()(Read<opening::Arrivals<Dim>> arrivals, Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 
-/// Where the pressure drives them, the columns move by what the balances gave.
+/// (E103)  Where the pressure drives them, the columns move by what the balances gave.
 template <int Dim>
 struct MoveColumns {
-  static constexpr std::string_view doc = "(E101) columns of particles outside that the pressure drives";
+  static constexpr std::string_view doc = "(E103) columns of particles outside that the pressure drives";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                   Read<OpeningSet<Dim>> set, Read<opening::Velocities<Dim>> velocities, Update<opening::Front> front,
                   Update<opening::Speed> speed) const;

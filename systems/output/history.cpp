@@ -103,9 +103,9 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   } else {
     history->extra = {step, with_row};
   }
-  if (!history->file.is_open()) return;
+  if (!history->file.is_open() && !history->keeps_row) return;
 
-  if (is_start) history->file << history_header<Dim>(*further) << '\n';
+  if (is_start && history->file.is_open()) history->file << history_header<Dim>(*further) << '\n';
   fmt::memory_buffer row;
   const auto out = std::back_inserter(row);
   fmt::format_to(out, "{},{},{},{},", step, is_start ? clock->time : clock->end_of_step, is_start ? 0 : clock->step,
@@ -116,6 +116,8 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   fmt::format_to(out, ",{},{},{},{},{},{}", speed->value, divergence->value, overlap->value, solve->active,
                  solve->iterations, solve->residual);
   append_cells(further->columns, row);
+  if (history->keeps_row) history->row.assign(row.data(), row.size());
+  if (!history->file.is_open()) return;
   row.push_back('\n');
   history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
   history->rows = with_row.rows;

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <string>
 
 namespace minamo {
 
@@ -50,6 +51,8 @@ struct HistoryFile {
   std::ofstream file;
   std::int64_t rows = 0;  ///< written, among them that of a step which is taken back
   std::optional<ExtraRow> extra;
+  bool keeps_row = false;  ///< for who reads the rows as they come
+  std::string row;         ///< the last one, without its end
   static constexpr ComponentInfo info{"history.file", "", "", Lifetime::cache};
 };
 

@@ -1,5 +1,6 @@
 #include "systems/rheology/viscosity.hpp"
 
+#include "systems/conforming/cell_room.hpp"
 #include "systems/conforming/gather.hpp"
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/rheology/law.hpp"
@@ -45,9 +46,11 @@ void FindCellViscosityByParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Sp
                                                    Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                                    Read<particle::Volume> V_p, Read<particle::ShearRate> g_p,
                                                    Read<particle::Viscosity> mu_p, Read<multiplier::FillFraction> phi,
+                                                   Optional<Read<CutFriction<Dim>>> cut,
+                                                   Optional<Read<FrictionAtRest<Dim>>> at_rest,
                                                    Write<cell::Viscosity> mu_c) const {
-  constexpr double at_rest = 1e-200;  // squared rate [1/s^2]
-  const double per_cell = std::pow(grid->spacing, -Dim);
+  constexpr double least = 1e-200;  // squared rate [1/s^2]
+  const CellRoom<Dim> room(grid->spacing, cut, at_rest);
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
@@ -57,12 +60,12 @@ void FindCellViscosityByParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Sp
       for (std::size_t p = cell.begin; p < cell.end; ++p) {
         volume += V_p[p];
         // The least that tells particles at rest apart from none.
-        const double dissipates = V_p[p] * std::max(g_p[p] * g_p[p], at_rest);
+        const double dissipates = V_p[p] * std::max(g_p[p] * g_p[p], least);
         sheared += dissipates;
         friction += dissipates * mu_p[p];
       }
       const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), phi.span()));
-      mu_c[c] = friction / sheared * ((1 - theta) * volume * per_cell + theta);
+      mu_c[c] = friction / sheared * room.liquid_share(c, theta, volume);
     });
   });
 }

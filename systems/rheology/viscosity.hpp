@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "components/rheology.hpp"
 #include "engine/system.hpp"
+#include "systems/conforming/cut_friction.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/conforming/support.hpp"
 
@@ -37,7 +38,8 @@ struct FindCellViscosityByParticles {
   static constexpr std::string_view doc = "(E96) mu_c of the viscosities of particles";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::Volume> V_p, Read<particle::ShearRate> g_p, Read<particle::Viscosity> mu_p,
-                  Read<multiplier::FillFraction> phi, Write<cell::Viscosity> mu_c) const;
+                  Read<multiplier::FillFraction> phi, Optional<Read<CutFriction<Dim>>> cut,
+                  Optional<Read<FrictionAtRest<Dim>>> at_rest, Write<cell::Viscosity> mu_c) const;
 };
 
 /// Before the loop: the velocities to compare with.

@@ -1,6 +1,7 @@
 #include "systems/setup/memory.hpp"
 
 #include "systems/bodies/bodies_part.hpp"
+#include "systems/bodies/cut_friction.hpp"
 #include "systems/bodies/outlines.hpp"
 #include "systems/conforming/friction_choice.hpp"
 #include "systems/openings/openings_part.hpp"
@@ -36,7 +37,11 @@ double bytes_of_bodies(const Scene& scene) {
   return with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
     const Bounds<Dim> box{vec_of<Dim>(scene.grid.low), vec_of<Dim>(scene.grid.high)};
-    return outlines_bytes<Dim>(bodies->of<Dim>(), box, scene.grid.spacing);
+    const double of_outlines = outlines_bytes<Dim>(bodies->of<Dim>(), box, scene.grid.spacing);
+    if (!finds_friction(*bodies, scene)) return of_outlines;
+    Grid<Dim> grid{.low = box.low, .high = box.high, .spacing = scene.grid.spacing};
+    std::copy_n(scene.grid.cells.begin(), Dim, grid.cells.begin());
+    return of_outlines + cut_friction_bytes<Dim>(bodies->of<Dim>(), grid, scene.facts.get<Discretization>().degree);
   });
 }
 

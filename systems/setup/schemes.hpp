@@ -24,6 +24,7 @@ struct WallCondition {
   std::string doc;
   /// The directions that a wall of the axis holds, bit d for direction d.
   std::function<std::uint8_t(int dimension, int axis)> held;
+  bool separates = false;  ///< lets the liquid leave, for the conforming discretization
   bool is_length = false;  ///< given as {name: slip length}, for the conforming discretization, and not as a name alone
 };
 
@@ -53,6 +54,12 @@ struct LinearSolver {
 /// Systems of other parts that complete the multipliers before velocities are made of them.
 struct CompletesMultipliers {
   std::vector<std::string> systems;
+};
+
+/// Walls that the liquid may leave: the balances are solved again until contact fits, by another part than the solver.
+struct RepeatsBalances {
+  bool at_sides = false;
+  bool at_bodies = false;
 };
 
 /// A part that solves again with friction in the balances, until the viscosity fits. `add` adds what comes behind the

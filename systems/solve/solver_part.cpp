@@ -55,7 +55,7 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
   scene.facts.set(solver);
   const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
   return [solver, options](const Scene& of, Recipe& recipe) {
-    if (is_conforming(of)) {
+    if (is_conforming(of) && of.facts.find<RepeatsBalances>() == nullptr) {
       add_all(recipe, solver.solve_on_faces);
       if (const auto* completes = of.facts.find<CompletesMultipliers>()) add_all(recipe, completes->systems);
       add_all(recipe, solver.project_on_faces);
@@ -64,7 +64,7 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
         if (const auto* repeats = of.facts.find<RepeatsFriction>())
           repeats->add(recipe, solver.solve_friction_on_faces);
       }
-    } else {
+    } else if (!is_conforming(of)) {
       add_all(recipe, solver.prepare);
       add_all(recipe, solver.solve);
       recipe.add("solve", "unpack_solution");

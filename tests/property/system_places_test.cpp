@@ -51,21 +51,30 @@ bool runs(const Scene& scene) {
   return true;
 }
 
+/// Of how many pairs one is tried: all of them, but a sample where the sanitizers make each ten times dearer.
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::size_t stride = 5;
+#else
+constexpr std::size_t stride = 1;
+#endif
+
 /// Every registered system after every slot of the step.
 void try_all_places(int dimension, const std::string& method) {
   CAPTURE(dimension, method);
   Scene scene = read(with(drop(dimension), {method}));
+  std::size_t pair = 0;
   std::size_t refused = 0;
   std::size_t run = 0;
   for (const std::string& name : registry().names()) {
     for (const Slot& slot : slots()) {
+      if (pair++ % stride != 0) continue;
       INFO(name << " after " << slot.name);
       scene.systems = {{registry().make(name, dimension), std::string(slot.name)}};
       ++(runs(scene) ? run : refused);
     }
   }
-  CHECK(refused > 100);
-  CHECK(run > 100);
+  CHECK(refused > 100 / stride);
+  CHECK(run > 100 / stride);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include "support/scene_run.hpp"
 
+#include "components/measure.hpp"
 #include "engine/clock.hpp"
 #include "systems/register.hpp"
 #include "tools/scene_file.hpp"
 
 #include <numeric>
+#include <stdexcept>
 
 namespace minamo::scene_run {
 
@@ -79,6 +81,12 @@ void SceneRun::step(int count) {
     clock.time = clock.end_of_step;
     ++clock.index;
   }
+}
+
+double measured(World& world, std::string_view name) {
+  const double* value = world.resource<measure::Columns>().find(name);
+  if (value == nullptr) throw std::runtime_error("no column " + std::string(name));
+  return *value;
 }
 
 std::map<std::string, std::vector<std::byte>> state(const World& world) {

@@ -19,6 +19,9 @@ Json scene_of_file(const std::string& name);
 /// The scene with overrides as on the command line, `/pointer=JSON`.
 Json with(Json scene, const std::vector<std::string>& overrides);
 
+/// A measured column of the history after the last step.
+double measured(World& world, std::string_view name);
+
 /// The scene with velocity and pressure on the nodes of the grid, for tests of what only that has.
 Json of_equal_order(Json scene);
 

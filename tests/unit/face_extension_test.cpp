@@ -10,8 +10,8 @@ using namespace minamo;
 namespace {
 
 /// A closed face, the last row, of two open ones at distances h and 2 h: linear through both.
-FaceExtension of_two_faces() {
-  FaceExtension extension;
+FaceExtension<2> of_two_faces() {
+  FaceExtension<2> extension;
   extension.targets = {{.row = 2, .direction = 0, .begin = 0, .count = 2}};
   extension.source = {0, 1};
   extension.weight = {2, -1};
@@ -20,7 +20,7 @@ FaceExtension of_two_faces() {
 
 double extended(double near, double far, double beyond) {
   std::vector<Vec<2>> field{{near, 0}, {far, 0}, {0, 0}};
-  of_two_faces().apply<2>(field, beyond);
+  of_two_faces().apply(field, beyond);
   return field[2][0];
 }
 

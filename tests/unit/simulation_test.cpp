@@ -102,6 +102,22 @@ TimePlan tenths(double end, std::int64_t record_every) {
 
 }  // namespace
 
+TEST_CASE("a loop taken step by step is the run", "[unit]") {
+  Run whole;
+  Run by_hand;
+  for (Run* run : {&whole, &by_hand}) run->faults() = {.longest = 0.03, .between = {0.5, 0.6}};
+  const TimePlan plan = GENERATE(fixed(1, 0.05, 0.2), chosen(1, 0.07, 0.2));
+  whole(plan);
+  TimeLoop loop(by_hand.world, by_hand.step, by_hand.frame, plan, {});
+  loop.begin(by_hand.start);
+  while (!loop.is_over()) loop.take_step();
+  CHECK(by_hand.log().steps == whole.log().steps);
+  CHECK(by_hand.log().starts == 1);
+  CHECK(by_hand.clock().time == 1);
+  // The end is a frame here, too.
+  CHECK(by_hand.log().frames == whole.log().frames);
+}
+
 TEST_CASE("a run with a fixed step ends exactly at its end", "[unit]") {
   Run run;
   run(fixed(5.0, 1e-3, 1));

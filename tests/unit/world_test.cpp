@@ -185,6 +185,60 @@ TEST_CASE("a matrix column is known to be made of doubles", "[unit]") {
   CHECK(world.storage<Stress>().value_bytes() == 9 * sizeof(double));
 }
 
+TEST_CASE("the layout of a value is that of its numbers in memory", "[unit]") {
+  World world;
+  world.resize<Rows>(1);
+  const ValueLayout number = world.storage<Height>().layout();
+  CHECK(number.number == ValueLayout::Number::real);
+  CHECK(number.axes == 0);
+  world.column<Stress>()[0](0, 2) = 5;
+  const ValueLayout matrix = world.storage<Stress>().layout();
+  REQUIRE(matrix.axes == 2);
+  CHECK(matrix.axis[0].extent == 3);
+  CHECK(matrix.axis[1].extent == 3);
+  const std::byte* const first = world.storage<Stress>().bytes().data();
+  CHECK(*reinterpret_cast<const double*>(first + 2 * matrix.axis[1].stride) == 5);
+  CHECK(world.storage<Label>().layout().number == ValueLayout::Number::none);
+}
+
+TEST_CASE("a buffer that is given away keeps its values, and its column goes on with a copy", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  const double* const buffer = world.column<Height>().data();
+  const std::shared_ptr<void> given = world.storage<Height>().give_away(buffer);
+  REQUIRE(given);
+  update(world, 1, 7);
+  CHECK(world.column<Height>().data() != buffer);
+  CHECK(std::vector(buffer, buffer + 3) == std::vector<double>{1, 2, 3});
+  CHECK(std::vector(world.column<Height>().begin(), world.column<Height>().end()) == std::vector<double>{1, 7, 3});
+  CHECK_FALSE(world.storage<Height>().give_away(buffer));
+}
+
+TEST_CASE("a buffer is given away wherever a step that is taken back has put it", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  world.mark();
+  const double* const buffer = world.column<Height>().data();
+  const Write<Height> h(world);  // sets the old values aside
+  std::fill(h.begin(), h.end(), 9.0);
+  const double* const written = world.column<Height>().data();
+  world.roll_back();
+  const std::shared_ptr<void> given = world.storage<Height>().give_away(written);
+  REQUIRE(given);
+  CHECK(written[0] == 9);
+  CHECK(world.column<Height>().data() == buffer);
+}
+
+TEST_CASE("a column that is described at run time is one like all others", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  static constexpr ComponentInfo info{"row.tag", "", "1", Lifetime::state};
+  ColumnStorage<double>& tag = world.add_column<double>(info, Rows::name);
+  REQUIRE(tag.rows() == 3);
+  std::copy_n(std::array{10.0, 20.0, 30.0}.begin(), 3, tag.values().begin());
+  Resize<Rows>(world).reorder(std::vector<std::uint32_t>{2, 0, 1});
+  CHECK(std::vector(tag.values().begin(), tag.values().end()) == std::vector<double>{30, 10, 20});
+  CHECK(world.components().at("row.tag") == &tag);
+  CHECK_THROWS_AS(world.add_column<double>(info, Rows::name), std::logic_error);
+}
+
 TEST_CASE("a value that owns memory has no bytes to store", "[unit]") {
   World world;
   world.resize<Rows>(2);

@@ -18,12 +18,6 @@ namespace {
 
 double fastest(World& world) { return world.resource<measure::MaxSpeed>().value; }
 
-double column(World& world, const std::string& name) {
-  const double* value = world.resource<measure::Columns>().find(name);
-  REQUIRE(value != nullptr);
-  return *value;
-}
-
 /// A tank of 1 m x 1 m, half full, turned by 25 degrees. Under gravity the surface is level.
 Json tilted_tank(int cells, int degree) {
   Json scene = Json::parse(R"json({"dimension": 2,
@@ -75,14 +69,14 @@ TEST_CASE("water around a disc rests to rounding, and lifts it by its weight", "
   SceneRun run(pool_around(R"({"ball": {"center": [0.51, 0.27], "radius": 0.1}})"));
   run.step(50);
   CHECK(fastest(run.world()) < 1e-13);
-  CHECK(column(run.world(), "body_force_y") == Approx(9810 * 3.14159265 * 0.01).epsilon(2e-4));
-  CHECK(std::abs(column(run.world(), "body_force_x")) < 1e-9);
+  CHECK(measured(run.world(), "body_force_y") == Approx(9810 * 3.14159265 * 0.01).epsilon(2e-4));
+  CHECK(std::abs(measured(run.world(), "body_force_x")) < 1e-9);
 }
 
 TEST_CASE("a box half in the water is lifted by the weight of half of it, however it is turned", "[verification]") {
   SceneRun run(pool_around(R"({"box": {"low": [0.3, 0.4], "high": [0.7, 0.6], "angle": 25}})"));
   run.step(2);
-  CHECK(column(run.world(), "body_force_y") == Approx(9810 * 0.04).epsilon(2.2e-3));  // 1.1e-3 measured
+  CHECK(measured(run.world(), "body_force_y") == Approx(9810 * 0.04).epsilon(2.2e-3));  // 1.1e-3 measured
 }
 
 TEST_CASE("an accelerated disc has the added mass of potential flow", "[verification]") {
@@ -91,7 +85,7 @@ TEST_CASE("an accelerated disc has the added mass of potential flow", "[verifica
   // rho pi R^2 a (1 + k^2)/(1 - k^2), k = R/R_tank: 0.8 % less measured, 2.9 and 0.2 % with half and twice the cells.
   const double ratio = 0.19 / 0.95;
   const double exact = 1000 * 3.14159265 * 0.19 * 0.19 * (1 + ratio * ratio) / (1 - ratio * ratio);
-  CHECK(column(run.world(), "disc_force_x") == Approx(-exact).epsilon(2e-2));
+  CHECK(measured(run.world(), "disc_force_x") == Approx(-exact).epsilon(2e-2));
 }
 
 TEST_CASE("water in a tilted tank rests", "[verification]") {
@@ -106,8 +100,8 @@ TEST_CASE("the force on a tank is the weight of its water", "[verification]") {
   SceneRun run(tilted_tank(40, 2));
   run.step(100);
   const double weight = 9.81 * total_mass(run.world());
-  CHECK(column(run.world(), "tank_force_y") == Approx(-weight).epsilon(5e-3));
-  CHECK(std::abs(column(run.world(), "tank_force_x")) < 5e-3 * weight);
+  CHECK(measured(run.world(), "tank_force_y") == Approx(-weight).epsilon(5e-3));
+  CHECK(std::abs(measured(run.world(), "tank_force_x")) < 5e-3 * weight);
 }
 
 TEST_CASE("the liquid that is left has the volume that bodies leave", "[verification]") {
@@ -123,10 +117,10 @@ TEST_CASE("a piston accelerates the water before it as one body", "[verification
   run.step(60);
   // At 0.3 s all moves with 0.3 m/s; the force is mass times 1 m/s^2, as exactly as the grid knows where a piston
   // across its faces is: within half a cell of 20.
-  CHECK(column(run.world(), "piston_force_x") == Approx(-mass).epsilon(3e-2));
+  CHECK(measured(run.world(), "piston_force_x") == Approx(-mass).epsilon(3e-2));
   const auto& energy = run.world().resource<measure::Energy>();
   CHECK(energy.kinetic == Approx(0.5 * mass * 0.09).epsilon(2e-3));
-  CHECK(-column(run.world(), "piston_work") == Approx(energy.kinetic).epsilon(2e-2));
+  CHECK(-measured(run.world(), "piston_work") == Approx(energy.kinetic).epsilon(2e-2));
 }
 
 TEST_CASE("bodies give the same bits on any number of threads", "[verification][threads]") {

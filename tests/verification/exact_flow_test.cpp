@@ -11,13 +11,6 @@ using namespace minamo::scene_run;
 
 namespace {
 
-/// A measured column of the history after the last step.
-double measured(World& world, std::string_view name) {
-  const double* value = world.resource<measure::Columns>().find(name);
-  REQUIRE(value != nullptr);
-  return *value;
-}
-
 /// The scene with TPIC on nodes.
 Json tpic_on_nodes(const std::string& name) {
   return with(of_equal_order(scene_of_file(name)), {R"(/transfer={"scheme": "tpic"})"});

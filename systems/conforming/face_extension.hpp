@@ -1,0 +1,76 @@
+#pragma once
+/// \file
+/// (E87) Velocities of closed faces, on which particles beside a body have weight: linear functions of those of the
+/// open faces around, and of the motion of a wall to which the liquid sticks.
+
+#include "components/rigid.hpp"
+#include "components/staggered.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace minamo {
+
+/// What the velocity of every closed face is made of.
+template <int Dim>
+struct FaceExtension {
+  struct Target {
+    std::uint32_t row;
+    std::int32_t direction;
+    std::size_t begin;                                  ///< in `source` and `weight`
+    std::size_t count;                                  ///< of open faces
+    std::int32_t wall = -1;                             ///< body that the liquid sticks to, or -1
+    RigidVector<Dim> lever = RigidVector<Dim>::Zero();  ///< weights of that body's motion
+
+    std::size_t number() const { return Dim * std::size_t{row} + static_cast<std::size_t>(direction); }
+  };
+  std::vector<Target> targets;
+  std::vector<std::uint32_t> source;  ///< rows of open faces of the same direction
+  std::vector<double> weight;         ///< [1]
+  using rows_of = Staggered;
+  static constexpr ComponentInfo info{"bodies.extension", "", "1", Lifetime::scratch};
+
+  /// Sets the closed faces of a field.
+  /// \param beyond  how far a value may lie outside of the range of those that it is made of
+  /// \param motion  of a wall, by body
+  template <class MotionOf>
+  void apply(std::span<Vec<Dim>> field, double beyond, const MotionOf& motion) const {
+    for_each_row(targets.size(), [&](std::size_t k) {
+      const Target& at = targets[k];
+      if (at.count == 0 && at.wall < 0) return;
+      double sum = 0;
+      double least = std::numeric_limits<double>::infinity();
+      double most = -least;
+      const auto cover = [&](double value) {
+        least = std::min(least, value);
+        most = std::max(most, value);
+      };
+      for (std::size_t j = at.begin; j < at.begin + at.count; ++j) {
+        const double value = field[source[j]][at.direction];
+        sum += weight[j] * value;
+        cover(value);
+      }
+      if (at.wall >= 0) {
+        const double of_wall = at.lever.dot(motion(static_cast<std::size_t>(at.wall)));
+        sum += of_wall;
+        cover(of_wall);
+      }
+      field[at.row][at.direction] = std::min(std::max(sum, least - beyond), most + beyond);
+    });
+  }
+  /// The same where walls are at rest.
+  void apply(std::span<Vec<Dim>> field, double beyond) const {
+    apply(field, beyond, [](std::size_t) { return RigidVector<Dim>(RigidVector<Dim>::Zero()); });
+  }
+  /// The value of a closed face without limits, of numbers by face and direction, but for what walls add.
+  double of_open_faces(const Target& at, const double* v) const {
+    double sum = 0;
+    for (std::size_t j = at.begin; j < at.begin + at.count; ++j)
+      sum += weight[j] * v[Dim * std::size_t{source[j]} + static_cast<std::size_t>(at.direction)];
+    return sum;
+  }
+};
+
+}  // namespace minamo

@@ -1,0 +1,81 @@
+"""The folder of a run as arrays, and the picture of a simulation."""
+
+import csv
+import math
+import unittest
+
+import h5py
+import numpy as np
+
+import minamo
+from support import ROOT, folder, in_space, program, scene
+
+
+class Results(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.out = folder("results")
+        cls.run_ = minamo.run(scene(), cls.out, threads=1)
+
+    def test_history(self):
+        with open(self.out / "history.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        history = self.run_.history
+        self.assertEqual(list(history), list(rows[0]))
+        self.assertEqual(len(history["time"]), 51)
+        self.assertEqual(history["kinetic_energy"][-1], float(rows[-1]["kinetic_energy"]))
+
+    def test_empty_cells_are_not_numbers(self):
+        swirling = minamo.run(scene(body_force=["-y", "x"]), folder("swirl"), threads=1, steps=1)
+        self.assertTrue(math.isnan(swirling.history["potential_energy"][0]))
+
+    def test_frames(self):
+        np.testing.assert_allclose(self.run_.times, [0, 0.05, 0.1, 0.15, 0.2], atol=0.004)
+        self.assertEqual(len(self.run_), 5)
+        with h5py.File(self.out / "fields.h5") as file:
+            for name, data in file["particles/4"].items():
+                np.testing.assert_array_equal(self.run_.particles(4)[name], data[()])
+                np.testing.assert_array_equal(self.run_.particles()[name], data[()])
+        self.assertEqual(self.run_.bodies(), {})
+        for k in (5, -6):
+            with self.assertRaisesRegex(IndexError, f"frame {k} of 5"):
+                self.run_.particles(k)
+
+    def test_bodies(self):
+        out = folder("bodies")
+        run = minamo.run(ROOT / "scenes/obstacle.json", out, threads=1, steps=2)
+        self.assertTrue(run.bodies(0))
+
+    def test_scene_and_summary(self):
+        self.assertEqual(self.run_.scene["title"], "Falling block")
+        self.assertEqual(self.run_.summary["status"], "done")
+        self.assertIn("results", repr(minamo.results(self.out)))
+
+    def test_no_run(self):
+        with self.assertRaisesRegex(minamo.InputError, "scene.json: no such file\n  expected  the folder of a run"):
+            minamo.Run(folder("none"))
+        self.assertEqual(program("check", self.out / "scene.json").returncode, 0)
+
+
+class Pictures(unittest.TestCase):
+    def test_a_notebook_shows_the_particles(self):
+        import matplotlib.image
+        import io
+
+        for described in (scene(), in_space()):
+            sim = minamo.Simulation(described, threads=1)
+            picture = matplotlib.image.imread(io.BytesIO(sim._repr_png_()))
+            self.assertEqual(picture.shape[:2], (400, 600))
+            # White paper and coloured particles: a third of the box.
+            colored = (np.ptp(picture[..., :3], axis=2) > 0.2).mean()
+            self.assertGreater(colored, 0.05)
+
+    def test_any_column(self):
+        sim = minamo.Simulation(scene(), threads=1)
+        ax = sim.show("particle.pressure")
+        self.assertEqual(ax.get_title(), "t = 0 s")
+        self.assertIs(sim.show("particle.mass", ax), ax)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,99 @@
+"""The folder of a run as arrays."""
+
+from __future__ import annotations
+
+import json
+import os
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from .errors import InputError
+
+
+def _missing(path: Path, expected: str):
+    text = f"{path}: no such file\n  expected  {expected}"
+    return InputError(text, [(str(path), "", "no such file", expected, "", "", text)])
+
+
+class Run:
+    """What `minamo run` has left in a folder.
+
+    :raises InputError: if there is no run in it
+    """
+
+    def __init__(self, folder: str | os.PathLike[str]):
+        self.folder = Path(folder)
+        if not (self.folder / "scene.json").is_file():
+            raise _missing(self.folder / "scene.json", "the folder of a run")
+
+    @cached_property
+    def scene(self) -> dict:
+        """The scene as run, with all defaults."""
+        return json.loads((self.folder / "scene.json").read_text())
+
+    @property
+    def summary(self) -> dict:
+        """What summary.json says: status, times, conservation, errors, time per system."""
+        return json.loads((self.folder / "summary.json").read_text())
+
+    @property
+    def history(self) -> dict[str, np.ndarray]:
+        """history.csv, `{column: (rows,)}`; NaN for an empty cell."""
+        with open(self.folder / "history.csv") as file:
+            names = file.readline().rstrip("\n").split(",")
+            rows = [line.rstrip("\n").split(",") for line in file]
+        table = np.array([[float(cell) if cell else np.nan for cell in row] for row in rows]).reshape(-1, len(names))
+        return dict(zip(names, table.T.copy()))
+
+    def _fields(self):
+        import h5py
+
+        path = self.folder / "fields.h5"
+        if not path.is_file():
+            raise _missing(path, "the fields of a run")
+        return h5py.File(path, "r")
+
+    @property
+    def times(self) -> np.ndarray:
+        """The time of every frame, `(frames,)`. [s]"""
+        with self._fields() as file:
+            frames = file["particles"]
+            return np.array([frames[str(k)].attrs["time"] for k in range(len(frames))])
+
+    def __len__(self) -> int:
+        """Frames."""
+        with self._fields() as file:
+            return len(file["particles"])
+
+    def particles(self, k: int = -1) -> dict[str, np.ndarray]:
+        """Frame `k`, counted from the end where it is negative: `position` `(particles, d)` [m], `velocity` [m/s],
+        `pressure` `(particles,)` [Pa], `id`, and what the scheme carries. Particles change places from frame to frame;
+        `id` tells who is who."""
+        return self._frame("particles", k)
+
+    def bodies(self, k: int = -1) -> dict[str, dict[str, np.ndarray]]:
+        """Of frame `k` by the body's name: its outline and what it feels, as fields.h5 has them; empty without
+        bodies."""
+        return self._frame("bodies", k)
+
+    def _frame(self, of: str, k: int):
+        with self._fields() as file:
+            count = len(file["particles"])
+            if not -count <= k < count:
+                raise IndexError(f"frame {k} of {count}")
+            group = file.get(f"{of}/{k % count}")
+            return {} if group is None else _arrays(group)
+
+    def __repr__(self) -> str:
+        return f"minamo.Run({str(self.folder)!r})"
+
+
+def _arrays(group) -> dict:
+    return {name: item[()] if hasattr(item, "shape") else _arrays(item) for name, item in group.items()}
+
+
+def results(folder: str | os.PathLike[str]) -> Run:
+    """The results in a folder; the same as :class:`Run`."""
+    return Run(folder)
