@@ -66,7 +66,7 @@ int fewest_per_cell(const Scene& scene) {
 
 double memory_of(const Scene& scene, const SceneSize& at_start) {
   const SceneSize size = grown(scene, at_start);
-  constexpr double program = 30e6;
+  constexpr double program = 32e6;
   const double bytes_per_particle = scene.dimension == 2 ? 400 : 500;
   const double nodes = std::min(size.nodes * spread(scene), size.all_nodes);
   return program + bytes_per_particle * size.particles + bytes_per_node_of(scene, nodes) * nodes +
