@@ -23,12 +23,12 @@ struct FindSeparatingRows {
                   Write<SeparatingRows<Dim>> separating) const;
 };
 
-/// (E108) Faces that no particle touches take the mean velocity of those beside them that have one, up to three faces
+/// (E109) Faces that no particle touches take the mean velocity of those beside them that have one, up to three faces
 /// away. They count among those that velocities of closed faces are made of (E87): at rest in a falling liquid they
 /// would hold it at the body.
 template <int Dim>
 struct FillEmptyFaces {
-  static constexpr std::string_view doc = "(E108) v_f^n of faces without mass";
+  static constexpr std::string_view doc = "(E109) v_f^n of faces without mass";
   void operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
                   Update<SeparatingRows<Dim>> separating, Update<face::Velocity<Dim>> v_f) const;
 };
@@ -50,10 +50,10 @@ struct ReleaseFromBodies {
                   Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b, Write<body::Work> W_b) const;
 };
 
-/// (E108) Liquid moves with a separating body, (E94), only where it presses it.
+/// (E109) Liquid moves with a separating body, (E94), only where it presses it.
 template <int Dim>
 struct DetachFromBodies {
-  static constexpr std::string_view doc = "(E108) no attached mass where liquid leaves a body";
+  static constexpr std::string_view doc = "(E109) no attached mass where liquid leaves a body";
   void operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Row> row,
                   Update<SeparatingRows<Dim>> separating, Write<face::AttachedMass<Dim>> attached) const;
 };
