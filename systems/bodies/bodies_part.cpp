@@ -205,15 +205,15 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   });
 }
 
-/// The shortest slip length of a scene, those of bodies included, tells how friction is solved; one below a tenth of a
-/// cell says no more than that.
+/// The shortest slip length of a scene, those of bodies included, tells how friction is solved; one that is told
+/// from none by no liquid says no more than that.
 void set_wall_friction(const BodiesOfScene& bodies, Scene& scene) {
   WallFriction friction = scene.facts.get<WallFriction>();
   const auto take = [&](const auto& set) {
     for (const auto& body : set.bodies) {
       if (body.wall.kind == BodyWall::Kind::slip_length)
-        friction.largest_per_length =
-            std::max(friction.largest_per_length, 1 / std::max(body.wall.slip_length, 0.1 * scene.grid.spacing));
+        friction.largest_per_length = std::max(friction.largest_per_length,
+                                               1 / std::max(body.wall.slip_length, sticks_below * scene.grid.spacing));
     }
   };
   take(bodies.in_plane);

@@ -85,7 +85,8 @@ struct BodySet {
     }
     return false;
   }
-  bool any_rubs() const { return any_is(BodyWall::Kind::no_slip) || any_has_slip_length(); }
+  bool any_sticks() const { return any_is(BodyWall::Kind::no_slip); }
+  bool any_rubs() const { return any_sticks() || any_has_slip_length(); }
   bool any_has_slip_length() const { return any_is(BodyWall::Kind::slip_length); }
   bool any_separates() const { return any_is(BodyWall::Kind::separating); }
   bool any_is_free() const {

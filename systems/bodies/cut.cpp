@@ -210,12 +210,8 @@ StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
   const auto bodies = PlacedBodies<Dim>::at_start(set);
   const SitePlaces<Dim> places(grid, splines);
   const auto at_rest = [&](const Vec<Dim>& x) { return bodies.distance(x, false); };
-  std::size_t sites = 1;
-  std::size_t cells = 1;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    sites *= static_cast<std::size_t>(cut.sites[d]);
-    cells *= static_cast<std::size_t>(grid.cells[d]);
-  }
+  const std::size_t sites = rows_in<Dim>(cut.sites);
+  const std::size_t cells = rows_in<Dim>(grid.cells);
   cut.of.resize(sites);
   for_each_row(sites, [&](std::size_t i) {
     cut.of[i] = cut_site<Dim>(places, index_in<Dim>(cut.sites, i), bodies.bounded(), at_rest);

@@ -24,6 +24,13 @@ std::size_t row_in(const Index<Dim>& count, const Index<Dim>& index) {
     row = row * static_cast<std::size_t>(count[d]) + static_cast<std::size_t>(index[d]);
   return row;
 }
+/// How many places there are.
+template <int Dim>
+std::size_t rows_in(const Index<Dim>& count) {
+  std::size_t rows = 1;
+  for (const int along : count) rows *= static_cast<std::size_t>(along);
+  return rows;
+}
 template <int Dim>
 Index<Dim> index_in(const Index<Dim>& count, std::size_t row) {
   Index<Dim> index;
@@ -54,6 +61,26 @@ class SitePlaces {
  private:
   const Grid<Dim>& grid_;
   const Splines<Dim>& splines_;
+};
+
+/// (E85)  What moving bodies push through faces, with velocities of one's choice.
+template <int Dim>
+struct MovingWalls {
+  const SitePlaces<Dim>& places;
+  std::span<const Index<Dim>> site;
+  std::span<const typename face::Closed<Dim>::value_type> closed;
+  std::span<const typename face::Closer<Dim>::value_type> closer;
+  std::span<const Vec<Dim>> position;
+  std::span<const Vec<Dim>> velocity;
+  std::span<const Vec<rotations<Dim>>> spin;
+
+  /// c_fb w_b . e_f of the face of direction d of a row. [m/s]
+  double flux(std::size_t f, std::size_t d) const {
+    if (closer[f][d][1] < 0) return 0;
+    const auto b = static_cast<std::size_t>(closer[f][d][1]);
+    const Vec<Dim> r = places.face(site[f], d) - position[b];
+    return closed[f][d][1] * rigid_velocity(velocity[b], spin[b], r)[static_cast<Eigen::Index>(d)];
+  }
 };
 
 template <int Dim>

@@ -213,13 +213,6 @@ void fill_cell_of_degree(const Cutters<Dim>& cutters, const Grid<Dim>& grid, con
 }
 
 template <int Dim>
-std::size_t cells_of(const Grid<Dim>& grid) {
-  std::size_t cells = 1;
-  for (const int count : grid.cells) cells *= static_cast<std::size_t>(count);
-  return cells;
-}
-
-template <int Dim>
 std::size_t faces_of_cell(int degree) {
   return degree == 2 ? cell_faces<Dim, 2> : cell_faces<Dim, 3>;
 }
@@ -230,7 +223,7 @@ template <int Dim>
 double cut_friction_bytes(const BodySet<Dim>& set, const Grid<Dim>& grid, int degree) {
   const auto bodies = PlacedBodies<Dim>::at_start(set);
   std::size_t cut = 0;
-  for (std::size_t c = 0; c < cells_of<Dim>(grid); ++c) {
+  for (std::size_t c = 0; c < rows_in<Dim>(grid.cells); ++c) {
     const double distance = bodies.distance(middle_of<Dim>(grid, index_in<Dim>(grid.cells, c)));
     if (!bodies.bounded() || std::abs(distance) <= reach_of_cell<Dim>(grid)) ++cut;
   }
@@ -244,7 +237,7 @@ FrictionAtRest<Dim> friction_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
   FrictionAtRest<Dim> friction;
   if (std::all_of(set.bodies.begin(), set.bodies.end(), [](const auto& body) { return body.moves(); })) return friction;
   const auto bodies = PlacedBodies<Dim>::at_start(set);
-  const std::size_t cells = cells_of<Dim>(grid);
+  const std::size_t cells = rows_in<Dim>(grid.cells);
   friction.place.assign(cells, CutFriction<Dim>::whole);
   friction.matrices.clear(faces_of_cell<Dim>(splines.degree));
   std::vector<std::size_t> cut;

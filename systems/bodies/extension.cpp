@@ -13,8 +13,8 @@ constexpr int rings = 2;
 constexpr int across = 2 * rings + 1;
 
 /// Faces nearer than this to a wall that liquid sticks to have velocities between the wall's and those farther away, or
-/// a face that almost lies in the wall would slip: annular Couette flow of 10 cells is
-/// 22 % off with 0, 0.5 % with 0.75. [h]
+/// a face that almost lies in the wall would slip: annular Couette flow of 10 cells is 22 % off with 0, 0.7 % with
+/// 0.75. [h]
 constexpr double held_by_wall = 0.75;
 
 /// Open faces around a closed one.
@@ -104,8 +104,7 @@ std::vector<Vec<Dim>> filled_around_faces(const Grid<Dim>& grid, const Splines<D
   return filled;
 }
 
-/// The body that liquid at a place sticks to, if the nearest one is such a body.
-/// \return -1 if it is not
+/// The nearest body, where it is one that liquid sticks to; else body is -1.
 template <int Dim>
 struct Sticks {
   const BodySet<Dim>& set;
@@ -132,7 +131,7 @@ void FindFaceExtension<Dim>::operator()(
   constexpr std::size_t most = power(across, Dim);
   const SitePlaces<Dim> places(*grid, *splines);
   const Sticks<Dim> sticks{*set, {*set, c_b.span(), R_b.span()}};
-  const bool rubs = set->any_rubs();
+  const bool any_sticks = set->any_sticks();
   std::vector<Vec<Dim>> filled;
   if (set->rubs) filled = filled_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), site.size());
   std::vector<std::uint8_t> is_open(site.size());
@@ -140,7 +139,7 @@ void FindFaceExtension<Dim>::operator()(
     for (std::size_t d = 0; d < Dim; ++d) {
       const double share = open[i][static_cast<Eigen::Index>(d)];
       if (share <= sliver) continue;
-      if (rubs && open_volume[i][static_cast<Eigen::Index>(d)] < 1) {
+      if (any_sticks && open_volume[i][static_cast<Eigen::Index>(d)] < 1) {
         const auto nearest = sticks.at(places.face(site[i], d));
         if (nearest.body >= 0 && nearest.distance <= held_by_wall * grid->spacing) continue;
       }
@@ -194,7 +193,7 @@ void FindFaceExtension<Dim>::operator()(
     std::copy_n(around.row.begin(), around.count,
                 extension->source.begin() + static_cast<std::ptrdiff_t>(target.begin));
     target.count = around.count;
-    target.wall = rubs ? sticks.at(x).body : -1;
+    target.wall = any_sticks ? sticks.at(x).body : -1;
     if (target.wall < 0) {
       if (around.count > 0) fit<Dim>(around, weight);
       return;

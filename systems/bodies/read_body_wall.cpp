@@ -27,9 +27,8 @@ BodyWall wall_on_grid(const BodyWall& wall, Friction friction, double spacing) {
     constexpr double film = 0.05;
     return {BodyWall::Kind::slip_length, std::max(wall.slip_length, film * spacing)};
   }
-  constexpr double none_below = 0.1;
   constexpr double least = 0.2;
-  if (wall.slip_length < none_below * spacing) return {BodyWall::Kind::no_slip};
+  if (wall.slip_length < sticks_below * spacing) return {BodyWall::Kind::no_slip};
   return {BodyWall::Kind::slip_length, std::max(wall.slip_length, least * spacing)};
 }
 

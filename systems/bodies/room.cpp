@@ -48,12 +48,8 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
   const std::vector<bool> is_full = full_components(components, of_unknown.span(), v_l.span(), capacity.span());
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
-  const auto flux = [&](std::size_t f, std::size_t d) {
-    if (closer[f][d][1] < 0) return 0.0;
-    const auto b = static_cast<std::size_t>(closer[f][d][1]);
-    const Vec<Dim> r = places.face(site[f], d) - c_b[b];
-    return closed[f][d][1] * rigid_velocity(V_b[b], omega_b[b], r)[static_cast<Eigen::Index>(d)];
-  };
+  const MovingWalls<Dim> walls{places,     site.span(), closed.span(), closer.span(),
+                               c_b.span(), V_b.span(),  omega_b.span()};
   std::vector<Change> changes(components.count());
   // One after the other: the same sums on any number of threads.
   for (std::size_t l = 0; l < of_unknown.size() && !changes.empty(); ++l) {
@@ -62,7 +58,7 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
     change.room += n_l[l];
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::size_t i = of_unknown[l];
-      const double out = n_l[l] * incidence.per_width(i, d) * (flux(incidence.above(i, d), d) - flux(i, d));
+      const double out = n_l[l] * incidence.per_width(i, d) * (walls.flux(incidence.above(i, d), d) - walls.flux(i, d));
       change.sum += out;
       change.absolute += std::abs(out);
     }

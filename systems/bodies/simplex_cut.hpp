@@ -4,6 +4,7 @@
 /// triangles or tetrahedra in which the distance is taken for linear.
 
 #include "systems/bodies/clip.hpp"
+#include "systems/shapes/simplices.hpp"
 
 #include <Eigen/Geometry>
 
@@ -25,17 +26,6 @@ struct CutPiece {
   double volume;    ///< of what is open [m^d]
   std::vector<SurfacePiece<Dim>> surface;
 };
-
-/// Corners of a square or cube by their bits, x lowest: the simplices that it falls into.
-template <int Dim>
-constexpr auto simplices_of_box() {
-  if constexpr (Dim == 2) {
-    return std::array<std::array<std::size_t, 3>, 2>{{{0, 1, 3}, {0, 2, 3}}};
-  } else {
-    return std::array<std::array<std::size_t, 4>, 6>{
-        {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
-  }
-}
 
 /// The surface in a simplex: between points on its edges.
 template <int Dim>

@@ -120,10 +120,7 @@ void FillFaceSource<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Re
   });
   const Passage<Dim> passage{open.span(), wall_flux.span()};
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-  for_each_row(source.size(), [&](std::size_t l) {
-    source[l] = {};
-    source[l][unknown::balance] = incidence.divergence(of_unknown[l], predictor.span(), passage);
-  });
+  set_balance_sources<Dim>(incidence, passage, of_unknown.span(), predictor.span(), source.span());
 }
 
 template <int Dim>

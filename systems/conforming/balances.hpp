@@ -14,6 +14,7 @@
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
+#include "systems/conforming/incidence.hpp"
 #include "systems/conforming/splines.hpp"
 
 namespace minamo {
@@ -85,6 +86,17 @@ struct AddFaceInertia {
                   Read<face::Held> held, Write<face::InertiaCorrection<Dim>> c_f,
                   Update<face::Predictor<Dim>> predictor) const;
 };
+
+/// Sources B v* of the balances; the others are zero.
+template <int Dim>
+void set_balance_sources(const Incidence<Dim>& incidence, const Passage<Dim>& passage,
+                         std::span<const std::uint32_t> of_unknown, std::span<const Vec<Dim>> predictor,
+                         std::span<unknown::Sources> source) {
+  for_each_row(source.size(), [&](std::size_t l) {
+    source[l] = {};
+    source[l][unknown::balance] = incidence.divergence(of_unknown[l], predictor, passage);
+  });
+}
 
 /// v*_f gets tau b_f; the source of the balances is B v*, the others are zero.
 template <int Dim>

@@ -64,11 +64,17 @@ struct FaceExtension {
   void apply(std::span<Vec<Dim>> field, double beyond) const {
     apply(field, beyond, [](std::size_t) { return RigidVector<Dim>(RigidVector<Dim>::Zero()); });
   }
+  /// Calls use(number, weight) for the open faces that a closed one is made of; the number is that of
+  /// Target::number().
+  template <class Use>
+  void for_each_source(const Target& at, const Use& use) const {
+    for (std::size_t j = at.begin; j < at.begin + at.count; ++j)
+      use(Dim * std::size_t{source[j]} + static_cast<std::size_t>(at.direction), weight[j]);
+  }
   /// The value of a closed face without limits, of numbers by face and direction, but for what walls add.
   double of_open_faces(const Target& at, const double* v) const {
     double sum = 0;
-    for (std::size_t j = at.begin; j < at.begin + at.count; ++j)
-      sum += weight[j] * v[Dim * std::size_t{source[j]} + static_cast<std::size_t>(at.direction)];
+    for_each_source(at, [&](std::size_t f, double e) { sum += e * v[f]; });
     return sum;
   }
 };

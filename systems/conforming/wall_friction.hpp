@@ -69,9 +69,7 @@ void apply_wall_friction(const FrictionOf<Dim>& of, WallsMove move, std::span<co
     const double held = tie.empty() ? 0 : tie[f] * (v[f] - x[f]);
     const double pull = out[f] - held;
     out[f] = held;
-    for (std::size_t j = at.begin; j < at.begin + at.count; ++j)
-      out[Dim * std::size_t{extension.source[j]} + static_cast<std::size_t>(at.direction)] +=
-          extension.weight[j] * pull;
+    extension.for_each_source(at, [&](std::size_t source, double e) { out[source] += e * pull; });
     if (on_walls != nullptr && at.wall >= 0) (*on_walls)[static_cast<std::size_t>(at.wall)] -= pull * at.lever;
   }
 }
@@ -83,11 +81,8 @@ void bound_by_open_faces(const FaceExtension<Dim>& extension, std::span<double> 
   for (const auto& at : extension.targets) {
     const std::size_t f = at.number();
     double sum = at.wall < 0 ? 0 : 1;
-    for (std::size_t j = at.begin; j < at.begin + at.count; ++j) sum += std::abs(extension.weight[j]);
-    for (std::size_t j = at.begin; j < at.begin + at.count; ++j) {
-      bound[Dim * std::size_t{extension.source[j]} + static_cast<std::size_t>(at.direction)] +=
-          sum * std::abs(extension.weight[j]) * bound[f];
-    }
+    extension.for_each_source(at, [&](std::size_t, double e) { sum += std::abs(e); });
+    extension.for_each_source(at, [&](std::size_t source, double e) { bound[source] += sum * std::abs(e) * bound[f]; });
   }
 }
 
@@ -96,10 +91,7 @@ template <int Dim>
 void most_of_open_faces(const FaceExtension<Dim>& extension, std::span<double> number) {
   for (const auto& at : extension.targets) {
     double most = 0;
-    for (std::size_t j = at.begin; j < at.begin + at.count; ++j) {
-      const std::size_t source = Dim * std::size_t{extension.source[j]} + static_cast<std::size_t>(at.direction);
-      most = std::max(most, number[source]);
-    }
+    extension.for_each_source(at, [&](std::size_t source, double) { most = std::max(most, number[source]); });
     number[at.number()] = most;
   }
 }
@@ -110,10 +102,8 @@ void move_diagonal_to_open_faces(const FaceExtension<Dim>& extension, std::span<
                                  std::span<double> diagonal) {
   for (const auto& at : extension.targets) {
     const std::size_t f = at.number();
-    for (std::size_t j = at.begin; j < at.begin + at.count; ++j) {
-      const std::size_t source = Dim * std::size_t{extension.source[j]} + static_cast<std::size_t>(at.direction);
-      diagonal[source] += extension.weight[j] * extension.weight[j] * (diagonal[f] + tie[f]);
-    }
+    extension.for_each_source(
+        at, [&](std::size_t source, double e) { diagonal[source] += e * e * (diagonal[f] + tie[f]); });
     diagonal[f] = tie[f];
   }
 }

@@ -2,6 +2,7 @@
 
 #include "engine/parallel.hpp"
 #include "systems/conforming/support.hpp"
+#include "systems/time/body_force.hpp"
 
 #include <Eigen/Geometry>
 
@@ -99,15 +100,10 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
                                     Write<measure::Energy> energy) const {
   energy->kinetic = kinetic_energy<Dim>(m_p.span(), v_p.span());
   energy->potential.reset();
-  Vec<Dim> force;
-  for (int d = 0; d < Dim; ++d) {
-    const Expression& component = b->of_place_and_time[static_cast<std::size_t>(d)];
-    if (!component.is_constant()) return;
-    force[d] = component(std::array<double, 4>{});
-    if (force[d] != 0 && grid->periodic[static_cast<std::size_t>(d)]) return;  // it never stops falling
-  }
+  const auto force = force_with_potential<Dim>(*grid, *b);
+  if (!force) return;
   energy->potential = reduce_rows(
-      m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force.dot(x_p[p] - grid->low); }, std::plus<>());
+      m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force->dot(x_p[p] - grid->low); }, std::plus<>());
 }
 
 template <int Dim>

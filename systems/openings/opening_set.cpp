@@ -56,15 +56,9 @@ void for_each_gauss_point(const Grid<Dim>& grid, std::size_t across, const Vec<D
     int bit = 0;
     for (std::size_t e = 0; e < Dim; ++e) {
       if (e == across) continue;
-      const auto d = static_cast<Eigen::Index>(e);
-      double low = face[d] - grid.spacing / 2;
-      double high = face[d] + grid.spacing / 2;
-      if (!grid.periodic[e]) {
-        low = std::max(low, grid.low[d]);
-        high = std::min(high, grid.high[d]);
-      }
+      const auto [low, high] = range_of_face<Dim>(grid, e, face);
       const double side = (k >> bit++ & 1) == 0 ? -1 : 1;
-      x[d] = (low + high) / 2 + side * from_middle * (high - low);
+      x[static_cast<Eigen::Index>(e)] = (low + high) / 2 + side * from_middle * (high - low);
     }
     use(x, 1.0 / points);
   }

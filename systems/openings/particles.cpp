@@ -1,22 +1,17 @@
 #include "systems/openings/particles.hpp"
 
+#include "systems/time/body_force.hpp"
+
 #include <cmath>
 
 namespace minamo {
 
 namespace {
 
-/// Constant body force per unit mass, of which there is a potential; else zero.
+/// What the potential energy is of; zero where there is none.
 template <int Dim>
 Vec<Dim> constant_force(const Grid<Dim>& grid, const BodyForce& b) {
-  Vec<Dim> force = Vec<Dim>::Zero();
-  for (int d = 0; d < Dim; ++d) {
-    const Expression& component = b.of_place_and_time[static_cast<std::size_t>(d)];
-    if (!component.is_constant()) return Vec<Dim>::Zero();
-    force[d] = component({});
-    if (force[d] != 0 && grid.periodic[static_cast<std::size_t>(d)]) return Vec<Dim>::Zero();
-  }
-  return force;
+  return force_with_potential<Dim>(grid, b).value_or(Vec<Dim>::Zero());
 }
 
 template <int Dim>

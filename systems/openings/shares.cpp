@@ -28,13 +28,9 @@ Tried try_face(const Vec<Dim>& x, std::size_t axis, const std::optional<Expressi
   for (std::size_t e = 0; e < Dim; ++e) {
     if (e == axis) continue;
     const auto d = static_cast<Eigen::Index>(e);
-    low[d] = x[d] - grid.spacing / 2;
-    double high = x[d] + grid.spacing / 2;
-    if (!grid.periodic[e]) {
-      low[d] = std::max(low[d], grid.low[d]);
-      high = std::min(high, grid.high[d]);
-    }
-    width[d] = high - low[d];
+    const FaceRange range = range_of_face<Dim>(grid, e, x);
+    low[d] = range.low;
+    width[d] = range.high - range.low;
   }
   const auto is_in_body = [&](const Vec<Dim>& at) {
     if (sides.bodies == nullptr) return false;

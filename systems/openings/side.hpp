@@ -11,6 +11,19 @@ namespace minamo {
 /// 2 d for the low and 2 d + 1 for the high side along axis d, as openings and neighbours count them.
 inline double inward_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
 
+/// What is nearer to a face than to others along an axis of its side, within the box. [m]
+struct FaceRange {
+  double low;
+  double high;
+};
+template <int Dim>
+FaceRange range_of_face(const Grid<Dim>& grid, std::size_t e, const Vec<Dim>& face) {
+  const auto d = static_cast<Eigen::Index>(e);
+  FaceRange range{face[d] - grid.spacing / 2, face[d] + grid.spacing / 2};
+  if (!grid.periodic[e]) range = {std::max(range.low, grid.low[d]), std::min(range.high, grid.high[d])};
+  return range;
+}
+
 template <int Dim>
 class Side {
  public:

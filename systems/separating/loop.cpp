@@ -1,6 +1,6 @@
 #include "systems/separating/loop.hpp"
 
-#include "systems/conforming/incidence.hpp"
+#include "systems/conforming/balances.hpp"
 
 namespace minamo {
 
@@ -12,10 +12,7 @@ void FillContactSource<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
                                         Read<unknown::Staggered> of_unknown, Write<unknown::Source> source) const {
   const Passage<Dim> passage{open.span(), wall_flux.span()};
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-  for_each_row(source.size(), [&](std::size_t l) {
-    source[l] = {};
-    source[l][unknown::balance] = incidence.divergence(of_unknown[l], predictor.span(), passage);
-  });
+  set_balance_sources<Dim>(incidence, passage, of_unknown.span(), predictor.span(), source.span());
 }
 
 template <int Dim>

@@ -134,14 +134,11 @@ void CompareContactOfBodies<Dim>::operator()(
     Read<MultiplierSolver<Dim>> solver, Update<SeparatingRows<Dim>> separating, Update<ContactLoop> loop) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
+  const MovingWalls<Dim> walls{places,     site.span(), closed.span(), closer.span(),
+                               c_b.span(), V_b.span(),  omega_b.span()};
   const auto through = [&](std::size_t f, std::size_t d) {
     const auto axis = static_cast<Eigen::Index>(d);
-    double flux = open[f][axis] * v_f[f][axis];
-    if (closer[f][d][1] >= 0) {
-      const auto b = static_cast<std::size_t>(closer[f][d][1]);
-      flux += closed[f][d][1] * rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(places.face(site[f], d) - c_b[b]))[axis];
-    }
-    return flux;
+    return open[f][axis] * v_f[f][axis] + walls.flux(f, d);
   };
   struct Rate {
     double sum = 0;       ///< of what flows out [1/s]

@@ -1,5 +1,6 @@
 #include "systems/shapes/crossings.hpp"
 #include "systems/shapes/marching.hpp"
+#include "systems/shapes/simplices.hpp"
 
 #include <Eigen/Geometry>
 
@@ -8,10 +9,6 @@
 namespace minamo {
 
 namespace {
-
-/// Corners of a cube by their bits, from 000 to 111 along its edges: six tetrahedra that fit those of the next cube.
-constexpr std::array<std::array<std::size_t, 4>, 6> tetrahedra{
-    {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
 
 class Tetrahedra {
  public:
@@ -39,7 +36,7 @@ class Tetrahedra {
     const auto is_inside = [&](std::size_t row) { return crossings_.inside(row); };
     if (std::all_of(corner.begin(), corner.end(), is_inside) || std::none_of(corner.begin(), corner.end(), is_inside))
       return;
-    for (const auto& [a, b, c, d] : tetrahedra) cut({corner[a], corner[b], corner[c], corner[d]});
+    for (const auto& [a, b, c, d] : simplices_of_box<3>()) cut({corner[a], corner[b], corner[c], corner[d]});
   }
 
   /// One triangle around a corner that is alone on its side, two between two corners and two.

@@ -27,6 +27,19 @@ Vec<Dim> uniform_force(const BodyForce& b, const Instant& now) {
 }
 
 template <int Dim>
+std::optional<Vec<Dim>> force_with_potential(const Grid<Dim>& grid, const BodyForce& b) {
+  Vec<Dim> force;
+  for (int d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<std::size_t>(d);
+    const Expression& component = b.of_place_and_time[axis];
+    if (!component.is_constant()) return {};
+    force[d] = component(std::array<double, 4>{});
+    if (force[d] != 0 && grid.periodic[axis]) return {};
+  }
+  return force;
+}
+
+template <int Dim>
 void UniformBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                                        Read<node::Mass> m_i, Write<node::BodyForce<Dim>> b_i) const {
   const Vec<Dim> everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
@@ -74,6 +87,8 @@ void MoveBallisticNodes<Dim>::operator()(Read<node::Row> row, Read<node::Constra
 
 template Vec<2> uniform_force<2>(const BodyForce&, const Instant&);
 template Vec<3> uniform_force<3>(const BodyForce&, const Instant&);
+template std::optional<Vec<2>> force_with_potential<2>(const Grid<2>&, const BodyForce&);
+template std::optional<Vec<3>> force_with_potential<3>(const Grid<3>&, const BodyForce&);
 template struct UniformBodyForce<2>;
 template struct UniformBodyForce<3>;
 template struct SampleBodyForce<2>;

@@ -11,11 +11,18 @@
 #include "components/step.hpp"
 #include "engine/system.hpp"
 
+#include <optional>
+
 namespace minamo {
 
 /// b(t) of a force that is the same everywhere. \throws StepRejected if it is not finite
 template <int Dim>
 Vec<Dim> uniform_force(const BodyForce& b, const Instant& now);
+
+/// The constant force that there is a potential of, U = -m b . (x - x_low) in (E28). None if it changes, or pulls along
+/// a periodic axis: there things never stop falling.
+template <int Dim>
+std::optional<Vec<Dim>> force_with_potential(const Grid<Dim>& grid, const BodyForce& b);
 
 /// (E14)  b_I = b(t), the same everywhere.
 template <int Dim>
