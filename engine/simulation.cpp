@@ -105,7 +105,7 @@ class Loop {
         plan_(plan),
         observers_(observers),
         clock_(world.resource<Clock>()),
-        stepper_(plan, world) {}
+        stepper_(plan_, world) {}
 
   void start(Schedule& start) {
     clock_.step = stepper_.wanted();
@@ -199,8 +199,8 @@ class Loop {
   World& world_;
   Schedule& step_;
   Schedule& frame_;
-  const TimePlan& plan_;
-  const Observers& observers_;
+  const TimePlan plan_;
+  const Observers observers_;
   Clock& clock_;
   Stepper stepper_;
 };

@@ -53,7 +53,7 @@ enum class Beginning {
 /// The loop of run_simulation() for a caller that looks at the world between steps, or changes it.
 class TimeLoop {
  public:
-  /// All must outlive the loop.
+  /// \pre The world and its schedules outlive the loop.
   TimeLoop(World& world, Schedule& step, Schedule& frame, const TimePlan& plan, const Observers& observers);
   ~TimeLoop();
   TimeLoop(TimeLoop&&) noexcept;
