@@ -120,7 +120,7 @@ TEST_CASE("the pressure beside walls across the grid is that of water at rest", 
   CHECK(measured(run.world(), "error_pressure") < 2 * measured_error);
 }
 
-TEST_CASE("liquid that flows around a body stays spread along it", "[verification]") {
+TEST_CASE("liquid that flows around a body stays spread along it", "[verification][long]") {
   SceneRun run(flow_past_cylinder());
   run.step(150);
   // A ring of h/2 around the cylinder, in four parts; 10.2 particles each when they lie as at the start.
