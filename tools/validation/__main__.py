@@ -26,7 +26,7 @@ from case import Case, Points, Result
 from cases import CASES
 from page import page
 from picture import draw
-from runs import SCENES, measured, run
+from runs import SCENES, measured, run, scene_file
 
 ROWS = 200  # of the files of our curves
 
@@ -65,11 +65,6 @@ def missing_files(options: argparse.Namespace) -> list[str]:
     files = sorted({curve.file for case in chosen(options) for curve in case.curves})
     return [f"{options.experiments / file}: no such file" for file in files
             if not (options.experiments / file).is_file()]
-
-
-def scene_file(case: Case) -> str:
-    """Relative to the page."""
-    return f"{case.name}.json" if (SCENES / f"{case.name}.json").exists() else f"../{case.name}.json"
 
 
 def write_curves(case: Case, results: list[Result], file: Path) -> None:

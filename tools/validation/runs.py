@@ -16,11 +16,14 @@ ROOT = Path(__file__).resolve().parents[2]
 SCENES = ROOT / "scenes/validation"
 
 
+def scene_file(case: Case) -> str:
+    """Relative to the page."""
+    return f"{case.name}.json" if (SCENES / f"{case.name}.json").exists() else f"../{case.name}.json"
+
+
 def scene_of(case: Case, changes: dict[str, Any]) -> dict[str, Any]:
     """The scene with what a resolution sets; files that it names are looked for beside it."""
-    path = SCENES / f"{case.name}.json"
-    if not path.exists():
-        path = ROOT / f"scenes/{case.name}.json"
+    path = SCENES / scene_file(case)
     scene = json.loads(path.read_text())
     for pointer, value in changes.items():
         *way, last = pointer.strip("/").split("/")
@@ -71,6 +74,7 @@ def run(case: Case, resolution: str, changes: dict[str, Any], threads: int) -> R
     for curve in case.curves:
         t = times if callable(curve.ours) else sim.history["time"]
         value = values[curve.name] if callable(curve.ours) else sim.history[curve.ours]
-        curves[curve.name] = smoothed(Points(curve.time_scale * np.asarray(t),
-                                             curve.scale * (np.asarray(value) + curve.offset)))
+        known = np.isfinite(value)  # at the start a body has no force
+        curves[curve.name] = smoothed(Points(curve.time_scale * np.asarray(t)[known],
+                                             curve.scale * (np.asarray(value)[known] + curve.offset)))
     return Result(resolution, curves, particles, sim.steps, cpu_s)
