@@ -218,26 +218,32 @@ Values solve_mass(const Mass& mass, std::span<const double> b) {
 /// (E75)  Beside bodies p_l = lambda_l/(phi_l V_l), for there are too few particles to tell. Multipliers inside of a
 /// body carry no force; theirs continues that of the multipliers around.
 template <int Dim>
-class PressureBesideBodies {
+class PressureOfFewParticles {
  public:
+  /// \param open_share  of the multipliers; empty without bodies
   /// \param volume  v_l, by particles
-  PressureBesideBodies(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
-                       std::span<const Index<Dim>> site, std::span<const double> lambda,
-                       std::span<const double> open_share, std::span<const double> volume)
+  PressureOfFewParticles(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
+                         std::span<const Index<Dim>> site, std::span<const double> lambda,
+                         std::span<const double> open_share, std::span<const double> volume)
       : splines_(splines), rows_(rows), site_(site), open_share_(open_share), volume_(volume) {
     cell_volume_ = std::pow(grid.spacing, Dim);
     lumped_.assign(lambda.size(), 0);
     for (std::size_t i = 0; i < lambda.size(); ++i) {
-      if (lambda[i] != 0) lumped_[i] = lambda[i] / (filled_share(i) * whole_volume(i));
+      if (lambda[i] != 0) lumped_[i] = lambda[i] / (filled_share(i, has_few(i) ? 0 : 2) * whole_volume(i));
     }
   }
 
-  bool is_cut(std::size_t i) const { return open_share_[i] < 1; }
+  bool is_known(std::size_t i) const { return open_share(i) < 1 || (lumped_[i] != 0 && has_few(i)); }
   double operator()(std::size_t i) const { return is_inside(i) ? continued(i) : lumped_[i]; }
 
  private:
+  double open_share(std::size_t i) const { return open_share_.empty() ? 1 : open_share_[i]; }
+  bool has_few(std::size_t i) const {
+    constexpr double few = 0.5;
+    return open_share(i) == 1 && volume_[i] < few * filled_share(i, 0) * whole_volume(i);
+  }
   double whole_volume(std::size_t i) const { return cell_volume_ * splines_.widths(site_[i]); }
-  bool is_inside(std::size_t i) const { return lumped_[i] == 0 && open_share_[i] < inside_below; }
+  bool is_inside(std::size_t i) const { return lumped_[i] == 0 && open_share(i) < inside_below; }
   std::optional<std::uint32_t> beside(std::size_t i, std::size_t side) const {
     if (splines_.ends_at(site_[i], side)) return {};
     Index<Dim> site = site_[i];
@@ -247,15 +253,15 @@ class PressureBesideBodies {
     if (splines_.axis[d].periodic()) site[d] = (site[d] + count) % count;
     return rows_.find(site);
   }
-  /// phi_l of (E86), as far as the sites around have particles.
-  double filled_share(std::size_t i) const {
-    double filled = 2 * volume_[i];
-    double open = 2 * open_share_[i] * whole_volume(i);
+  /// phi_l of (E86), as far as the sites around have particles; the multiplier itself counts `own` times.
+  double filled_share(std::size_t i, double own) const {
+    double filled = own * volume_[i];
+    double open = own * open_share(i) * whole_volume(i);
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       const auto j = beside(i, side);
       if (!j) continue;
       filled += volume_[*j];
-      open += open_share_[*j] * whole_volume(*j);
+      open += open_share(*j) * whole_volume(*j);
     }
     return filled < open && filled > 0 ? filled / open : 1;
   }
@@ -329,18 +335,15 @@ void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
   with_degree(splines->degree, [&](auto degree) {
     PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span());
     std::vector<double> force(lambda.begin(), lambda.end());
-    std::vector<double> known;
-    if (open_share) {
-      const PressureBesideBodies<Dim> beside(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),
+    std::vector<double> known(lambda.size(), 0);
+    const PressureOfFewParticles<Dim> of_few(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),
                                              mass.volume());
-      known.assign(lambda.size(), 0);
-      for (std::size_t i = 0; i < known.size(); ++i) {
-        if (!beside.is_cut(i)) continue;
-        known[i] = beside(i);
-        mass.know(i);
-      }
-      mass.take_known(known, force);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (!of_few.is_known(i)) continue;
+      known[i] = of_few(i);
+      mass.know(i);
     }
+    mass.take_known(known, force);
     std::vector<double> p = solve_mass(mass, force);
     for (std::size_t i = 0; i < known.size(); ++i) p[i] += known[i];
     std::copy(p.begin(), p.end(), p_l.begin());
