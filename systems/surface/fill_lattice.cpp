@@ -82,7 +82,8 @@ void FillLattice<Dim>::add(const Vec<Dim>& x, const Vec<Dim>& v, double volume) 
     } else {
       const std::size_t slice = n0 * static_cast<std::size_t>(nodes_.count[1]);
       for (int k = 0; k < count[2]; ++k)
-        add_line(row + slice * static_cast<std::size_t>(first[2] + k), along_y * weight[2][static_cast<std::size_t>(k)]);
+        add_line(row + slice * static_cast<std::size_t>(first[2] + k),
+                 along_y * weight[2][static_cast<std::size_t>(k)]);
     }
   }
 }

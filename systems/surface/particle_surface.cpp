@@ -14,7 +14,11 @@ namespace minamo {
 
 namespace {
 
+/// Fill fraction at the surface of a liquid with a plane surface.
 constexpr double half_full = 0.5;
+/// Beyond these the surface of a pool would leave its place by half a particle to make up for thin sheets.
+constexpr double least_level = 0.3;
+constexpr double most_level = 0.6;
 
 /// Integral of a quadratic B-spline of spacing 1 up to t: what lies below a plane of all that is seen from t above it.
 double seen_below(double t) {
@@ -28,12 +32,12 @@ double seen_below(double t) {
   return t < 0 ? rest : 1 - rest;
 }
 
-/// (E111)  0.5 - C/O, negative in the liquid, and positive beyond walls and in bodies.
+/// (E111)  c - C/O, negative in the liquid, and positive beyond walls and in bodies.
 template <int Dim>
 class LevelSet {
  public:
-  LevelSet(const SurfaceOf<Dim>& of, const FillLattice<Dim>& lattice)
-      : of_(of), lattice_(lattice), width_(FillLattice<Dim>::width * of.spacing) {}
+  LevelSet(const SurfaceOf<Dim>& of, const FillLattice<Dim>& lattice, double level)
+      : of_(of), lattice_(lattice), level_(level), width_(FillLattice<Dim>::width * of.spacing) {}
 
   double operator()(const Vec<Dim>& x) const {
     const double fill = lattice_.fill(x);
@@ -45,14 +49,14 @@ class LevelSet {
         open *= seen_below(inside / width_);
       }
     }
-    if (fill == 0) return std::max(half_full, beyond / width_);
+    if (fill == 0) return std::max(level_, beyond / width_);
     if (of_.distance_to_bodies) {
       const double outside = of_.distance_to_bodies(x);
       beyond = std::max(beyond, -outside);
       open *= seen_below(outside / width_);
     }
     constexpr double least_open = 0.05;
-    return std::max(half_full - fill / std::max(open, least_open), beyond / width_);
+    return std::max(level_ - fill / std::max(open, least_open), beyond / width_);
   }
 
   Vec<Dim> gradient(const Vec<Dim>& x) const {
@@ -68,6 +72,7 @@ class LevelSet {
  private:
   const SurfaceOf<Dim>& of_;
   const FillLattice<Dim>& lattice_;
+  double level_;
   double width_;
 };
 
@@ -139,13 +144,25 @@ void add_drop(const Outline<Dim>& drop, const Vec<Dim>& x, double volume, Outlin
   }
 }
 
-}  // namespace
-
 template <int Dim>
-ParticleSurface<Dim> surface_of(const SurfaceOf<Dim>& of) {
-  FillLattice<Dim> lattice(of.box, of.spacing, of.position);
-  for (std::size_t p = 0; p < of.position.size(); ++p) lattice.add(of.position[p], of.velocity[p], of.volume[p]);
-  const LevelSet<Dim> level_set(of, lattice);
+double enclosed(const Outline<Dim>& outline) {
+  double sum = 0;
+  for (const auto& element : outline.element) {
+    const Vec<Dim>& a = outline.point[element[0]];
+    const Vec<Dim>& b = outline.point[element[1]];
+    if constexpr (Dim == 2) {
+      sum += (a[0] * b[1] - a[1] * b[0]) / 2;
+    } else {
+      sum += a.dot(b.cross(outline.point[element[2]])) / 6;
+    }
+  }
+  return sum;
+}
+
+/// The surface at a level, drops included.
+template <int Dim>
+ParticleSurface<Dim> surface_at(const SurfaceOf<Dim>& of, const FillLattice<Dim>& lattice, double level) {
+  const LevelSet<Dim> level_set(of, lattice, level);
   const SampledShape<Dim> shape{[&](const Vec<Dim>& x) { return level_set(x); },
                                 [&](const Vec<Dim>& x) { return level_set.gradient(x); }};
   ParticleSurface<Dim> surface{march<Dim>(shape, lattice.nodes()), {}};
@@ -159,6 +176,40 @@ ParticleSurface<Dim> surface_of(const SurfaceOf<Dim>& of) {
     surface.velocity.resize(surface.outline.point.size(), of.velocity[p]);
   }
   return surface;
+}
+
+}  // namespace
+
+template <int Dim>
+ParticleSurface<Dim> surface_of(const SurfaceOf<Dim>& of) {
+  constexpr double tolerance = 5e-3;
+  constexpr int most_tries = 4;
+  FillLattice<Dim> lattice(of.box, of.spacing, of.position);
+  double volume = 0;
+  for (std::size_t p = 0; p < of.position.size(); ++p) {
+    lattice.add(of.position[p], of.velocity[p], of.volume[p]);
+    volume += of.volume[p];
+  }
+  struct Try {
+    double level;
+    ParticleSurface<Dim> surface;
+    double excess;  // of its volume, relative
+  };
+  const auto at = [&](double level) {
+    ParticleSurface<Dim> surface = surface_at<Dim>(of, lattice, level);
+    const double excess = volume > 0 ? enclosed<Dim>(surface.outline) / volume - 1 : 0;
+    return Try{level, std::move(surface), excess};
+  };
+  Try one = at(half_full);
+  if (std::abs(one.excess) <= tolerance) return one.surface;
+  // The volume falls where the level rises: by regula falsi between the two.
+  Try other = at(one.excess > 0 ? most_level : least_level);
+  for (int k = 0; k < most_tries && one.excess * other.excess < 0; ++k) {
+    Try next = at(one.level + (other.level - one.level) * one.excess / (one.excess - other.excess));
+    if (std::abs(next.excess) <= tolerance) return next.surface;
+    (next.excess * one.excess > 0 ? one : other) = std::move(next);
+  }
+  return std::abs(one.excess) < std::abs(other.excess) ? one.surface : other.surface;
 }
 
 template <int Dim>

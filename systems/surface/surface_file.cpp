@@ -57,14 +57,16 @@ std::string vtp(const ParticleSurface<Dim>& surface) {
   }
   Appended data;
   const auto array = [&](const char* type, const char* name, int components, const std::string& bytes) {
-    return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-                       type, name, components, data.add(bytes));
+    return fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
+        name, components, data.add(bytes));
   };
   const char* kind = Dim == 2 ? "Lines" : "Polys";
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
-      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"{}\">\n",
       points.size(), Dim == 2 ? elements.size() : 0, Dim == 2 ? 0 : elements.size());
   text += "<PointData Vectors=\"velocity\">\n" + array("Float32", "velocity", 3, velocities) + "</PointData>\n";
   text += "<Points>\n" + array("Float32", "position", 3, places) + "</Points>\n";
@@ -77,7 +79,8 @@ std::string vtp(const ParticleSurface<Dim>& surface) {
 template <int Dim>
 std::string ply(const ParticleSurface<Dim>& surface) {
   const auto& [points, elements] = surface.outline;
-  std::string text = fmt::format("ply\nformat binary_little_endian 1.0\ncomment minamo\nelement vertex {}\n", points.size());
+  std::string text =
+      fmt::format("ply\nformat binary_little_endian 1.0\ncomment minamo\nelement vertex {}\n", points.size());
   for (const char* name : {"x", "y", "z", "vx", "vy", "vz"}) text += fmt::format("property float {}\n", name);
   if (Dim == 2) {
     text += fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\nend_header\n", elements.size());

@@ -24,11 +24,10 @@ void write_index(const FieldsFile& fields, SurfaceFormat format) {
 }  // namespace
 
 template <int Dim>
-void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> output,
-                                    Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                                    Read<particle::Volume> V_p, Optional<Read<BodySet<Dim>>> set,
-                                    Optional<Read<body::Position<Dim>>> c_b, Optional<Read<body::Rotation<Dim>>> R_b,
-                                    Update<FieldsFile> fields) const {
+void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> output, Read<particle::Position<Dim>> x_p,
+                                    Read<particle::Velocity<Dim>> v_p, Read<particle::Volume> V_p,
+                                    Optional<Read<BodySet<Dim>>> set, Optional<Read<body::Position<Dim>>> c_b,
+                                    Optional<Read<body::Rotation<Dim>>> R_b, Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
   SurfaceOf<Dim> of{{grid->low, grid->high}, output->spacing, x_p.span(), v_p.span(), V_p.span(), {}};
   std::optional<PlacedBodies<Dim>> bodies;
