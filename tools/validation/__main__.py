@@ -61,7 +61,8 @@ def chosen(options: argparse.Namespace) -> list[Case]:
 
 def missing_files(options: argparse.Namespace) -> list[str]:
     if options.experiments is None:
-        return ["--experiments DIR is missing: where the data of the experiments are, scenes/validation/README.md names them"]
+        return ["--experiments DIR is missing: where the data of the experiments are, scenes/validation/README.md names "
+                "them"]
     files = sorted({curve.file for case in chosen(options) for curve in case.curves})
     return [f"{options.experiments / file}: no such file" for file in files
             if not (options.experiments / file).is_file()]

@@ -43,7 +43,8 @@ CASES = (
     Case(
         "dam_break", "Dam break",
         "S. Koshizuka, Y. Oka, Nucl. Sci. Eng. 123 (1996) 421",
-        "The dam break of [the front page](../dam_break.json): a column 0.146 m wide and twice as high. The gate that is drawn up takes time, and delays the front.",
+        "The dam break of [the front page](../dam_break.json): a column 0.146 m wide and twice as high. The gate that is "
+        "drawn up takes time, and delays the front.",
         "t (2 g/L)^0.5",
         (Curve("front", "front over L", front(), "koshizuka_oka_1996_front.csv", "front_over_L", scale=1 / L,
                time_column="t_sqrt_2g_over_L", time_scale=math.sqrt(2 * G / L)),),
@@ -62,7 +63,8 @@ CASES = (
                "buchner_2002_pressure.csv", "p_over_rho_g_H", scale=1 / WEIGHT, time_column="t_sqrt_2g_over_H",
                time_scale=math.sqrt(G / BUCHNER_H)),
          lobovsky_curve("P1"), lobovsky_curve("P3"), lobovsky_curve("P4")),
-        (Figure("Buchner", "arrival", figure.arrival(0.3)), Figure("Buchner", "plateau, mean from 3 to 5", figure.mean(3, 5)),
+        (Figure("Buchner", "arrival", figure.arrival(0.3)),
+         Figure("Buchner", "plateau, mean from 3 to 5", figure.mean(3, 5)),
          Figure("P1", "arrival", figure.arrival(0.5)), Figure("P1", "first peak", figure.peak(2, 3)),
          Figure("P1", "mean from 3 to 5", figure.mean(3, 5)), Figure("P3", "mean from 3 to 5", figure.mean(3, 5)),
          Figure("P4", "mean from 3 to 5", figure.mean(3, 5))),
@@ -82,9 +84,9 @@ CASES = (
     Case(
         "box_in_the_way", "Dam break with a box in its way",
         "K. M. T. Kleefsman, G. Fekken, A. E. P. Veldman, B. Iwanowski, B. Buchner, J. Comput. Phys. 206 (2005) 363",
-        "Water 0.55 m deep falls upon a box of 0.16 x 0.4 x 0.16 m (SPHERIC test 2). Half of the tank is computed, up to its plane of "
-        "symmetry; the box and the far wall are bodies that cut the grid. P1 and P3 on the front of the box, 21 and 101 mm above "
-        "the floor, P5 on its top; H2 and H4 are depths of water in front of the box and where the water was.",
+        "Water 0.55 m deep falls upon a box of 0.16 x 0.4 x 0.16 m (SPHERIC test 2). Half of the tank is computed, up to "
+        "its plane of symmetry; the box and the far wall are bodies that cut the grid. P1 and P3 on the front of the box, "
+        "21 and 101 mm above the floor, P5 on its top; H2 and H4 are depths of water in front of the box and where the water was.",
         "t [s]",
         tuple(Curve(probe, f"{probe} [Pa]", f"{probe}_pressure", "spheric2_kleefsman_2005.csv", probe)
               for probe in ("P1", "P3", "P5"))
@@ -94,7 +96,8 @@ CASES = (
          Figure("P1", "rms", figure.rms()), Figure("P3", "rms", figure.rms()), Figure("P5", "rms", figure.rms()),
          Figure("H2", "rms", figure.rms()), Figure("H4", "rms", figure.rms())),
         (("h = 40 mm", {}),
-         ("h = 20 mm", {"/constants/N": 161, "/grid/high": [3.22, "3.22/N*26", "3.22/N*50"], "/grid/cells": ["N", 26, 50]}))),
+         ("h = 20 mm", {"/constants/N": 161, "/grid/high": [3.22, "3.22/N*26", "3.22/N*50"],
+                        "/grid/cells": ["N", 26, 50]}))),
     Case(
         "moving_square", "Square that starts to move",
         "SPHERIC benchmark test 6 (A. Colagrossi), computed with finite differences",

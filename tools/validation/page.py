@@ -27,7 +27,8 @@ def number(value: float | None, unit: str) -> str:
 
 def section(case: Any, stored: dict[str, Any], scene: str) -> list[str]:
     labels = [label for label, _ in case.resolutions]
-    lines = [f"## {case.title}", "", f"[{scene.rpartition('/')[2].removesuffix('.json')}]({scene}). {case.paper}.", "", case.text, "",
+    name = scene.rpartition("/")[2].removesuffix(".json")
+    lines = [f"## {case.title}", "", f"[{name}]({scene}). {case.paper}.", "", case.text, "",
              f"![{case.title}: computed and measured]({case.name}.png)", "",
              "| | " + " | ".join(labels) + " |", "|---" * (len(labels) + 1) + "|"]
     for k, figure in enumerate(case.figures):
