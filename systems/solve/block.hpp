@@ -73,7 +73,6 @@ struct FactorizeVelocity {
 template <int Dim>
 struct FactorizePressure {
   static constexpr std::string_view doc = "(E56) (E57) preconditioner of the pressure";
-  /// \throws StepRejected if there are no factors.
   void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Mass> m_i, Read<node::Site<Dim>> site,
                   Read<matrix::Node> node, Read<matrix::StabilizationScale> scale,
                   Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,

@@ -1,7 +1,6 @@
 #include "systems/solve/cholesky.hpp"
 
 #include <Eigen/CholmodSupport>
-#include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
 #include <new>
@@ -12,101 +11,64 @@ namespace minamo {
 
 struct SparseCholesky::Impl {
   using Matrix = Eigen::SparseMatrix<double>;
-  std::vector<int> outer, inner, known_outer, known_inner;
-  Values values;
-  std::size_t rows = 0;
-  std::vector<std::pair<int, double>> row;  ///< work space
-  // Row r of the lower triangle is column r of the upper one.
-  Eigen::CholmodDecomposition<Matrix, Eigen::Upper> complete;
-  Eigen::IncompleteCholesky<double, Eigen::Upper, Eigen::NaturalOrdering<int>> incomplete;
-  Kind kind = Kind::complete;
+  std::vector<Eigen::Triplet<double>> entries;
+  Matrix matrix, analyzed;
+  Eigen::CholmodDecomposition<Matrix, Eigen::Lower> factors;
 
-  void sort_rows();
+  bool is_analyzed() const;
   void require_memory();
-  bool factorize_complete(const Eigen::Map<const Matrix>& matrix);
 };
 
 SparseCholesky::SparseCholesky() : impl_(std::make_unique<Impl>()) {
-  impl_->complete.cholmod().print = 0;  // factorize() tells
+  impl_->factors.cholmod().print = 0;     // factorize() tells
+  impl_->factors.cholmod().final_ll = 1;  // with LDL^T CHOLMOD would not tell
 }
 SparseCholesky::~SparseCholesky() = default;
 
 void SparseCholesky::start(std::size_t rows) {
-  impl_->rows = rows;
-  impl_->outer.clear();
-  impl_->inner.clear();
-  impl_->values.clear();
+  const auto size = static_cast<Eigen::Index>(rows);
+  impl_->matrix.resize(size, size);
+  impl_->entries.clear();
 }
 
 void SparseCholesky::add(std::size_t row, std::size_t column, double value) {
-  Impl& s = *impl_;
-  while (s.outer.size() <= row) s.outer.push_back(static_cast<int>(s.inner.size()));
-  s.inner.push_back(static_cast<int>(column));
-  s.values.push_back(value);
+  impl_->entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
 }
 
-void SparseCholesky::Impl::sort_rows() {
-  for (std::size_t r = 0; r < rows; ++r) {
-    const int begin = outer[r];
-    const int end = outer[r + 1];
-    if (std::is_sorted(inner.begin() + begin, inner.begin() + end)) continue;
-    row.clear();
-    for (int e = begin; e < end; ++e) {
-      row.emplace_back(inner[static_cast<std::size_t>(e)], values[static_cast<std::size_t>(e)]);
-    }
-    std::sort(row.begin(), row.end());
-    for (int e = begin; e < end; ++e) {
-      const auto& [column, value] = row[static_cast<std::size_t>(e - begin)];
-      inner[static_cast<std::size_t>(e)] = column;
-      values[static_cast<std::size_t>(e)] = value;
-    }
-  }
+/// Whether the symbolic factorization is that of the pattern.
+bool SparseCholesky::Impl::is_analyzed() const {
+  const auto are_same = [](const int* a, const int* b, Eigen::Index count) { return std::equal(a, a + count, b); };
+  return matrix.cols() == analyzed.cols() && matrix.nonZeros() == analyzed.nonZeros() &&
+         are_same(matrix.outerIndexPtr(), analyzed.outerIndexPtr(), matrix.cols()) &&
+         are_same(matrix.innerIndexPtr(), analyzed.innerIndexPtr(), matrix.nonZeros());
 }
 
 /// What CHOLMOD has no memory for, or no 32-bit numbers, is no statement about the matrix.
 void SparseCholesky::Impl::require_memory() {
-  const int status = complete.cholmod().status;
+  const int status = factors.cholmod().status;
   if (status != CHOLMOD_OUT_OF_MEMORY && status != CHOLMOD_TOO_LARGE) return;
-  known_outer.clear();  // the analysis may be the part that is missing
+  analyzed.resize(0, 0);  // the analysis may be the part that is missing
   throw std::bad_alloc();
 }
 
-bool SparseCholesky::Impl::factorize_complete(const Eigen::Map<const Matrix>& matrix) {
+bool SparseCholesky::factorize() {
+  Impl& s = *impl_;
   // CHOLMOD asks OpenMP for four threads whatever the environment says; threads are TBB's business.
   omp_set_max_active_levels(0);
-  if (outer != known_outer || inner != known_inner) {
-    // Dense blocks pay from a few thousand rows on.
-    complete.setMode(rows < 2000 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodSupernodalLLt);
-    complete.analyzePattern(matrix);
-    require_memory();
-    known_outer = outer;
-    known_inner = inner;
+  s.matrix.setFromTriplets(s.entries.begin(), s.entries.end());
+  if (!s.is_analyzed()) {
+    s.factors.analyzePattern(s.matrix);
+    s.require_memory();
+    s.analyzed = s.matrix;
   }
-  complete.factorize(matrix);
-  require_memory();
-  return complete.info() == Eigen::Success;
-}
-
-bool SparseCholesky::factorize(Kind kind) {
-  Impl& s = *impl_;
-  while (s.outer.size() <= s.rows) s.outer.push_back(static_cast<int>(s.inner.size()));
-  s.sort_rows();
-  s.kind = kind;
-  const auto size = static_cast<Eigen::Index>(s.rows);
-  const Eigen::Map<const Impl::Matrix> matrix(size, size, static_cast<Eigen::Index>(s.values.size()), s.outer.data(),
-                                              s.inner.data(), s.values.data());
-  if (kind == Kind::complete) return s.factorize_complete(matrix);
-  s.incomplete.compute(matrix);
-  return s.incomplete.info() == Eigen::Success;
+  s.factors.factorize(s.matrix);
+  s.require_memory();
+  return s.factors.info() == Eigen::Success;
 }
 
 void SparseCholesky::solve(Values& b) const {
   Eigen::Map<Eigen::VectorXd> x(b.data(), static_cast<Eigen::Index>(b.size()));
-  if (impl_->kind == Kind::complete) {
-    x = impl_->complete.solve(x).eval();
-  } else {
-    x = impl_->incomplete.solve(x).eval();
-  }
+  x = impl_->factors.solve(x).eval();
 }
 
 }  // namespace minamo

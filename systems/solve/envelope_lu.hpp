@@ -15,17 +15,16 @@ namespace minamo {
 
 class EnvelopeLu {
  public:
-  /// \param first  column of the first entry of every row, at most the row itself
+  /// All entries are zero. \param first  column of the first entry of every row, at most the row itself
   void start(std::span<const std::uint32_t> first);
-  std::size_t rows() const { return rows_; }
   /// Entry of the lower or upper part; \pre within the envelope.
   double& at(std::size_t row, std::size_t column) {
-    const auto [j, of_row] = place(row);
-    const auto [i, of_column] = place(column);
-    Tile& tile = i < j ? lower_[start_[j] + i - first_[j]] : upper_[start_[i] + j - first_[i]];
-    return tile(of_row, of_column);
+    const std::size_t j = row / width;
+    const std::size_t i = column / width;
+    Tile& tile = i < j ? lower_[start_[j] + i] : upper_[start_[i] + j];
+    return tile(static_cast<Eigen::Index>(row % width), static_cast<Eigen::Index>(column % width));
   }
-  /// False if a pivot is zero or not finite.
+  /// False if a tile of the diagonal becomes singular.
   bool factorize();
   /// Overwrites b with the solution.
   void solve(Values& b);
@@ -33,32 +32,13 @@ class EnvelopeLu {
  private:
   static constexpr std::size_t width = 4;
   using Tile = Eigen::Matrix<double, width, width>;
-  using Lanes = Eigen::Array<double, width, 1>;
-  using Columns = std::array<Lanes, width>;
-  struct Place {
-    std::size_t tile;
-    Eigen::Index within;
-  };
-  static Place place(std::size_t row) { return {row / width, static_cast<Eigen::Index>(row % width)}; }
-  void place_tiles(std::span<const std::uint32_t> first);
-  static Lanes column_of(const Tile& tile, std::size_t j);
-  static void add_product(const Tile& a, const Tile& b, Columns& c);
-  static Tile product(const Tile& a, const Tile& b);
-  static Lanes product(const Tile& a, const Lanes& x);
-  static void subtract_products(const Tile* lower, const Tile* upper, std::size_t count, Tile& from);
-  void eliminate_from(std::size_t j);
-  void eliminate();
-  void substitute();
-  bool invert_diagonal(std::size_t j);
+  using Part = Eigen::Matrix<double, width, 1>;
 
-  std::size_t rows_ = 0;
   std::vector<std::uint32_t> first_;  ///< tile of every row of tiles
-  std::vector<std::size_t> start_;    ///< of row j of the lower and column j of the upper part
+  std::vector<std::size_t> start_;    ///< where the tiles of a row would begin if all had one
   std::vector<Tile> lower_;           ///< row by row, up to and with an unused diagonal
-  std::vector<Tile> upper_;           ///< column by column, up to and with the diagonal
-  std::vector<Tile> inverse_lower_;   ///< of the diagonal tiles' factors
-  std::vector<Tile> inverse_upper_;
-  std::vector<Lanes> x_;
+  std::vector<Tile> upper_;           ///< column by column, up to and with the diagonal, whose inverse that is
+  std::vector<Part> x_;
 };
 
 /// About the multiplications of EnvelopeLu::factorize().

@@ -1,7 +1,5 @@
 #include "systems/solve/pressure_factors.hpp"
 
-#include "engine/step_control.hpp"
-
 #include <algorithm>
 #include <limits>
 
@@ -77,39 +75,13 @@ void PressureFactors<Dim>::find_envelope(const SparseRows& matrix) {
 
 template <int Dim>
 bool PressureFactors<Dim>::factorize_envelope(const SparseRows& matrix) {
-  find_envelope(matrix);
-  if (envelope_cost(first_) > widest) return false;
-  envelope_.start(first_);
-  ordered_.resize(order_.size());
+  complete_.start(first_);
   for (std::size_t r = 0; r < order_.size(); ++r) {
     for (std::uint32_t e = matrix.begin[r]; e < matrix.begin[r + 1]; ++e) {
-      envelope_.at(place_[r], place_[matrix.column[e]]) += matrix.value[e];
+      complete_.at(place_[r], place_[matrix.column[e]]) += matrix.value[e];
     }
   }
-  return envelope_.factorize();
-}
-
-/// The lower triangle of the symmetric part, from two rows with rising columns.
-template <int Dim>
-bool PressureFactors<Dim>::factorize_symmetric(const SparseRows& matrix, SparseCholesky::Kind kind) {
-  transpose(matrix, transposed_);
-  sparse_.start(matrix.rows());
-  for (std::size_t r = 0; r < matrix.rows(); ++r) {
-    std::uint32_t a = matrix.begin[r];
-    std::uint32_t b = transposed_.begin[r];
-    const auto column_of = [r](const SparseRows& from, std::uint32_t e) {
-      return e < from.begin[r + 1] ? from.column[e] : ~std::uint32_t{0};
-    };
-    while (true) {
-      const std::uint32_t in_a = column_of(matrix, a);
-      const std::uint32_t in_b = column_of(transposed_, b);
-      const std::uint32_t column = std::min(in_a, in_b);
-      if (column > r) break;
-      const double sum = (in_a == column ? matrix.value[a++] : 0) + (in_b == column ? transposed_.value[b++] : 0);
-      sparse_.add(r, column, sum / 2);
-    }
-  }
-  return sparse_.factorize(kind);
+  return complete_.factorize();
 }
 
 template <int Dim>
@@ -117,33 +89,29 @@ void PressureFactors<Dim>::prepare(const SparseRows& matrix, std::span<const Ind
                                    std::span<const double> m_i, std::span<const std::uint32_t> node,
                                    double viscous_part) {
   find_order(site, node);
-  kind_ = Kind::envelope;
-  if (!factorize_envelope(matrix)) {
-    kind_ = Kind::incomplete;
-    if (!factorize_symmetric(matrix, SparseCholesky::Kind::incomplete)) {
-      throw StepRejected("solve: the pressure matrix has no factors");
-    }
-  }
+  find_envelope(matrix);
+  is_complete_ = envelope_cost(first_) <= widest && factorize_envelope(matrix);
+  if (!is_complete_) incomplete_.factorize(matrix);
   of_mass_.resize(viscous_part == 0 ? 0 : node.size());
   for_each_row(of_mass_.size(), [&](std::size_t r) { of_mass_[r] = viscous_part / m_i[node[r]]; });
 }
 
 template <int Dim>
 bool PressureFactors<Dim>::complete(const SparseRows& matrix) {
-  if (kind_ != Kind::incomplete) return false;
-  kind_ = Kind::complete;
-  return factorize_symmetric(matrix, SparseCholesky::Kind::complete);
+  if (is_complete_) return false;
+  return is_complete_ = factorize_envelope(matrix);
 }
 
 template <int Dim>
 void PressureFactors<Dim>::solve(const Values& r, Values& out) {
-  if (kind_ == Kind::envelope) {
+  if (is_complete_) {
+    ordered_.resize(r.size());
     for (std::size_t i = 0; i < order_.size(); ++i) ordered_[i] = r[order_[i]];
-    envelope_.solve(ordered_);
+    complete_.solve(ordered_);
     for (std::size_t i = 0; i < order_.size(); ++i) out[order_[i]] = ordered_[i];
   } else {
     out = r;
-    sparse_.solve(out);
+    incomplete_.solve(out);
   }
   for (std::size_t i = 0; i < of_mass_.size(); ++i) out[i] += of_mass_[i] * r[i];
 }

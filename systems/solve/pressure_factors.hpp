@@ -1,15 +1,14 @@
 #pragma once
 /// \file
 /// The preconditioner of the pressure Schur complement: about the inverse of the matrix (E56), by LU within its
-/// envelope where that is narrow, by incomplete Cholesky of its symmetric part where it is not; and for viscous liquids
+/// envelope where that is narrow, by incomplete LU where it is not; and for viscous liquids
 /// (E57)  plus b (m/rho)^-1, J. Cahouet, J.-P. Chabard, IJNMF 8 (1988) 869, doi:10.1002/fld.1650080802.
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
-#include "systems/solve/cholesky.hpp"
 #include "systems/solve/envelope_lu.hpp"
+#include "systems/solve/incomplete_lu.hpp"
 #include "systems/solve/operators.hpp"
-#include "systems/solve/sparse_rows.hpp"
 
 namespace minamo {
 
@@ -30,12 +29,11 @@ class PressureFactors {
 
   /// \param site, m_i  of every node
   /// \param node       of every row
-  /// \throws StepRejected if the matrix cannot be factorized.
   void prepare(const SparseRows& matrix, std::span<const Index<Dim>> site, std::span<const double> m_i,
                std::span<const std::uint32_t> node, double viscous_part);
-  /// Whole factors in the place of incomplete ones, with which GMRES may not converge where few particles have many
-  /// nodes. \return whether they were incomplete, and the matrix has others.
-  /// \throws std::bad_alloc if they do not fit into memory.
+  /// LU in the place of incomplete LU, with which GMRES may not converge where few particles have many nodes, as wide
+  /// as the envelope may be. \return whether it was incomplete, and has been replaced.
+  /// \throws std::bad_alloc if it does not fit into memory.
   bool complete(const SparseRows& matrix);
   /// out = about S^-1 r.
   void solve(const Values& r, Values& out);
@@ -44,19 +42,16 @@ class PressureFactors {
   void find_order(std::span<const Index<Dim>> site, std::span<const std::uint32_t> node);
   void find_envelope(const SparseRows& matrix);
   bool factorize_envelope(const SparseRows& matrix);
-  bool factorize_symmetric(const SparseRows& matrix, SparseCholesky::Kind kind);
 
-  enum class Kind { envelope, incomplete, complete };
-  Kind kind_ = Kind::envelope;
+  bool is_complete_ = true;
   std::vector<std::uint32_t> order_;                        ///< the rows, as the envelope has them
   std::vector<std::uint32_t> place_;                        ///< where the envelope has a row
   std::vector<std::uint32_t> first_;                        ///< place of the first entry of a place
   std::vector<std::pair<Index<Dim>, std::uint32_t>> keys_;  ///< work space: coordinates, slowest first, and row
   Values ordered_;
   Values of_mass_;  ///< b/(m/rho); empty if not viscous
-  EnvelopeLu envelope_;
-  SparseRows transposed_;  ///< work space
-  SparseCholesky sparse_;
+  EnvelopeLu complete_;
+  IncompleteLu incomplete_;
 };
 
 }  // namespace minamo

@@ -10,8 +10,8 @@
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
+#include "systems/solve/incomplete_lu.hpp"
 #include "systems/solve/schur_operator.hpp"
-#include "systems/solve/sparse_rows.hpp"
 
 namespace minamo {
 

@@ -3,32 +3,12 @@
 #include "engine/parallel.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace minamo {
 
 namespace {
 
 constexpr std::size_t table_rows_per_task = 128;
-
-/// Rows of liquid that fills its cells are sums of the same numbers, in orders of their own: what they may differ by,
-/// of the largest entry.
-constexpr double least_difference = 1e-14;
-
-/// Whether the components of two lists of entries differ by roundings only.
-template <class Entries>
-bool are_near(const Entries& a, const Entries& b) {
-  for (std::size_t d = 0; d < 4; ++d) {
-    double largest = 0;
-    double difference = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-      largest = std::max(largest, std::abs(a[k][d]));
-      difference = std::max(difference, std::abs(a[k][d] - b[k][d]));
-    }
-    if (difference > least_difference * largest) return false;
-  }
-  return true;
-}
 
 /// The sum over a stencil, in five parts: no addition waits for many others.
 template <int Dim, class Term>
@@ -67,45 +47,15 @@ void SchurOperator<Dim>::fill_row(const Operators<Dim>& t, std::size_t r) {
 }
 
 template <int Dim>
-bool SchurOperator<Dim>::are_alike(std::size_t r, std::size_t other) const {
-  const Neighbours& neighbours = neighbours_[r];
-  return std::find(neighbours.begin(), neighbours.end(), rows()) == neighbours.end() &&
-         are_near(divergence_[r], divergence_[other]) && are_near(gradient_[r], gradient_[other]);
-}
-
-/// Two rows in succession that are alike tell what the others may have.
-template <int Dim>
-void SchurOperator<Dim>::find_alike() {
-  std::size_t first = 0;
-  while (first + 1 < rows() && !(are_alike(first, first + 1) && are_alike(first + 1, first))) ++first;
-  for_each_row(
-      rows(),
-      [&](std::size_t r) {
-        const bool is_alike = first + 1 < rows() && are_alike(r, first);
-        like_[r] = static_cast<std::uint32_t>(is_alike ? first : r);
-      },
-      table_rows_per_task);
-}
-
-template <int Dim>
-std::size_t SchurOperator<Dim>::alike_rows() const {
-  std::size_t count = 0;
-  for (std::size_t r = 0; r < rows(); ++r) count += like_[r] != r;
-  return count;
-}
-
-template <int Dim>
 void SchurOperator<Dim>::assemble(const Operators<Dim>& t) {
   coefficients_ = t;
   neighbours_.resize(t.node.size());
   gradient_.resize(rows());
   divergence_.resize(rows());
-  like_.resize(rows());
   pressure_of_mass_.resize(rows());
   inverse_diagonal_.resize(Dim * rows());
   for_each_row(
       rows(), [&](std::size_t r) { fill_row(t, r); }, table_rows_per_task);
-  find_alike();
 }
 
 template <int Dim>

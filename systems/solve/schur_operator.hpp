@@ -33,13 +33,11 @@ class SchurOperator {
   std::size_t rows() const { return neighbours_.size(); }
   const Neighbours& neighbours(std::size_t row) const { return neighbours_[row]; }
   /// D_JI of a row I, by directions.
-  const Entries& gradient(std::size_t row) const { return gradient_[like_[row]]; }
+  const Entries& gradient(std::size_t row) const { return gradient_[row]; }
   /// B_IJ by directions, then T_IJ.
-  const Entries& divergence(std::size_t row) const { return divergence_[like_[row]]; }
+  const Entries& divergence(std::size_t row) const { return divergence_[row]; }
   /// e_I
   double pressure_of_mass(std::size_t row) const { return pressure_of_mass_[row]; }
-  /// How many rows have the entries of another.
-  std::size_t alike_rows() const;
   /// 1/(c_a m_I + c_v K_II) at [Dim r + d], 0 towards walls.
   const Values& inverse_diagonal() const { return inverse_diagonal_; }
 
@@ -52,8 +50,6 @@ class SchurOperator {
 
  private:
   void fill_row(const Operators<Dim>& terms, std::size_t row);
-  bool are_alike(std::size_t row, std::size_t other) const;
-  void find_alike();
   void take_pressure(const Values& p, SchurVectors& work) const;
   Four gradient_at(std::size_t row, const SchurVectors& work) const;
   void find_divergence(const SchurVectors& work, Values& out) const;
@@ -61,9 +57,6 @@ class SchurOperator {
   std::vector<Neighbours> neighbours_;
   std::vector<Entries> gradient_;
   std::vector<Entries> divergence_;
-  /// The row whose entries are those of a row, too. Rows deep in the liquid, (E68), all have those of the first: a
-  /// product need not read them from memory row by row.
-  std::vector<std::uint32_t> like_;
   Values pressure_of_mass_;
   Values inverse_diagonal_;
   Coefficients coefficients_;

@@ -30,7 +30,7 @@ double block_bytes_per_node(const Scene& scene, double nodes) {
   if (scene.dimension == 2) return 8e3 + (is_stiff(scene) ? 900 * std::log2(nodes) : 0);
   const double factorized = std::min(nodes, most_factorized_in_space / 3.0);
   const double of_velocity = is_stiff(scene) ? 6e3 * std::cbrt(factorized) * factorized / nodes : 0;
-  const double of_pressure = fewest_per_cell(scene) == 1 ? 1.3e3 * std::cbrt(nodes) : 0;
+  const double of_pressure = fewest_per_cell(scene) == 1 ? 65 * std::pow(nodes, 2.0 / 3) : 0;
   return 45e3 + of_velocity + of_pressure;
 }
 

@@ -3,7 +3,6 @@
 #include "engine/step_control.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace minamo {
 
@@ -13,18 +12,6 @@ namespace {
 /// what they cost is to be less than a pass over what the diagonal has left.
 constexpr std::array friction_of_viscous = {1e-3, 1e-2, 1e-1, 0.5};
 constexpr std::size_t few = 10;  ///< one of so many
-
-/// Viscous rows from which on iterations can pay.
-constexpr std::size_t least_iterated = 3000;
-
-/// Friction up to which iterations are fewer than factors are worth, at so many viscous unknowns. In space factors fill
-/// in: their work grows with the square of the unknowns, and they outgrow memory.
-template <int Dim>
-double most_friction_of_iteration(std::size_t viscous) {
-  if (Dim == 2) return 5;
-  return viscous > most_factorized_in_space ? std::numeric_limits<double>::infinity()
-                                            : static_cast<double>(viscous) / 200;
-}
 
 /// What a pass with iterations leaves, as a part of what it began with; each of its calls may leave a hundredth of
 /// that.
@@ -100,14 +87,15 @@ void VelocityFactors<Dim>::factorize(const Matrix& matrix) {
   if (!factors_.factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
-/// Whether iterations cost less than factors: where more than a few unknowns are viscous, but half of all not too much.
+/// Whether iterations cost less than factors, whose work grows in space with the square of the unknowns: where more
+/// than a few unknowns are viscous, but half of all not too much. In the plane factors cost as much at most.
 template <int Dim>
 bool VelocityFactors<Dim>::prefers_iteration() const {
   const std::size_t size = friction_.size();
-  if (few * viscous_.size() <= size || viscous_.size() < least_iterated) return false;
-  const double most = most_friction_of_iteration<Dim>(viscous_.size());
+  if (Dim == 2 || few * viscous_.size() <= size) return false;
+  const double most = static_cast<double>(viscous_.size()) / 200;
   const auto mild = std::count_if(friction_.begin(), friction_.end(), [most](double f) { return f <= most; });
-  return 2 * static_cast<std::size_t>(mild) >= size;
+  return viscous_.size() > most_factorized_in_space || 2 * static_cast<std::size_t>(mild) >= size;
 }
 
 template <int Dim>

@@ -10,7 +10,7 @@ using namespace minamo::scene_run;
 
 namespace {
 
-/// A tank of water with a wave on it: rows that are all alike deep in it, others at walls and at the surface.
+/// A tank of water with a wave on it: nodes deep in it, at walls and at the surface.
 template <int Dim>
 Json water() {
   Json scene = Json::parse(R"json({
@@ -54,9 +54,6 @@ TEMPLATE_TEST_CASE_SIG("products with the rows of (E55) are those of the matrix"
   run.step(2);
   SchurOperator<Dim> schur;
   schur.assemble(dense::terms_of_step<Dim>(run.world()));
-  // What liquid that fills its cells saves is used there, and nowhere else.
-  CHECK((schur.alike_rows() > 0) == (quadrature == "mixed"));
-  CHECK(schur.alike_rows() < schur.rows() / 2);
 
   const Eigen::MatrixXd matrix = dense::as_assembled<Dim>(run.world()).matrix;
   const Values p = random_values(schur.rows(), 1);
