@@ -18,7 +18,6 @@ constexpr std::int64_t most_iterations = 100;
 template <int Dim>
 struct BlockSystem {
   const SchurOperator<Dim>& schur;
-  const SchurApproximation<Dim>& approximation;
   const VelocityFactors<Dim>& velocity;
   typename VelocityFactors<Dim>::Matrix of_velocity;
   PressureFactors<Dim>& preconditioner;
@@ -41,7 +40,7 @@ void prepare(const SchurOperator<Dim>& schur, BlockWork<Dim>& w) {
 template <int Dim>
 Gmres::Report eliminate(const BlockSystem<Dim>& s, const Values& f, const Values& g, double target, Gmres::Start start,
                         Values& u, Values& p) {
-  const Values& scale = s.approximation.scale();
+  const Values& scale = s.preconditioner.scale();
   const auto apply = [&](const Values& x, Values& out, double allowed) {
     if (s.velocity.is_diagonal()) {
       s.schur.apply_with_diagonal(x, s.work.products, out);
@@ -72,7 +71,7 @@ void reduce(const BlockSystem<Dim>& s, const Values& f, const Values& u, const V
   s.solve_for_velocity(v, 0);
   add_scaled(1, u, v);
   s.schur.apply_divergence(v, p, s.work.products, g);
-  for_each_row(g.size(), [&](std::size_t r) { g[r] = s.approximation.scale()[r] * (s.work.mass[r] - g[r]); });
+  for_each_row(g.size(), [&](std::size_t r) { g[r] = s.preconditioner.scale()[r] * (s.work.mass[r] - g[r]); });
 }
 
 /// The square of the motion that a momentum is worth, f A^-1 f with the inverse_diagonal for A^-1.
@@ -100,7 +99,7 @@ Gmres::Report solve_blocks(const BlockSystem<Dim>& s, double tolerance, Gmres::S
   BlockWork<Dim>& w = s.work;
   std::fill(w.displacement.begin(), w.displacement.end(), 0.0);
   if (std::all_of(w.momentum.begin(), w.momentum.end(), [](double f) { return f == 0; })) {
-    for_each_row(w.g.size(), [&](std::size_t r) { w.g[r] = s.approximation.scale()[r] * w.mass[r]; });
+    for_each_row(w.g.size(), [&](std::size_t r) { w.g[r] = s.preconditioner.scale()[r] * w.mass[r]; });
   } else {
     reduce<Dim>(s, w.momentum, w.displacement, w.zero, w.g);
   }
@@ -181,17 +180,6 @@ void AssembleSchur<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
 }
 
 template <int Dim>
-void ApproximateSchur<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed,
-                                       Read<node::Mass> m_i, Read<node::Site<Dim>> site, Read<matrix::Node> node,
-                                       Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
-                                       Read<SchurOperator<Dim>> schur,
-                                       Write<SchurApproximation<Dim>> approximation) const {
-  approximation->assemble(
-      {schur->coefficients(), {}, fixed.span(), m_i.span(), node.span(), {}, divergence.span(), {}, {}}, *grid,
-      site.span(), *fluid, laplacian_factor(schur->coefficients(), *fluid, *scale), *schur);
-}
-
-template <int Dim>
 void FactorizeVelocity<Dim>::operator()(Read<node::Mass> m_i, Read<matrix::Node> node,
                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                                         Read<SchurOperator<Dim>> schur, Write<VelocityFactors<Dim>> factors) const {
@@ -199,14 +187,15 @@ void FactorizeVelocity<Dim>::operator()(Read<node::Mass> m_i, Read<matrix::Node>
 }
 
 template <int Dim>
-void FactorizePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Mass> m_i,
-                                        Read<node::Site<Dim>> site, Read<matrix::Node> node,
+void FactorizePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed,
+                                        Read<node::Mass> m_i, Read<node::Site<Dim>> site, Read<matrix::Node> node,
+                                        Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::StabilizationScale> scale,
                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                                        Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
-                                        Write<PressureFactors<Dim>> factors) const {
-  factors->prepare(approximation->matrix(), site.span(), m_i.span(), node.span(),
-                   viscosity ? viscous_part<Dim>(schur->coefficients(), *grid, *fluid, *scale) : 0);
+                                        Read<SchurOperator<Dim>> schur, Write<PressureFactors<Dim>> factors) const {
+  factors->prepare(
+      {schur->coefficients(), {}, fixed.span(), m_i.span(), node.span(), {}, divergence.span(), {}, viscosity.span()},
+      *schur, *grid, site.span(), *fluid, *scale);
 }
 
 template <int Dim>
@@ -215,14 +204,12 @@ void SolveBlock<Dim>::operator()(Read<SolverTolerance> tolerance, Read<node::Row
                                  Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
                                  Read<matrix::Stabilization<Dim>> stabilization,
                                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
-                                 Read<SchurApproximation<Dim>> approximation,
                                  Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f,
                                  Read<matrix::Mass> g, Update<PressureFactors<Dim>> pressure_factors,
                                  Update<BlockWork<Dim>> work, Write<Fallback> fallback,
                                  Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p,
                                  Write<SolveReport> report) const {
-  const BlockSystem<Dim> system{
-      *schur, *approximation, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};
+  const BlockSystem<Dim> system{*schur, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};
   prepare<Dim>(*schur, *work);
   for_each_row(g.size(), [&](std::size_t r) {
     for (std::size_t d = 0; d < Dim; ++d) work->momentum[Dim * r + d] = f[r][static_cast<Eigen::Index>(d)];
@@ -231,7 +218,7 @@ void SolveBlock<Dim>::operator()(Read<SolverTolerance> tolerance, Read<node::Row
     work->pressure[r] = p_i[node[r]];
   });
   Gmres::Report done = solve_blocks<Dim>(system, tolerance->relative, Gmres::Start::x);
-  if (!is_solved(done) && pressure_factors->complete(approximation->matrix())) {
+  if (!is_solved(done) && pressure_factors->complete()) {
     const std::int64_t before = done.iterations;
     done = solve_blocks<Dim>(system, tolerance->relative, Gmres::Start::zero);
     done.iterations += before;
@@ -260,13 +247,11 @@ void SolveVolumeBlock<Dim>::operator()(Read<SolverTolerance> tolerance, Read<nod
                                        Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
                                        Read<matrix::Stabilization<Dim>> stabilization,
                                        Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
-                                       Read<SchurApproximation<Dim>> approximation,
                                        Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::VolumeSource> g,
                                        Update<PressureFactors<Dim>> pressure_factors, Update<BlockWork<Dim>> work,
                                        Update<Fallback> fallback, Write<matrix::Shift<Dim>> d) const {
   if (!fallback->is_used) {
-    const BlockSystem<Dim> system{
-        *schur, *approximation, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};
+    const BlockSystem<Dim> system{*schur, *velocity_factors, {*schur, viscosity.span()}, *pressure_factors, *work};
     prepare<Dim>(*schur, *work);
     std::fill(work->momentum.begin(), work->momentum.end(), 0.0);
     std::copy(g.begin(), g.end(), work->mass.begin());
@@ -285,8 +270,6 @@ void SolveVolumeBlock<Dim>::operator()(Read<SolverTolerance> tolerance, Read<nod
 
 template struct AssembleSchur<2>;
 template struct AssembleSchur<3>;
-template struct ApproximateSchur<2>;
-template struct ApproximateSchur<3>;
 template struct FactorizeVelocity<2>;
 template struct FactorizeVelocity<3>;
 template struct FactorizePressure<2>;

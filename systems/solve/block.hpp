@@ -13,7 +13,6 @@
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
 #include "systems/solve/pressure_factors.hpp"
-#include "systems/solve/schur_approximation.hpp"
 #include "systems/solve/schur_operator.hpp"
 #include "systems/solve/umfpack.hpp"
 #include "systems/solve/velocity_factors.hpp"
@@ -54,15 +53,6 @@ struct AssembleSchur {
 };
 
 template <int Dim>
-struct ApproximateSchur {
-  static constexpr std::string_view doc = "(E56) matrix near the operator of the pressure";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed, Read<node::Mass> m_i,
-                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
-                  Read<matrix::StabilizationScale> scale, Read<SchurOperator<Dim>> schur,
-                  Write<SchurApproximation<Dim>> approximation) const;
-};
-
-template <int Dim>
 struct FactorizeVelocity {
   static constexpr std::string_view doc = "(E60) factors of the velocity block";
   /// \throws StepRejected if there are none.
@@ -73,10 +63,10 @@ struct FactorizeVelocity {
 template <int Dim>
 struct FactorizePressure {
   static constexpr std::string_view doc = "(E56) (E57) preconditioner of the pressure";
-  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Mass> m_i, Read<node::Site<Dim>> site,
-                  Read<matrix::Node> node, Read<matrix::StabilizationScale> scale,
-                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
-                  Read<SchurApproximation<Dim>> approximation, Write<PressureFactors<Dim>> factors) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed, Read<node::Mass> m_i,
+                  Read<node::Site<Dim>> site, Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
+                  Read<matrix::StabilizationScale> scale, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
+                  Read<SchurOperator<Dim>> schur, Write<PressureFactors<Dim>> factors) const;
 };
 
 /// The operators are read for products with the viscous part, and for the fallback.
@@ -89,10 +79,10 @@ struct SolveBlock {
                   Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<matrix::Node> node,
                   Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
                   Read<matrix::Stabilization<Dim>> stabilization, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                  Read<SchurOperator<Dim>> schur, Read<SchurApproximation<Dim>> approximation,
-                  Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
-                  Update<PressureFactors<Dim>> pressure_factors, Update<BlockWork<Dim>> work, Write<Fallback> fallback,
-                  Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p, Write<SolveReport> report) const;
+                  Read<SchurOperator<Dim>> schur, Read<VelocityFactors<Dim>> velocity_factors,
+                  Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g, Update<PressureFactors<Dim>> pressure_factors,
+                  Update<BlockWork<Dim>> work, Write<Fallback> fallback, Write<matrix::Displacement<Dim>> u,
+                  Write<matrix::Pressure> p, Write<SolveReport> report) const;
 };
 
 template <int Dim>
@@ -103,9 +93,9 @@ struct SolveVolumeBlock {
                   Read<node::Mass> m_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::Stabilization<Dim>> stabilization,
                   Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
-                  Read<SchurApproximation<Dim>> approximation, Read<VelocityFactors<Dim>> velocity_factors,
-                  Read<matrix::VolumeSource> g, Update<PressureFactors<Dim>> pressure_factors,
-                  Update<BlockWork<Dim>> work, Update<Fallback> fallback, Write<matrix::Shift<Dim>> d) const;
+                  Read<VelocityFactors<Dim>> velocity_factors, Read<matrix::VolumeSource> g,
+                  Update<PressureFactors<Dim>> pressure_factors, Update<BlockWork<Dim>> work, Update<Fallback> fallback,
+                  Write<matrix::Shift<Dim>> d) const;
 };
 
 }  // namespace minamo

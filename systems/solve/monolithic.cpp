@@ -1,6 +1,6 @@
 #include "systems/solve/monolithic.hpp"
 
-#include "engine/parallel.hpp"
+#include <algorithm>
 
 namespace minamo {
 
@@ -72,33 +72,18 @@ void fill_monolithic(const Operators<Dim>& t, matrix::Monolithic& matrix) {
   std::vector<int>& outer = matrix.outer;
   std::vector<int>& inner = matrix.inner;
   std::vector<double>& values = matrix.values;
-  const std::size_t columns = unknowns_per_row(Dim) * t.node.size();
-  outer.assign(columns + 1, 0);
-  constexpr std::size_t columns_per_task = 256;
-  for_each_row(
-      columns, [&](std::size_t c) { column<Dim>(t, c, [&](std::size_t, double) { ++outer[c + 1]; }); },
-      columns_per_task);
-  for (std::size_t c = 0; c < columns; ++c) outer[c + 1] += outer[c];
-  const auto entries = static_cast<std::size_t>(outer.back());
-  inner.resize(entries);
-  values.resize(entries);
-  for_each_row(
-      columns,
-      [&](std::size_t c) {
-        const auto first = static_cast<std::size_t>(outer[c]);
-        auto at = first;
-        column<Dim>(t, c, [&](std::size_t row, double value) {
-          // Neighbours come with rising rows but across the ends of periodic axes.
-          auto place = at++;
-          for (; place > first && inner[place - 1] > static_cast<int>(row); --place) {
-            inner[place] = inner[place - 1];
-            values[place] = values[place - 1];
-          }
-          inner[place] = static_cast<int>(row);
-          values[place] = value;
-        });
-      },
-      columns_per_task);
+  outer.assign(1, 0);
+  inner.clear();
+  values.clear();
+  for (std::size_t c = 0; c < unknowns_per_row(Dim) * t.node.size(); ++c) {
+    column<Dim>(t, c, [&](std::size_t row, double value) {
+      // Neighbours come with rising rows but across the ends of periodic axes.
+      const auto at = std::upper_bound(inner.begin() + outer.back(), inner.end(), static_cast<int>(row));
+      values.insert(values.begin() + (at - inner.begin()), value);
+      inner.insert(at, static_cast<int>(row));
+    });
+    outer.push_back(static_cast<int>(inner.size()));
+  }
 }
 
 template <int Dim>

@@ -1,7 +1,6 @@
 #include "systems/solve/pressure_factors.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace minamo {
 
@@ -33,37 +32,29 @@ double viscous_part(const Coefficients& c, const Grid<Dim>& grid, const Fluid& f
 /// The longest axis of the active nodes is the slowest, so that the envelope is narrow.
 template <int Dim>
 void PressureFactors<Dim>::find_order(std::span<const Index<Dim>> site, std::span<const std::uint32_t> node) {
-  order_.resize(node.size());
-  place_.resize(node.size());
-  std::array<std::pair<int, std::size_t>, Dim> axes;
+  std::array<std::pair<int, std::size_t>, Dim> axes;  // minus length, axis
   for (std::size_t d = 0; d < axes.size(); ++d) {
-    int low = std::numeric_limits<int>::max();
-    int high = 0;
-    for (const std::uint32_t i : node) {
-      low = std::min(low, site[i][d]);
-      high = std::max(high, site[i][d]);
-    }
-    axes[d] = {low - high, d};
+    const auto along = [&](std::uint32_t i, std::uint32_t j) { return site[i][d] < site[j][d]; };
+    const auto [low, high] = std::minmax_element(node.begin(), node.end(), along);
+    axes[d] = {low == node.end() ? 0 : site[*low][d] - site[*high][d], d};
   }
   std::sort(axes.begin(), axes.end());
-  keys_.resize(order_.size());
-  for_each_row(order_.size(), [&](std::size_t r) {
-    auto& [key, row] = keys_[r];
-    row = static_cast<std::uint32_t>(r);
-    for (std::size_t d = 0; d < axes.size(); ++d) key[d] = site[node[r]][axes[d].second];
-  });
-  if (!std::is_sorted(keys_.begin(), keys_.end())) std::sort(keys_.begin(), keys_.end());
-  for (std::uint32_t i = 0; i < order_.size(); ++i) {
-    order_[i] = keys_[i].second;
-    place_[order_[i]] = i;
+  keys_.resize(node.size());
+  for (std::uint32_t r = 0; r < node.size(); ++r) {
+    for (std::size_t d = 0; d < axes.size(); ++d) keys_[r].first[d] = site[node[r]][axes[d].second];
+    keys_[r].second = r;
   }
+  if (!std::is_sorted(keys_.begin(), keys_.end())) std::sort(keys_.begin(), keys_.end());
+  place_.resize(node.size());
+  for (std::uint32_t i = 0; i < node.size(); ++i) place_[keys_[i].second] = i;
 }
 
 template <int Dim>
-void PressureFactors<Dim>::find_envelope(const SparseRows& matrix) {
-  first_.resize(order_.size());
+void PressureFactors<Dim>::find_envelope() {
+  const SparseRows& matrix = approximation_.matrix();
+  first_.resize(place_.size());
   for (std::uint32_t i = 0; i < first_.size(); ++i) first_[i] = i;
-  for (std::size_t r = 0; r < order_.size(); ++r) {
+  for (std::size_t r = 0; r < place_.size(); ++r) {
     const std::uint32_t own = place_[r];
     for (std::uint32_t e = matrix.begin[r]; e < matrix.begin[r + 1]; ++e) {
       // Some entries have none across from them.
@@ -74,9 +65,10 @@ void PressureFactors<Dim>::find_envelope(const SparseRows& matrix) {
 }
 
 template <int Dim>
-bool PressureFactors<Dim>::factorize_envelope(const SparseRows& matrix) {
+bool PressureFactors<Dim>::factorize_envelope() {
+  const SparseRows& matrix = approximation_.matrix();
   complete_.start(first_);
-  for (std::size_t r = 0; r < order_.size(); ++r) {
+  for (std::size_t r = 0; r < place_.size(); ++r) {
     for (std::uint32_t e = matrix.begin[r]; e < matrix.begin[r + 1]; ++e) {
       complete_.at(place_[r], place_[matrix.column[e]]) += matrix.value[e];
     }
@@ -85,30 +77,32 @@ bool PressureFactors<Dim>::factorize_envelope(const SparseRows& matrix) {
 }
 
 template <int Dim>
-void PressureFactors<Dim>::prepare(const SparseRows& matrix, std::span<const Index<Dim>> site,
-                                   std::span<const double> m_i, std::span<const std::uint32_t> node,
-                                   double viscous_part) {
-  find_order(site, node);
-  find_envelope(matrix);
-  is_complete_ = envelope_cost(first_) <= widest && factorize_envelope(matrix);
-  if (!is_complete_) incomplete_.factorize(matrix);
-  of_mass_.resize(viscous_part == 0 ? 0 : node.size());
-  for_each_row(of_mass_.size(), [&](std::size_t r) { of_mass_[r] = viscous_part / m_i[node[r]]; });
+void PressureFactors<Dim>::prepare(const Operators<Dim>& t, const SchurOperator<Dim>& schur, const Grid<Dim>& grid,
+                                   std::span<const Index<Dim>> site, const Fluid& fluid,
+                                   const matrix::StabilizationScale& scale) {
+  approximation_.assemble(t, grid, site, fluid, laplacian_factor(t, fluid, scale), schur);
+  find_order(site, t.node);
+  find_envelope();
+  is_complete_ = envelope_cost(first_) <= widest && factorize_envelope();
+  if (!is_complete_) incomplete_.factorize(approximation_.matrix());
+  const double b = t.viscosity.empty() ? 0 : viscous_part<Dim>(t, grid, fluid, scale);
+  of_mass_.resize(b == 0 ? 0 : t.node.size());
+  for_each_row(of_mass_.size(), [&](std::size_t r) { of_mass_[r] = b / t.m_i[t.node[r]]; });
 }
 
 template <int Dim>
-bool PressureFactors<Dim>::complete(const SparseRows& matrix) {
+bool PressureFactors<Dim>::complete() {
   if (is_complete_) return false;
-  return is_complete_ = factorize_envelope(matrix);
+  return is_complete_ = factorize_envelope();
 }
 
 template <int Dim>
 void PressureFactors<Dim>::solve(const Values& r, Values& out) {
   if (is_complete_) {
     ordered_.resize(r.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) ordered_[i] = r[order_[i]];
+    for (std::size_t i = 0; i < r.size(); ++i) ordered_[place_[i]] = r[i];
     complete_.solve(ordered_);
-    for (std::size_t i = 0; i < order_.size(); ++i) out[order_[i]] = ordered_[i];
+    for (std::size_t i = 0; i < r.size(); ++i) out[i] = ordered_[place_[i]];
   } else {
     out = r;
     incomplete_.solve(out);

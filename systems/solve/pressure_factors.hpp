@@ -8,7 +8,7 @@
 #include "components/grid.hpp"
 #include "systems/solve/envelope_lu.hpp"
 #include "systems/solve/incomplete_lu.hpp"
-#include "systems/solve/operators.hpp"
+#include "systems/solve/schur_approximation.hpp"
 
 namespace minamo {
 
@@ -27,24 +27,26 @@ class PressureFactors {
   using rows_of = ActiveNodes;
   static constexpr ComponentInfo info{"solve.pressure_factors", "P^-1", "", Lifetime::scratch};
 
-  /// \param site, m_i  of every node
-  /// \param node       of every row
-  void prepare(const SparseRows& matrix, std::span<const Index<Dim>> site, std::span<const double> m_i,
-               std::span<const std::uint32_t> node, double viscous_part);
+  /// \param schur  assembled from the same terms
+  /// \param site   of every node
+  void prepare(const Operators<Dim>& terms, const SchurOperator<Dim>& schur, const Grid<Dim>& grid,
+               std::span<const Index<Dim>> site, const Fluid& fluid, const matrix::StabilizationScale& scale);
+  /// s_I = P_II^-1/2: light nodes weigh as much in a scaled residual as heavy ones.
+  const Values& scale() const { return approximation_.scale(); }
   /// LU in the place of incomplete LU, with which GMRES may not converge where few particles have many nodes, as wide
   /// as the envelope may be. \return whether it was incomplete, and has been replaced.
   /// \throws std::bad_alloc if it does not fit into memory.
-  bool complete(const SparseRows& matrix);
+  bool complete();
   /// out = about S^-1 r.
   void solve(const Values& r, Values& out);
 
  private:
   void find_order(std::span<const Index<Dim>> site, std::span<const std::uint32_t> node);
-  void find_envelope(const SparseRows& matrix);
-  bool factorize_envelope(const SparseRows& matrix);
+  void find_envelope();
+  bool factorize_envelope();
 
+  SchurApproximation<Dim> approximation_;
   bool is_complete_ = true;
-  std::vector<std::uint32_t> order_;                        ///< the rows, as the envelope has them
   std::vector<std::uint32_t> place_;                        ///< where the envelope has a row
   std::vector<std::uint32_t> first_;                        ///< place of the first entry of a place
   std::vector<std::pair<Index<Dim>, std::uint32_t>> keys_;  ///< work space: coordinates, slowest first, and row

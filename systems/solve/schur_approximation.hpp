@@ -18,9 +18,6 @@ namespace minamo {
 template <int Dim>
 class SchurApproximation {
  public:
-  using rows_of = ActiveNodes;
-  static constexpr ComponentInfo info{"solve.schur_approximation", "P", "", Lifetime::scratch};
-
   /// \param site          of every node
   /// \param of_laplacian  the factor of T
   /// \param schur         assembled from the same terms

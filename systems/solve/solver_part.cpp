@@ -82,20 +82,18 @@ void add_solver(SystemRegistry& registry) {
   registry.add<SolveUmfpack>("solve_umfpack");
   registry.add<SolveVolumeUmfpack>("solve_volume_umfpack");
   registry.add<AssembleSchur>("assemble_schur");
-  registry.add<ApproximateSchur>("approximate_schur");
   registry.add<FactorizeVelocity>("factorize_velocity");
   registry.add<FactorizePressure>("factorize_pressure");
   registry.add<SolveBlock>("solve_block");
   registry.add<SolveVolumeBlock>("solve_volume_block");
   registry.add<UnpackSolution>("unpack_solution");
-  registry.add(
-      LinearSolver{.name = "block",
-                   .doc = "block elimination and GMRES, (E55) to (E60)",
-                   .prepare = {"assemble_schur", "approximate_schur", "factorize_velocity", "factorize_pressure"},
-                   .solve = {"solve_block"},
-                   .solve_volume = {"solve_volume_block"},
-                   .read = read_tolerance,
-                   .bytes_per_node = block_bytes_per_node});
+  registry.add(LinearSolver{.name = "block",
+                            .doc = "block elimination and GMRES, (E55) to (E60)",
+                            .prepare = {"assemble_schur", "factorize_velocity", "factorize_pressure"},
+                            .solve = {"solve_block"},
+                            .solve_volume = {"solve_volume_block"},
+                            .read = read_tolerance,
+                            .bytes_per_node = block_bytes_per_node});
   registry.add(LinearSolver{.name = "umfpack",
                             .doc = "sparse LU of all equations at once, the reference",
                             .prepare = {"assemble_monolithic", "factorize_umfpack"},
