@@ -16,6 +16,7 @@
 #include "systems/bodies/read_free.hpp"
 #include "systems/bodies/room.hpp"
 #include "systems/bodies/solid.hpp"
+#include "systems/bodies/solid_parts.hpp"
 #include "systems/conforming/friction_choice.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
@@ -184,6 +185,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   recipe.add("sort", "cut_faces");
   recipe.add("sort", "find_face_extension");
   if (rubs) recipe.add("sort", "find_cut_friction");
+  if (scene.schemes.at("volume") == "projection") recipe.add("volume", "find_solid_parts", When::step);
   recipe.add("boundaries", "extend_old_velocity");
   recipe.add("material", "fill_beside_bodies");
   recipe.add("material", "find_uncut_mass");
@@ -273,6 +275,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<CoupleFreeBodies>("couple_free_bodies");
   registry.add<PushBodies>("push_bodies");
   registry.add<MoveBodies>("move_bodies");
+  registry.add<FindSolidParts>("find_solid_parts");
   registry.add<KeepOutOfBodies>("keep_out_of_bodies");
   registry.add<MeasureBodies>("measure_bodies");
   registry.add<MeasureBodiesAtStart>("measure_bodies_at_start");

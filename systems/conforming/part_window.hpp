@@ -16,6 +16,14 @@ struct PartFill {
   static constexpr ComponentInfo info{"stir.fill", "C", "1", Lifetime::scratch};
 };
 
+/// C_s, how full bodies make the window of every occupied cell beside one. [1]
+struct SolidParts {
+  static constexpr std::int32_t none = -1;
+  std::vector<std::int32_t> place;  ///< by occupied cell, among those beside bodies
+  std::vector<double> fill;         ///< (parts + 2)^d of each, x fastest
+  static constexpr ComponentInfo info{"stir.solid", "C_s", "1", Lifetime::scratch};
+};
+
 /// Weights of a point on three parts along an axis, quadratic B-splines, and their slopes per part.
 struct PartWeights {
   std::size_t first;  ///< in the window
@@ -63,6 +71,14 @@ class PartWindow {
   }
   void add_to(std::span<double> fill) {
     for_each([&](const double& value, std::size_t at) { fill[at] += value; }, [](double&) {});
+  }
+
+  /// Adds what bodies fill of the window of the occupied cell c.
+  void add(const SolidParts& solid, std::size_t c) {
+    if (solid.place[c] == SolidParts::none) return;
+    const std::size_t count = power(side_, Dim);
+    const double* of = solid.fill.data() + static_cast<std::size_t>(solid.place[c]) * count;
+    for (std::size_t k = 0; k < count; ++k) value_[k] += of[k];
   }
 
   /// Adds an amount around a point.

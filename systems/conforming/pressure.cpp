@@ -4,7 +4,10 @@
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/solve/conjugate_gradients.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
+#include <optional>
 
 namespace minamo {
 
@@ -14,7 +17,7 @@ namespace {
 /// around them: M would be singular, and the force not in its range.
 constexpr double lumped_share = 0.1;
 
-/// M of (E75) on the multipliers that carry a force.
+/// M of (E75) on the multipliers whose pressure it gives, and what those add to it whose pressure is known.
 template <int Dim, int K>
 class PressureMass {
  public:
@@ -33,6 +36,17 @@ class PressureMass {
     for (std::size_t i = 0; i < lambda.size(); ++i) is_free_[i] = lambda[i] != 0;
   }
 
+  /// v_l, by particles. [m^d]
+  std::span<const double> volume() const { return volume_; }
+  /// The pressure of a multiplier comes from elsewhere.
+  void know(std::size_t i) { is_free_[i] = false; }
+  /// Takes what known pressures give from the force of the others.
+  void take_known(const std::vector<double>& known, std::vector<double>& force) const {
+    std::vector<double> of_known(known.size());
+    times(known, of_known);
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] = is_free_[i] ? force[i] - of_known[i] : 0;
+  }
+
   std::vector<double> diagonal() const {
     std::vector<double> sum = lumped_;
     for (const Run& run : runs_) {
@@ -45,7 +59,7 @@ class PressureMass {
     }
     return sum;
   }
-  /// out = M x, zero where no force is carried.
+  /// out = M x, zero where the pressure is known.
   void times(const std::vector<double>& x, std::vector<double>& out) const {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = lumped_[i] * x[i];
     for (const Run& run : runs_) {
@@ -128,12 +142,13 @@ class PressureMass {
     }
   }
   void find_exact_shares(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Index<Dim>> site) {
-    std::vector<double> fill(site.size(), 0);
+    volume_.assign(site.size(), 0);
     for (const Run& run : runs_) {
       for (std::size_t p = run.begin; p < run.end; ++p) {
-        for (std::size_t k = 0; k < local; ++k) fill[run.rows[k]] += V_p_[p] * weights_[p][k];
+        for (std::size_t k = 0; k < local; ++k) volume_[run.rows[k]] += V_p_[p] * weights_[p][k];
       }
     }
+    std::vector<double> fill = volume_;
     for (std::size_t i = 0; i < site.size(); ++i) {
       if (fill[i] > 0) fill[i] /= std::pow(grid.spacing, Dim) * splines.widths(site[i]);
     }
@@ -181,6 +196,7 @@ class PressureMass {
   std::vector<Run> runs_;
   std::vector<Local> weights_;  ///< of every particle
   std::vector<double> lumped_;  ///< of every multiplier, on the diagonal
+  std::vector<double> volume_;  ///< v_l of every multiplier
   std::vector<bool> is_free_;
 };
 
@@ -199,6 +215,115 @@ Values solve_mass(const Mass& mass, std::span<const double> b) {
   return x;
 }
 
+/// (E75)  Beside bodies p_l = lambda_l/(phi_l V_l), for there are too few particles to tell. Multipliers inside of a
+/// body carry no force; theirs continues that of the multipliers around.
+template <int Dim>
+class PressureOfFewParticles {
+ public:
+  /// \param open_share  of the multipliers; empty without bodies
+  /// \param volume  v_l, by particles
+  PressureOfFewParticles(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
+                         std::span<const Index<Dim>> site, std::span<const double> lambda,
+                         std::span<const double> open_share, std::span<const double> volume)
+      : splines_(splines), rows_(rows), site_(site), open_share_(open_share), volume_(volume) {
+    cell_volume_ = std::pow(grid.spacing, Dim);
+    lumped_.assign(lambda.size(), 0);
+    for (std::size_t i = 0; i < lambda.size(); ++i) {
+      if (lambda[i] != 0) lumped_[i] = lambda[i] / (filled_share(i, has_few(i) ? 0 : 2) * whole_volume(i));
+    }
+  }
+
+  bool is_known(std::size_t i) const { return open_share(i) < 1 || (lumped_[i] != 0 && has_few(i)); }
+  double operator()(std::size_t i) const { return is_inside(i) ? continued(i) : lumped_[i]; }
+
+ private:
+  double open_share(std::size_t i) const { return open_share_.empty() ? 1 : open_share_[i]; }
+  bool has_few(std::size_t i) const {
+    constexpr double few = 0.5;
+    return open_share(i) == 1 && volume_[i] < few * filled_share(i, 0) * whole_volume(i);
+  }
+  double whole_volume(std::size_t i) const { return cell_volume_ * splines_.widths(site_[i]); }
+  bool is_inside(std::size_t i) const { return lumped_[i] == 0 && open_share(i) < inside_below; }
+  std::optional<std::uint32_t> beside(std::size_t i, std::size_t side) const {
+    if (splines_.ends_at(site_[i], side)) return {};
+    Index<Dim> site = site_[i];
+    const std::size_t d = side / 2;
+    const int count = splines_.sites()[d];
+    site[d] += side % 2 == 0 ? -1 : 1;
+    if (splines_.axis[d].periodic()) site[d] = (site[d] + count) % count;
+    return rows_.find(site);
+  }
+  /// phi_l of (E86), as far as the sites around have particles; the multiplier itself counts `own` times.
+  double filled_share(std::size_t i, double own) const {
+    double filled = own * volume_[i];
+    double open = own * open_share(i) * whole_volume(i);
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      const auto j = beside(i, side);
+      if (!j) continue;
+      filled += volume_[*j];
+      open += open_share(*j) * whole_volume(*j);
+    }
+    return filled < open && filled > 0 ? filled / open : 1;
+  }
+  /// At the site i the linear function nearest to the pressures within two cells, by least squares with weights 1/r^4.
+  double continued(std::size_t i) const {
+    using Square = Eigen::Matrix<double, Dim + 1, Dim + 1>;
+    using Line = Eigen::Matrix<double, Dim + 1, 1>;
+    Square normal = 1e-9 * Square::Identity();
+    Line right = Line::Zero();
+    double mean = 0;
+    double weights = 0;
+    const auto use = [&](const Vec<Dim>& r, double p) {
+      const double weight = 1 / (r.squaredNorm() * r.squaredNorm());
+      Line row;
+      row << 1, r;
+      normal += weight * row * row.transpose();
+      right += weight * p * row;
+      mean += weight * p;
+      weights += weight;
+    };
+    for_each_around(i, use);
+    if (weights == 0) return 0;
+    // Of the difference to the mean, so that what is added to the diagonal leads to the mean where few are around.
+    mean /= weights;
+    right -= mean * normal.col(0);
+    return mean + normal.ldlt().solve(right)[0];
+  }
+  /// use(place relative to the site i in cells, pressure) for the sites that carry a force within two cells.
+  template <class Use>
+  void for_each_around(std::size_t i, const Use& use) const {
+    constexpr int reach = 2;
+    constexpr std::size_t side = 2 * reach + 1;
+    for (std::size_t k = 0; k < power(side, Dim); ++k) {
+      Index<Dim> site = site_[i];
+      Vec<Dim> r;
+      std::size_t rest = k;
+      bool exists = true;
+      for (std::size_t d = 0; d < Dim; ++d, rest /= side) {
+        const int along = static_cast<int>(rest % side) - reach;
+        const SplineAxis& axis = splines_.axis[d];
+        r[static_cast<Eigen::Index>(d)] = along;
+        site[d] += along;
+        if (axis.periodic()) site[d] = (site[d] + axis.multipliers()) % axis.multipliers();
+        exists = exists && site[d] >= 0 && site[d] < axis.multipliers();
+      }
+      if (!exists) continue;
+      const auto j = rows_.find(site);
+      if (j && lumped_[*j] != 0) use(r, lumped_[*j]);
+    }
+  }
+
+  /// Open share below which a multiplier that carries no force lies inside of a body, not in the air.
+  static constexpr double inside_below = 0.1;
+  const Splines<Dim>& splines_;
+  const SiteRows<Dim>& rows_;
+  std::span<const Index<Dim>> site_;
+  std::span<const double> open_share_;
+  std::span<const double> volume_;
+  double cell_volume_;
+  std::vector<double> lumped_;
+};
+
 }  // namespace
 
 template <int Dim>
@@ -208,13 +333,19 @@ void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
                                       Optional<Read<multiplier::OpenShare>> open_share, Write<multiplier::Pressure> p_l,
                                       Write<particle::Pressure> p_p) const {
   with_degree(splines->degree, [&](auto degree) {
-    // Of a multiplier that bodies cut, lambda is the pressure times the whole volume (E85).
+    PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span());
     std::vector<double> force(lambda.begin(), lambda.end());
-    if (open_share) {
-      for (std::size_t i = 0; i < force.size(); ++i) force[i] *= open_share[i];
+    std::vector<double> known(lambda.size(), 0);
+    const PressureOfFewParticles<Dim> of_few(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),
+                                             mass.volume());
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (!of_few.is_known(i)) continue;
+      known[i] = of_few(i);
+      mass.know(i);
     }
-    const PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), force);
-    const std::vector<double> p = solve_mass(mass, force);
+    mass.take_known(known, force);
+    std::vector<double> p = solve_mass(mass, force);
+    for (std::size_t i = 0; i < known.size(); ++i) p[i] += known[i];
     std::copy(p.begin(), p.end(), p_l.begin());
     mass.for_each_value(p, [&](std::size_t particle, double value) { p_p[particle] = value; });
   });

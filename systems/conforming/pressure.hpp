@@ -13,7 +13,7 @@ namespace minamo {
 
 /// (E75)  p_p = sum_l N_l p_l with M p = lambda, M_lk = sum_p V_p N_l N_k, inside the liquid the exact integral: the
 /// multiplier is the pressure tested with N_l. A tenth of the sum over particles is lumped. Conjugate gradients,
-/// preconditioned by the diagonal.
+/// preconditioned by the diagonal. Of multipliers that bodies cut, p_l = lambda_l/(phi_l V_l).
 template <int Dim>
 struct RecoverPressure {
   static constexpr std::string_view doc = "(E75) p_p from the multipliers";

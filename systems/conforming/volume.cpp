@@ -42,18 +42,16 @@ void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines
 template <int Dim>
 void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                     Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<StirGrid> stir,
-                                    Read<PartFill> parts, Read<staggered::Neighbour<Dim>> neighbour,
-                                    Read<multiplier::FillFraction> phi,
-                                    Optional<Read<multiplier::OpenShare>> open_share, Read<face::NewVelocity<Dim>> v_f,
-                                    Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::Stir<Dim>> s_p) const {
+                                    Read<PartFill> parts, Optional<Read<SolidParts>> solid,
+                                    Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                                    Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
+                                    Write<particle::Stir<Dim>> s_p) const {
   const double spacing = grid->spacing / stir->parts;
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       const std::uint32_t* rows = sites->of(c);
-      // Beside a body parts without particles are no gaps.
-      const bool is_cut = open_share && least_of_multipliers<Dim, K>(rows, open_share.span()) < 1;
-      if (is_cut || least_of_multipliers<Dim, K>(rows, phi.span()) < stirred_from) {
+      if (least_of_multipliers<Dim, K>(rows, phi.span()) < stirred_from) {
         for (std::size_t p = cell.begin; p < cell.end; ++p) s_p[p].setZero();
         return;
       }
@@ -65,6 +63,7 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
       const double per_gradient = -stir_strength * clock->step * strain * spacing;  // slopes are per part
       PartWindow<Dim> window(stir->parts, *splines, cell.node, rows[0], *parts, neighbour.span());
       window.load(parts->fill);
+      if (solid) window.add(*solid, c);
       Vec<Dim> mean = Vec<Dim>::Zero();
       for (std::size_t p = cell.begin; p < cell.end; ++p) {
         s_p[p] = per_gradient * window.gradient(frame.local(y_p[p]));

@@ -52,15 +52,15 @@ struct FillParts {
 /// middle of the cell; only where all multipliers of the cell are more than 60 % full. A velocity without divergence at
 /// every point never mixes what it stretches: columns of particles stay columns, with gaps between them wider than h.
 /// Nothing at rest, and Galilean invariant. Without the mean, because C falls off towards the surface and stirring
-/// would move it.
+/// would move it. Beside bodies with what they fill, C + C_s.
 template <int Dim>
 struct StirParticles {
   static constexpr std::string_view doc = "(E74) s_p, away from where particles lie close";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                  Read<CellSites> sites, Read<StirGrid> stir, Read<PartFill> parts,
+                  Read<CellSites> sites, Read<StirGrid> stir, Read<PartFill> parts, Optional<Read<SolidParts>> solid,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                  Optional<Read<multiplier::OpenShare>> open_share, Read<face::NewVelocity<Dim>> v_f,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::Stir<Dim>> s_p) const;
+                  Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Write<particle::Stir<Dim>> s_p) const;
 };
 
 /// (E38)  d_p = sum_f N_f d_f.

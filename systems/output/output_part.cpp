@@ -5,6 +5,8 @@
 #include "systems/output/history.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
+#include "systems/setup/memory.hpp"
+#include "systems/surface/write_surfaces.hpp"
 
 namespace minamo {
 
@@ -25,7 +27,16 @@ OutputScene read_times(Input& input, double end) {
   output.history = input.integer(
       "history",
       {.doc = "steps from one row of history.csv to the next; the last has one, too", .fallback = 1, .at_least = 1});
+  output.surface = input.choice("surface", std::vector<std::string>{"none", "vtp", "ply"},
+                                "of every frame: lines or triangles for ParaView (vtp) or Blender (ply)", "none");
   return output;
+}
+
+void add_surfaces(const Scene& scene, Recipe& recipe) {
+  if (scene.output.surface == "none") return;
+  recipe.constant(SurfaceOutput{scene.output.surface == "vtp" ? SurfaceFormat::vtp : SurfaceFormat::ply,
+                                scene.grid.spacing / fewest_per_cell(scene)});
+  recipe.add_output("write_surfaces");
 }
 
 Contribution read_output(Input& input, Scene& scene) {
@@ -40,6 +51,7 @@ Contribution read_output(Input& input, Scene& scene) {
     recipe.add_output(is_conforming(of) ? "recover_pressure" : "sample_pressure");
     recipe.add_output("write_frame");
     if (of.facts.find<BodiesOfScene>()) recipe.add_output("write_bodies");
+    add_surfaces(of, recipe);
     recipe.add_output("write_xdmf");
   };
 }
@@ -55,6 +67,7 @@ void add_output(SystemRegistry& registry) {
   registry.add<SamplePressure>("sample_pressure");
   registry.add<WriteFrame>("write_frame");
   registry.add<WriteBodies>("write_bodies");
+  registry.add<WriteSurfaces>("write_surfaces");
   registry.add<WriteXdmf>("write_xdmf");
   registry.add(Part{"output", "what is written when", read_output});
 }

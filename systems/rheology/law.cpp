@@ -13,8 +13,10 @@ using namespace rheology;
 double per_rate(double m, double g) { return m * g < 1e-8 ? m : -std::expm1(-m * g) / g; }
 
 double viscosity(const PowerLaw& law, double g) {
-  if (g == 0) return law.index < 1 ? law.most : std::clamp(law.index == 1 ? law.consistency : 0, law.least, law.most);
-  return std::clamp(law.consistency * std::pow(g, law.index - 1), law.least, law.most);
+  // Not std::clamp: this is asked of laws whose limits are wrong, too, before their scene is refused.
+  const auto limited = [&](double mu) { return std::min(std::max(mu, law.least), law.most); };
+  if (g == 0) return law.index < 1 ? law.most : limited(law.index == 1 ? law.consistency : 0);
+  return limited(law.consistency * std::pow(g, law.index - 1));
 }
 double viscosity(const Carreau& law, double g) {
   const double x = law.time * g;

@@ -7,6 +7,7 @@
 #include "systems/openings/openings_part.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
+#include "systems/surface/particle_surface.hpp"
 
 #include <algorithm>
 
@@ -45,6 +46,15 @@ double bytes_of_bodies(const Scene& scene) {
   });
 }
 
+double bytes_of_surface(const Scene& scene) {
+  if (scene.output.surface == "none") return 0;
+  return with_dimension(scene.dimension, [&](auto dim) {
+    constexpr int Dim = dim();
+    return surface_bytes<Dim>({vec_of<Dim>(scene.grid.low), vec_of<Dim>(scene.grid.high)},
+                              scene.grid.spacing / fewest_per_cell(scene));
+  });
+}
+
 /// What comes in may fill the box.
 SceneSize grown(const Scene& scene, SceneSize size) {
   const auto* openings = scene.facts.find<OpeningsOfScene>();
@@ -70,7 +80,7 @@ double memory_of(const Scene& scene, const SceneSize& at_start) {
   const double bytes_per_particle = scene.dimension == 2 ? 400 : 500;
   const double nodes = std::min(size.nodes * spread(scene), size.all_nodes);
   return program + bytes_per_particle * size.particles + bytes_per_node_of(scene, nodes) * nodes +
-         bytes_of_bodies(scene);
+         bytes_of_bodies(scene) + bytes_of_surface(scene);
 }
 
 }  // namespace minamo

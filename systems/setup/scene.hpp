@@ -48,6 +48,7 @@ struct OutputScene {
   double every = 0;                  ///< simulated time between frames [s]
   std::optional<double> checkpoint;  ///< simulated time between checkpoints [s]
   std::int64_t history = 1;          ///< steps from one row to the next
+  std::string surface = "none";      ///< format of its files
 };
 
 /// A system that the scene adds to the step.

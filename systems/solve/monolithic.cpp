@@ -69,7 +69,9 @@ void column(const Operators<Dim>& t, std::size_t column, const Emit& emit) {
 
 template <int Dim>
 void fill_monolithic(const Operators<Dim>& t, matrix::Monolithic& matrix) {
-  auto& [outer, inner, values] = matrix;
+  std::vector<int>& outer = matrix.outer;
+  std::vector<int>& inner = matrix.inner;
+  std::vector<double>& values = matrix.values;
   outer.assign(1, 0);
   inner.clear();
   values.clear();

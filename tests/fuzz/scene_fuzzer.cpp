@@ -70,7 +70,7 @@ void rehearse_if_small(const SceneFile& file) {
 }
 
 void read_as_scene(const Json& json) {
-  const SceneFile file = understand_scene(json, "scene.json");
+  const SceneFile file = understand_scene(json, "scene.json", registry());
   try {
     if (understand_scene(file.as_run, "again.json", registry()).as_run != file.as_run) fail("reads again as another");
   } catch (const InputError& error) {

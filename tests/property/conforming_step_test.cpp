@@ -162,7 +162,7 @@ double largest_speed(World& world) {
 
 }  // namespace
 
-TEST_CASE("a conforming step is that of a dense solve of the whole system", "[property]") {
+TEST_CASE("a conforming step is that of a dense solve of the whole system", "[property][long]") {
   const int degree = GENERATE(2, 3);
   check_against_dense_solve<2>(plane_scene(degree));
   check_against_dense_solve<2>(with(plane_scene(degree), {R"(/walls={"x": "periodic"})"}));

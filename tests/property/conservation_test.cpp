@@ -149,7 +149,7 @@ Json turning(const RigidRotation<Dim>& rotation) {
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("a block keeps its angular momentum, whatever axis it turns about, and whichever way",
-                       "[property]", ((int Dim), Dim), 2, 3) {
+                       "[property][long]", ((int Dim), Dim), 2, 3) {
   const RigidRotation<Dim> rotation{GENERATE(range(0, rotations<Dim>)), GENERATE(-1.0, 1.0)};
   const std::string transfer = GENERATE("tpic2", "tpic", "apic");
   const bool on_faces = GENERATE(false, true);

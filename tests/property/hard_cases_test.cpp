@@ -133,7 +133,7 @@ TEST_CASE("nothing is lost in space, nor gains energy", "[property]") {
   CHECK(lost<3>(run.world()) == 0);
 }
 
-TEST_CASE("a flow does not know its units", "[property]") {
+TEST_CASE("a flow does not know its units", "[property][long]") {
   // Powers of two change exponents alone, so that the flow must come out the same to the bit; those of 1e-6 m and 1e-9
   // s, and of 1.6e4 m and 1e6 s. A constant with a unit, an absolute tolerance or an overflow would show.
   const auto [length, time, density] = GENERATE(table<double, double, double>({

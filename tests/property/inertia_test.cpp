@@ -228,7 +228,7 @@ TEST_CASE("the force gradient of a lone particle does not feed on itself", "[pro
   CHECK(gradient[0].norm() < 3e-10);
 }
 
-TEST_CASE("velocity gradients do not grow in spray", "[property]") {
+TEST_CASE("velocity gradients do not grow in spray", "[property][long]") {
   // The front meets the far wall at 0.3 s and sprays up to 0.5 s.
   SceneRun run(with(scene_of_file("paper/dam_break_tpic.json"),
                     {"/grid/cells=[80, 80]", "/time/step=4e-3", R"(/integrator={"scheme": "midpoint"})",

@@ -1,3 +1,4 @@
+#include "support/outlines.hpp"
 #include "support/solids.hpp"
 
 #include "systems/shapes/combination.hpp"
@@ -11,49 +12,12 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include <map>
 #include <numbers>
 
 using namespace minamo;
 using std::numbers::pi;
 
 namespace {
-
-/// Area or volume within; negative if it is turned inside out.
-double enclosed(const Outline<2>& outline) {
-  double twice = 0;
-  for (const auto& [a, b] : outline.element)
-    twice += outline.point[a][0] * outline.point[b][1] - outline.point[a][1] * outline.point[b][0];
-  return twice / 2;
-}
-double enclosed(const Outline<3>& outline) {
-  double six = 0;
-  for (const auto& [a, b, c] : outline.element) six += outline.point[a].dot(outline.point[b].cross(outline.point[c]));
-  return six / 6;
-}
-
-/// Every point begins as many segments as it ends.
-bool is_closed(const Outline<2>& outline) {
-  std::vector<int> begun(outline.point.size(), 0);
-  std::vector<int> ended(outline.point.size(), 0);
-  for (const auto& [a, b] : outline.element) {
-    ++begun[a];
-    ++ended[b];
-  }
-  const std::vector<int> once(outline.point.size(), 1);
-  return !outline.element.empty() && begun == once && ended == once;
-}
-/// Every edge is passed once in each direction.
-bool is_closed(const Outline<3>& outline) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> passed;
-  for (const auto& corner : outline.element) {
-    for (std::size_t k = 0; k < 3; ++k) ++passed[{corner[k], corner[(k + 1) % 3]}];
-  }
-  return !passed.empty() && std::all_of(passed.begin(), passed.end(), [&](const auto& edge) {
-    const auto back = passed.find({edge.first.second, edge.first.first});
-    return edge.second == 1 && back != passed.end() && back->second == 1;
-  });
-}
 
 template <int Dim>
 double farthest_from_surface(const Outline<Dim>& outline, const Shape<Dim>& shape) {

@@ -34,7 +34,7 @@ double exact_torque(double slip_length) { return 4 * pi * 0.5 / (1.5 + 8 * slip_
 
 }  // namespace
 
-TEST_CASE("flow between a turning cylinder and a drum, with the torques on both", "[verification]") {
+TEST_CASE("flow between a turning cylinder and a drum, with the torques on both", "[verification][long]") {
   const auto [cells, error, of_torque] =
       GENERATE(table<int, double, double>({{22, 0.025, 0.04}, {44, 0.012, 0.012}}));  // 0.015, 0.007; 2.2 %, 0.7 %
   CAPTURE(cells);
@@ -45,7 +45,7 @@ TEST_CASE("flow between a turning cylinder and a drum, with the torques on both"
   CHECK(measured(run.world(), "drum_friction_torque") == Approx(exact_torque(0)).epsilon(of_torque));
 }
 
-TEST_CASE("a cylinder with a slip length takes less liquid along", "[verification]") {
+TEST_CASE("a cylinder with a slip length takes less liquid along", "[verification][long]") {
   const double slip_length = GENERATE(1.0, 0.1, 0.01);
   CAPTURE(slip_length);
   Json scene = couette(44);
@@ -56,7 +56,7 @@ TEST_CASE("a cylinder with a slip length takes less liquid along", "[verificatio
   CHECK(measured(run.world(), "cylinder_friction_torque") == Approx(-exact_torque(slip_length)).epsilon(0.03));
 }
 
-TEST_CASE("flow between a turning ball and a sphere around it", "[verification]") {
+TEST_CASE("flow between a turning ball and a sphere around it", "[verification][long]") {
   SceneRun run(Json::parse(R"json({"dimension": 3,
     "grid": {"low": [-1.1, -1.1, -1.1], "high": [1.1, 1.1, 1.1], "cells": [18, 18, 18]},
     "fluid": {"density": 1, "viscosity": 1},

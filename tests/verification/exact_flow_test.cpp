@@ -38,13 +38,13 @@ TEST_CASE("Taylor-Green with midpoint and TPIC converges at an order above 2", "
   CHECK(std::log2(coarse / fine) > 2.8);
 }
 
-TEST_CASE("Taylor-Green with Newmark's method converges at first order", "[verification]") {
+TEST_CASE("Taylor-Green with Newmark's method converges at first order", "[verification][long]") {
   const double coarse = velocity_error(taylor_green(16, "newmark"), 25);
   const double fine = velocity_error(taylor_green(32, "newmark"), 50);
   CHECK(std::log2(coarse / fine) == Approx(1).margin(0.1));  // 1.05 measured
 }
 
-TEST_CASE("mixed quadrature rids Taylor-Green of where its particles are", "[verification]") {
+TEST_CASE("mixed quadrature rids Taylor-Green of where its particles are", "[verification][long]") {
   // 1.0e-3 was measured for the pressure with 3 x 3 and with 6 x 6 particles per cell, 4.0e-3 and 1.1e-3 where the
   // particles are the quadrature; 7.0e-4 and 8.7e-4 for the velocity.
   const auto errors = [](const std::string& quadrature) {

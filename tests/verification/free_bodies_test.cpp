@@ -148,7 +148,7 @@ TEST_CASE("locked motions stay zero", "[verification]") {
   CHECK(value_of(run.world(), "body_velocity_y") != 0);
 }
 
-TEST_CASE("bodies come to rest on the floor and on each other", "[verification]") {
+TEST_CASE("bodies come to rest on the floor and on each other", "[verification][long]") {
   Json scene = tank_with<2>(0.2, R"({"box": {"low": [0.3, 0.05], "high": [0.7, 0.25]}})", R"({"density": 3000})");
   scene["bodies"].push_back(
       Json::parse(R"json({"name": "upper", "shape": {"ball": {"center": [0.5, 0.5], "radius": 0.1}},

@@ -67,7 +67,7 @@ TEST_CASE("a blob falls without changing its shape", "[verification]") {
   CHECK(error.velocity.value() < rounding_of_velocity);
 }
 
-TEST_CASE("a ball in space falls without changing its shape", "[verification]") {
+TEST_CASE("a ball in space falls without changing its shape", "[verification][long]") {
   SceneRun run(any_method(
       falling(3, R"({"ball": {"center": [1.6, 1.6, 2.6], "radius": 0.4}})", "[1, 0, 0.5]", "[0.5, -1, -9.75]")));
   CAPTURE(run.scene().schemes);

@@ -63,3 +63,14 @@ TEST_CASE("a column at rest stays at rest", "[verification]") {
   // The surface settles by a fraction of a cell: 1e-3 m/s, 5e-3 m/s with FLIP's noise; free fall would be 2 m/s.
   CHECK(largest_speed(run.world()) < 9e-3);
 }
+
+TEST_CASE("where a corner has few particles the pressure is that of the liquid around it", "[verification]") {
+  SceneRun run(Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 1], "cells": [20, 20]}, "fluid": {"density": 1000, "viscosity": 0},
+    "body_force": [0, -9.81], "particles": [{"shape": {"where": "y < 0.5 && x^2 + y^2 > 0.0026"}, "per_cell": 2}],
+    "probes": [{"name": "corner", "at": [0, 0]}], "volume": {"scheme": "none"}, "time": {"end": 1, "step": 1e-3}})json"));
+  run.step(2);
+  const double p = measured(run.world(), "corner_pressure");
+  CHECK(p > 0.5 * 4905);
+  CHECK(p < 2 * 4905);  // by its own particles alone it was 96 times as large
+}

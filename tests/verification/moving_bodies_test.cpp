@@ -16,7 +16,7 @@
 using namespace minamo;
 using namespace minamo::scene_run;
 
-TEST_CASE("a fast paddle throws no particle much faster than it moves itself", "[verification]") {
+TEST_CASE("a fast paddle throws no particle much faster than it moves itself", "[verification][long]") {
   SceneRun run(with(scene_of_file("paddle.json"), {"/constants/stroke=0.1", "/constants/omega=12"}));
   double most = 0;
   for (int k = 0; k < 125; ++k) {

@@ -301,7 +301,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 
 }  // namespace
 
-TEST_CASE("a sponge reflects less than a twentieth of a wave", "[verification]") {
+TEST_CASE("a sponge reflects less than a twentieth of a wave", "[verification][long]") {
   // What comes back from the end within 9 s is what a channel twice as long does not have yet.
   const std::vector<double> endless = velocities(packet(8));
   Json with_sponge = packet(4);

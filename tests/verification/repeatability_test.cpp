@@ -150,7 +150,7 @@ TEMPLATE_TEST_CASE_SIG("a splash of a scene that names no method has spray, a su
 
 TEMPLATE_TEST_CASE_SIG(
     "such a splash is the same to the bit on one thread, two and three, by the graph and by the list",
-    "[verification][threads]", ((int Dim), Dim), 2, 3) {
+    "[verification][threads][long]", ((int Dim), Dim), 2, 3) {
   const bool equal_order = GENERATE(false, true);
   CAPTURE(equal_order);
   const Json scene = equal_order ? of_equal_order(Splash<Dim>::scene()) : Splash<Dim>::scene();

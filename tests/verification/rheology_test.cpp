@@ -35,7 +35,7 @@ const std::string bingham_exact = "0.5*(0.25 - max(abs(y - 0.5), 0.2)^2) - 0.2*(
 
 }  // namespace
 
-TEST_CASE("a yield-stress liquid flows through a channel around a plug", "[verification]") {
+TEST_CASE("a yield-stress liquid flows through a channel around a plug", "[verification][long]") {
   CHECK(channel_error(bingham, bingham_exact, 16, 100) < 1e-2);    // 7.5e-3 measured
   CHECK(channel_error(bingham, bingham_exact, 32, 100) < 2.5e-3);  // 2.1e-3
   CHECK(channel_error(bingham, bingham_exact, 16, 60, 3) < 2e-2);  // 1.7e-2

@@ -173,7 +173,7 @@ TEST_CASE("a block thrown against a separating lid comes back with no more energ
   }
 }
 
-TEST_CASE("a dam that breaks in a low box of separating walls gains no energy", "[verification]") {
+TEST_CASE("a dam that breaks in a low box of separating walls gains no energy", "[verification][long]") {
   Json scene = scene_of_file("wave_under_lid.json");
   const auto walls = GENERATE(R"({"y": ["slip", "separating"]})", R"("separating")");
   CAPTURE(walls);

@@ -56,7 +56,7 @@ double kinetic(World& world) {
 
 }  // namespace
 
-TEST_CASE("flow between walls with a slip length keeps its exact parabola", "[verification]") {
+TEST_CASE("flow between walls with a slip length keeps its exact parabola", "[verification][long]") {
   const auto [dimension, degree] = GENERATE(table<int, int>({{2, 2}, {2, 3}, {3, 2}, {3, 3}}));
   CAPTURE(dimension, degree);
   const double coarse = error_between_walls(dimension, degree, 6);
@@ -68,7 +68,7 @@ TEST_CASE("flow between walls with a slip length keeps its exact parabola", "[ve
   CHECK(std::log2(coarse / fine) > (degree == 2 ? 1.9 : 2.7));
 }
 
-TEST_CASE("a shear flow between walls with a slip length decays with exp(-nu k^2 t)", "[verification]") {
+TEST_CASE("a shear flow between walls with a slip length decays with exp(-nu k^2 t)", "[verification][long]") {
   // cos(k (y - 1/2)) rubs along both walls if b k tan(k/2) = 1; here k = 2. Friction at the start of the step, and in
   // the balances.
   const auto [degree, number] = GENERATE(table<int, double>({{2, 0.005}, {2, 0.3}, {2, 3}, {3, 0.3}, {3, 3}}));

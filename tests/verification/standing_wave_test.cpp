@@ -84,7 +84,7 @@ Json sloshing(std::initializer_list<std::string> overrides) {
 
 }  // namespace
 
-TEST_CASE("a standing wave has the period of linear theory", "[verification]") {
+TEST_CASE("a standing wave has the period of linear theory", "[verification][long]") {
   // 0.11 % was measured, 0.56 % with lumped inertia; 0.003 % at 40 cells.
   SceneRun run(sloshing({}));
   const double omega = std::sqrt(9.81 * wave_number * std::tanh(wave_number * depth));

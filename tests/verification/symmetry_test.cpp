@@ -57,7 +57,7 @@ Vec<2> way_round(const Vec<2>& a, const Vec<2>& b) {
 
 }  // namespace
 
-TEST_CASE("a mirrored scene gives the mirrored result", "[verification]") {
+TEST_CASE("a mirrored scene gives the mirrored result", "[verification][long]") {
   SceneRun left(any_method(collapse()));
   CAPTURE(left.scene().schemes);
   SceneRun right(with(mirrored(), {"/transfer=" + Json{{"scheme", left.scene().schemes.at("transfer")}}.dump(),

@@ -1,0 +1,24 @@
+#pragma once
+/// \file
+/// (E74) Bodies among the parts of cells on which stirring counts particles.
+
+#include "components/body.hpp"
+#include "components/cells.hpp"
+#include "components/grid.hpp"
+#include "engine/system.hpp"
+#include "systems/bodies/cut.hpp"
+#include "systems/conforming/volume.hpp"
+
+namespace minamo {
+
+/// (E74)  C_s, what bodies fill of the parts of the cells beside them, smoothed as particles are: near a plane wall it
+/// is the integral of a quadratic B-spline of spacing d up to the distance.
+template <int Dim>
+struct FindSolidParts {
+  static constexpr std::string_view doc = "(E74) C_s, what bodies fill of the parts of cells";
+  void operator()(Read<Grid<Dim>> grid, Read<GridCells<Dim>> cells, Read<StirGrid> stir, Read<BodySet<Dim>> set,
+                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MiddleRotation<Dim>> R_b, Write<SolidParts> solid) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,50 @@
+"""scenes/validation/README.md from results.json."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cases import CASES
+
+HEAD = """# Experiments
+
+minamo against what others measured: our curves over their points, errors as numbers, the cost of each.
+`tools/validate --experiments DIR` ran the scenes of this folder and wrote this page; `tools/validate --experiments DIR NAME`
+replaces an experiment. The data are their authors' and not part of minamo: what DIR must hold stands below each picture.
+
+- Nothing is fitted. All settings but the cells are the defaults, or stand in the scene.
+- *rms* is the root mean square of the difference over the largest measured value. Other figures are what ours is over
+  theirs, less one.
+- Curves are means over 1/200 of the time shown; pressures of single steps are noisier.
+- Air is not computed: a cavity is empty, and closes without a cushion.
+- *CPU time* is of all threads together{machine}.
+"""
+
+
+def number(value: float | None, unit: str) -> str:
+    return "none" if value is None else f"{value:+.1f} {unit}"
+
+
+def section(case: Any, stored: dict[str, Any], scene: str) -> list[str]:
+    labels = [label for label, _ in case.resolutions]
+    name = scene.rpartition("/")[2].removesuffix(".json")
+    lines = [f"## {case.title}", "", f"[{name}]({scene}). {case.paper}.", "", case.text, "",
+             f"![{case.title}: computed and measured]({case.name}.png)", "",
+             "| | " + " | ".join(labels) + " |", "|---" * (len(labels) + 1) + "|"]
+    for k, figure in enumerate(case.figures):
+        values = [number(stored[label]["figures"][k], figure.unit) for label in labels]
+        lines.append(f"| {figure.curve}: {figure.what} | " + " | ".join(values) + " |")
+    for name, of in (("particles", lambda r: f"{r['particles']}"), ("steps", lambda r: f"{r['steps']}"),
+                     ("CPU time", lambda r: f"{r['cpu_s']:.3g} s")):
+        lines.append(f"| {name} | " + " | ".join(of(stored[label]) for label in labels) + " |")
+    files = sorted({curve.file for curve in case.curves})
+    return [*lines, "", "Our curves: [" + f"{case.name}.csv]({case.name}.csv). Measured: "
+            + ", ".join(f"`{file}`" for file in files) + ".", ""]
+
+
+def page(results: dict[str, Any], machine: str, scene_of: Any) -> str:
+    lines = [HEAD.format(machine=f", on one of {machine}" if machine else "")]
+    for case in CASES:
+        if case.name in results:
+            lines += section(case, results[case.name], scene_of(case))
+    return "\n".join(lines)
