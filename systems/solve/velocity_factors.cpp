@@ -87,15 +87,16 @@ void VelocityFactors<Dim>::factorize(const Matrix& matrix) {
   if (!factors_.factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
-/// Whether iterations cost less than factors, whose work grows in space with the square of the unknowns: where more
-/// than a few unknowns are viscous, but half of all not too much. In the plane factors cost as much at most.
+/// Whether iterations cost less than factors, which fill in, in space more than in the plane: where more than a few
+/// unknowns are viscous, but half of all not too much, or where factors outgrow memory.
 template <int Dim>
 bool VelocityFactors<Dim>::prefers_iteration() const {
   const std::size_t size = friction_.size();
-  if (Dim == 2 || few * viscous_.size() <= size) return false;
-  const double most = static_cast<double>(viscous_.size()) / 200;
+  if (few * viscous_.size() <= size) return false;
+  if (Dim == 3 && viscous_.size() > most_factorized_in_space) return true;
+  const double most = static_cast<double>(viscous_.size()) / (Dim == 2 ? 5000 : 200);
   const auto mild = std::count_if(friction_.begin(), friction_.end(), [most](double f) { return f <= most; });
-  return viscous_.size() > most_factorized_in_space || 2 * static_cast<std::size_t>(mild) >= size;
+  return 2 * static_cast<std::size_t>(mild) >= size;
 }
 
 template <int Dim>
