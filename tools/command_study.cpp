@@ -1,5 +1,6 @@
 #include "tools/commands.hpp"
 
+#include "engine/text_file.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/machine.hpp"
 #include "tools/single_run.hpp"

@@ -2,6 +2,7 @@
 
 #include "components/particle.hpp"
 #include "engine/memory_reserve.hpp"
+#include "engine/text_file.hpp"
 #include "systems/bodies/warnings.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
@@ -104,19 +105,6 @@ void take_back_row(const fs::path& folder, World& world) {
 }
 
 }  // namespace
-
-void write_text(const fs::path& path, const std::string& text) {
-  const fs::path unfinished = path.string() + ".unfinished";
-  std::ofstream file(unfinished);
-  file << text;
-  file.close();
-  if (!file) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    throw std::runtime_error(path.string() + ": cannot be written");
-  }
-  fs::rename(unfinished, path);
-}
 
 void make_output_folder(const fs::path& folder) {
   std::error_code error;

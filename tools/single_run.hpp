@@ -38,9 +38,6 @@ struct RunResult {
 RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& profiler,
                           const std::atomic<bool>& stop);
 
-/// \throws std::runtime_error
-void write_text(const std::filesystem::path& path, const std::string& text);
-
 /// Makes a folder for results, which may be there already. \throws InputError
 void make_output_folder(const std::filesystem::path& folder);
 

@@ -219,7 +219,7 @@ StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
   cut.near.resize(cells);
   const double half_diagonal = 0.5 * grid.spacing * std::sqrt(static_cast<double>(Dim));
   for_each_row(cells, [&](std::size_t c) {
-    const Vec<Dim> x = grid.position(index_in<Dim>(grid.cells, c)) + Vec<Dim>::Constant(0.5 * grid.spacing);
+    const Vec<Dim> x = middle_of_cell<Dim>(grid, index_in<Dim>(grid.cells, c));
     cut.near[c] = bodies.bounded() && at_rest(x) > 1.1 * half_diagonal ? 0 : 1;
   });
   return cut;

@@ -41,6 +41,11 @@ Index<Dim> index_in(const Index<Dim>& count, std::size_t row) {
   return index;
 }
 
+template <int Dim>
+Vec<Dim> middle_of_cell(const Grid<Dim>& grid, const Index<Dim>& cell) {
+  return grid.position(cell) + Vec<Dim>::Constant(0.5 * grid.spacing);
+}
+
 /// Where faces and multipliers are: between the Greville points of neighbouring faces lies a multiplier.
 template <int Dim>
 class SitePlaces {

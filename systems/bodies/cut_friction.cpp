@@ -155,10 +155,6 @@ double divergence_of_normals(const Shape<Dim>& shape, const Placement<Dim>& plac
 
 /// Bodies that are farther than the reach from the middle of a cell neither cut it nor are seen from it.
 template <int Dim>
-Vec<Dim> middle_of(const Grid<Dim>& grid, const Index<Dim>& cell) {
-  return grid.position(cell) + Vec<Dim>::Constant(0.5 * grid.spacing);
-}
-template <int Dim>
 double reach_of_cell(const Grid<Dim>& grid) {
   return (0.5 * std::sqrt(static_cast<double>(Dim)) + seen_from) * grid.spacing;
 }
@@ -224,7 +220,7 @@ double cut_friction_bytes(const BodySet<Dim>& set, const Grid<Dim>& grid, int de
   const auto bodies = PlacedBodies<Dim>::at_start(set);
   std::size_t cut = 0;
   for (std::size_t c = 0; c < rows_in<Dim>(grid.cells); ++c) {
-    const double distance = bodies.distance(middle_of<Dim>(grid, index_in<Dim>(grid.cells, c)));
+    const double distance = bodies.distance(middle_of_cell<Dim>(grid, index_in<Dim>(grid.cells, c)));
     if (!bodies.bounded() || std::abs(distance) <= reach_of_cell<Dim>(grid)) ++cut;
   }
   CutMatrices<Dim> one;
@@ -242,7 +238,7 @@ FrictionAtRest<Dim> friction_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
   friction.matrices.clear(faces_of_cell<Dim>(splines.degree));
   std::vector<std::size_t> cut;
   for (std::size_t c = 0; c < cells; ++c) {
-    const double distance = bodies.distance(middle_of<Dim>(grid, index_in<Dim>(grid.cells, c)), false);
+    const double distance = bodies.distance(middle_of_cell<Dim>(grid, index_in<Dim>(grid.cells, c)), false);
     // Deep inside there are no particles.
     if (bodies.bounded() && std::abs(distance) > reach_of_cell<Dim>(grid)) continue;
     friction.place[c] = static_cast<std::int32_t>(cut.size());
@@ -270,7 +266,7 @@ void FindCutFriction<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
   std::vector<std::size_t> moving;
   for (std::size_t c = 0; c < cells->cells.size(); ++c) {
     const Index<Dim>& cell = cells->cells[c].node;
-    const Vec<Dim> middle = middle_of<Dim>(*grid, cell);
+    const Vec<Dim> middle = middle_of_cell<Dim>(*grid, cell);
     const double reach = reach_of_cell<Dim>(*grid);
     if (bodies.may_be_near(middle, reach) && (!bodies.bounded() || bodies.distance(middle, true) <= reach)) {
       cut->place[c] = static_cast<std::int32_t>(moving.size());

@@ -2,6 +2,7 @@
 
 #include "systems/bodies/cut.hpp"
 #include "systems/conforming/friction_matrices.hpp"
+#include "systems/conforming/sites_around.hpp"
 
 #include <Eigen/Dense>
 
@@ -155,40 +156,26 @@ void FindFaceExtension<Dim>::operator()(
   }
   extension->source.resize(extension->targets.size() * most);
   extension->weight.resize(extension->targets.size() * most);
-  const Index<Dim> sites = splines->sites();
   for_each_row(extension->targets.size(), [&](std::size_t t) {
     typename FaceExtension<Dim>::Target& target = extension->targets[t];
     const auto direction = static_cast<std::size_t>(target.direction);
     const Index<Dim> own = site[target.row];
     const Vec<Dim> x = places.face(own, direction);
     Around<Dim> around;
-    for (std::size_t k = 0; k < most; ++k) {
-      Index<Dim> at = own;
-      Vec<Dim> offset = Vec<Dim>::Zero();
-      bool inside = true;
-      std::size_t rest = k;
-      for (std::size_t d = 0; d < Dim; ++d) {
-        at[d] += static_cast<int>(rest % across) - rings;
-        rest /= across;
-        if (splines->axis[d].periodic()) {
-          offset[static_cast<Eigen::Index>(d)] = at[d] - own[d];
-          at[d] = (at[d] + sites[d]) % sites[d];
-        } else {
-          inside = inside && at[d] >= 0 && at[d] < sites[d];
-        }
-      }
-      if (!inside || !splines->has_face(at, direction)) continue;
+    for_each_site_around<Dim, rings>(*splines, own, [&](const Index<Dim>& at, const Index<Dim>& steps) {
+      if (!splines->has_face(at, direction)) return;
       const auto row = rows->find(at);
-      if (!row || (is_open[*row] & (1U << direction)) == 0) continue;
+      if (!row || (is_open[*row] & (1U << direction)) == 0) return;
       const Vec<Dim> y = places.face(at, direction);
+      Vec<Dim> offset;
       for (std::size_t d = 0; d < Dim; ++d) {
         const auto axis = static_cast<Eigen::Index>(d);
-        if (!splines->axis[d].periodic()) offset[axis] = (y[axis] - x[axis]) / grid->spacing;
+        offset[axis] = splines->axis[d].periodic() ? steps[d] : (y[axis] - x[axis]) / grid->spacing;
       }
       around.row[around.count] = *row;
       around.filled[around.count] = filled.empty() ? 1 : filled[*row][target.direction];
       around.offset[around.count++] = offset;
-    }
+    });
     const auto weight = std::span(extension->weight).subspan(target.begin, most);
     std::copy_n(around.row.begin(), around.count,
                 extension->source.begin() + static_cast<std::ptrdiff_t>(target.begin));

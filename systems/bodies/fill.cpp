@@ -1,5 +1,7 @@
 #include "systems/bodies/fill.hpp"
 
+#include "systems/conforming/sites_around.hpp"
+
 #include <cmath>
 
 namespace minamo {
@@ -20,11 +22,8 @@ class EmptySites {
       : places_(places), at_rest_(at_rest), bodies_(bodies) {}
 
   /// Of the neighbour of a site towards a side. \pre there is one
-  double share(Index<Dim> site, std::size_t side) const {
-    const std::size_t d = side / 2;
-    site[d] += side % 2 == 0 ? -1 : 1;
-    const int count = at_rest_.sites[d] > 0 ? at_rest_.sites[d] : places_.splines().sites()[d];
-    if (places_.splines().axis[d].periodic()) site[d] = (site[d] + count) % count;
+  double share(const Index<Dim>& of, std::size_t side) const {
+    const Index<Dim> site = *site_beside(places_.splines(), of, side);
     const double by_resting = at_rest_.of.empty() ? 1 : at_rest_.at(site).share;
     const Bounds<Dim> box = places_.box(site);
     const Vec<Dim> x = 0.5 * (box.low + box.high);

@@ -1,5 +1,6 @@
 #include "systems/conforming/pressure.hpp"
 
+#include "systems/conforming/sites_around.hpp"
 #include "systems/conforming/support.hpp"
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/solve/conjugate_gradients.hpp"
@@ -228,12 +229,15 @@ class PressureOfFewParticles {
       : splines_(splines), rows_(rows), site_(site), open_share_(open_share), volume_(volume) {
     cell_volume_ = std::pow(grid.spacing, Dim);
     lumped_.assign(lambda.size(), 0);
+    has_few_.assign(lambda.size(), false);
     for (std::size_t i = 0; i < lambda.size(); ++i) {
-      if (lambda[i] != 0) lumped_[i] = lambda[i] / (filled_share(i, has_few(i) ? 0 : 2) * whole_volume(i));
+      if (lambda[i] == 0) continue;
+      has_few_[i] = has_few(i);
+      lumped_[i] = lambda[i] / (filled_share(i, has_few_[i] ? 0 : 2) * whole_volume(i));
     }
   }
 
-  bool is_known(std::size_t i) const { return open_share(i) < 1 || (lumped_[i] != 0 && has_few(i)); }
+  bool is_known(std::size_t i) const { return open_share(i) < 1 || has_few_[i]; }
   double operator()(std::size_t i) const { return is_inside(i) ? continued(i) : lumped_[i]; }
 
  private:
@@ -246,12 +250,7 @@ class PressureOfFewParticles {
   bool is_inside(std::size_t i) const { return lumped_[i] == 0 && open_share(i) < inside_below; }
   std::optional<std::uint32_t> beside(std::size_t i, std::size_t side) const {
     if (splines_.ends_at(site_[i], side)) return {};
-    Index<Dim> site = site_[i];
-    const std::size_t d = side / 2;
-    const int count = splines_.sites()[d];
-    site[d] += side % 2 == 0 ? -1 : 1;
-    if (splines_.axis[d].periodic()) site[d] = (site[d] + count) % count;
-    return rows_.find(site);
+    return rows_.find(*site_beside(splines_, site_[i], side));
   }
   /// phi_l of (E86), as far as the sites around have particles; the multiplier itself counts `own` times.
   double filled_share(std::size_t i, double own) const {
@@ -273,7 +272,12 @@ class PressureOfFewParticles {
     Line right = Line::Zero();
     double mean = 0;
     double weights = 0;
-    const auto use = [&](const Vec<Dim>& r, double p) {
+    for_each_site_around<Dim, 2>(splines_, site_[i], [&](const Index<Dim>& site, const Index<Dim>& steps) {
+      if (!splines_.has_multiplier(site)) return;
+      const auto j = rows_.find(site);
+      if (!j || lumped_[*j] == 0) return;
+      const double p = lumped_[*j];
+      const Vec<Dim> r = Eigen::Map<const Eigen::Matrix<int, Dim, 1>>(steps.data()).template cast<double>();
       const double weight = 1 / (r.squaredNorm() * r.squaredNorm());
       Line row;
       row << 1, r;
@@ -281,36 +285,12 @@ class PressureOfFewParticles {
       right += weight * p * row;
       mean += weight * p;
       weights += weight;
-    };
-    for_each_around(i, use);
+    });
     if (weights == 0) return 0;
     // Of the difference to the mean, so that what is added to the diagonal leads to the mean where few are around.
     mean /= weights;
     right -= mean * normal.col(0);
     return mean + normal.ldlt().solve(right)[0];
-  }
-  /// use(place relative to the site i in cells, pressure) for the sites that carry a force within two cells.
-  template <class Use>
-  void for_each_around(std::size_t i, const Use& use) const {
-    constexpr int reach = 2;
-    constexpr std::size_t side = 2 * reach + 1;
-    for (std::size_t k = 0; k < power(side, Dim); ++k) {
-      Index<Dim> site = site_[i];
-      Vec<Dim> r;
-      std::size_t rest = k;
-      bool exists = true;
-      for (std::size_t d = 0; d < Dim; ++d, rest /= side) {
-        const int along = static_cast<int>(rest % side) - reach;
-        const SplineAxis& axis = splines_.axis[d];
-        r[static_cast<Eigen::Index>(d)] = along;
-        site[d] += along;
-        if (axis.periodic()) site[d] = (site[d] + axis.multipliers()) % axis.multipliers();
-        exists = exists && site[d] >= 0 && site[d] < axis.multipliers();
-      }
-      if (!exists) continue;
-      const auto j = rows_.find(site);
-      if (j && lumped_[*j] != 0) use(r, lumped_[*j]);
-    }
   }
 
   /// Open share below which a multiplier that carries no force lies inside of a body, not in the air.
@@ -322,6 +302,7 @@ class PressureOfFewParticles {
   std::span<const double> volume_;
   double cell_volume_;
   std::vector<double> lumped_;
+  std::vector<bool> has_few_;  ///< of those that carry a force
 };
 
 }  // namespace

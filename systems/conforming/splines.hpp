@@ -11,6 +11,7 @@
 
 #include "components/grid.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace minamo {
@@ -97,6 +98,16 @@ struct Splines {
   Index<Dim> site(const Index<Dim>& cell, Index<Dim> offset) const {
     for (std::size_t d = 0; d < Dim; ++d) offset[d] = axis[d].wrapped(cell[d] + offset[d]);
     return offset;
+  }
+  /// The site some steps away from one, if there is one. \pre fewer steps than an axis has sites
+  std::optional<Index<Dim>> site_at(Index<Dim> site, const Index<Dim>& steps) const {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const int count = axis[d].sites();
+      site[d] += steps[d];
+      if (axis[d].periodic()) site[d] = (site[d] + count) % count;
+      if (site[d] < 0 || site[d] >= count) return {};
+    }
+    return site;
   }
   /// Product of the widths of a multiplier, w_l/h^d. [1]
   double widths(const Index<Dim>& site) const {

@@ -1,13 +1,11 @@
 #include "systems/output/fields.hpp"
 
 #include "engine/hdf5.hpp"
+#include "engine/text_file.hpp"
 #include "systems/grid/point_locator.hpp"
 #include "systems/output/body_fields.hpp"
 
 #include <spdlog/fmt/fmt.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace minamo {
 
@@ -133,19 +131,11 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
 template <int Dim>
 void WriteXdmf<Dim>::operator()(Optional<Read<BodyOutlines<Dim>>> outlines, Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
-  const std::string path = fields->folder + "/fields.xdmf";
-  std::ofstream xdmf(path + ".unfinished");
-  xdmf << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
-          "    <Grid Name=\"minamo\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string xdmf = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
+                     "    <Grid Name=\"minamo\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (std::size_t k = 0; k < fields->frames.size(); ++k)
-    xdmf << frame_text<Dim>(fields->frames[k], k, outlines ? &*outlines : nullptr);
-  xdmf << "    </Grid>\n  </Domain>\n</Xdmf>\n";
-  xdmf.close();
-  if (!xdmf) {
-    std::filesystem::remove(path + ".unfinished");
-    throw std::runtime_error(path + ": cannot be written");
-  }
-  std::filesystem::rename(path + ".unfinished", path);
+    xdmf += frame_text<Dim>(fields->frames[k], k, outlines ? &*outlines : nullptr);
+  write_text(fields->folder + "/fields.xdmf", xdmf + "    </Grid>\n  </Domain>\n</Xdmf>\n");
   end_frame(*fields);
 }
 

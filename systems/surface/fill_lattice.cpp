@@ -1,20 +1,13 @@
 #include "systems/surface/fill_lattice.hpp"
 
+#include "systems/conforming/quadratic_spline.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace minamo {
 
 namespace {
-
-/// Half of a quadratic B-spline's support, in its spacings.
-constexpr double reach = 1.5;
-
-double quadratic_spline(double s) {
-  s = std::abs(s);
-  if (s < 0.5) return 0.75 - s * s;
-  return s < reach ? 0.5 * (reach - s) * (reach - s) : 0;
-}
 
 /// Nodes of a lattice that is fixed to the box, as far as particles reach, so that the outermost are empty.
 template <int Dim>
@@ -44,21 +37,21 @@ SampleNodes<Dim> nodes_around(const Bounds<Dim>& box, double spacing, double mar
 
 template <int Dim>
 FillLattice<Dim>::FillLattice(const Bounds<Dim>& box, double spacing, std::span<const Vec<Dim>> position)
-    : nodes_(nodes_around<Dim>(box, spacing, (reach * width + 1) * spacing, position)),
+    : nodes_(nodes_around<Dim>(box, spacing, (quadratic_spline_reach * width + 1) * spacing, position)),
       fill_(nodes_.size(), 0.0F),
       momentum_(nodes_.size()) {}
 
 template <int Dim>
 void FillLattice<Dim>::add(const Vec<Dim>& x, const Vec<Dim>& v, double volume) {
-  constexpr int most = 2 * static_cast<int>(reach * width) + 2;  // nodes along an axis
+  constexpr int most = 2 * static_cast<int>(quadratic_spline_reach * width) + 2;  // nodes along an axis
   std::array<std::array<double, most>, static_cast<std::size_t>(Dim)> weight{};
   Index<Dim> first;
   Index<Dim> count;
   for (std::size_t d = 0; d < Dim; ++d) {
     const auto axis = static_cast<Eigen::Index>(d);
     const double at = (x[axis] - nodes_.low[axis]) / nodes_.spacing;
-    first[d] = std::max(0, static_cast<int>(std::ceil(at - reach * width)));
-    const int last = std::min(nodes_.count[d] - 1, static_cast<int>(std::floor(at + reach * width)));
+    first[d] = std::max(0, static_cast<int>(std::ceil(at - quadratic_spline_reach * width)));
+    const int last = std::min(nodes_.count[d] - 1, static_cast<int>(std::floor(at + quadratic_spline_reach * width)));
     count[d] = last - first[d] + 1;
     for (int k = 0; k < count[d]; ++k)
       weight[d][static_cast<std::size_t>(k)] = quadratic_spline((first[d] + k - at) / width);

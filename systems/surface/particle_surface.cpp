@@ -1,6 +1,7 @@
 #include "systems/surface/particle_surface.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/conforming/quadratic_spline.hpp"
 #include "systems/surface/fill_lattice.hpp"
 
 #include <Eigen/Geometry>
@@ -20,18 +21,6 @@ constexpr double half_full = 0.5;
 constexpr double least_level = 0.3;
 constexpr double most_level = 0.6;
 
-/// Integral of a quadratic B-spline of spacing 1 up to t: what lies below a plane of all that is seen from t above it.
-double seen_below(double t) {
-  const double s = std::abs(t);
-  double rest = 0;
-  if (s < 0.5) {
-    rest = 0.5 - s * (0.75 - s * s / 3);
-  } else if (s < 1.5) {
-    rest = (1.5 - s) * (1.5 - s) * (1.5 - s) / 6;
-  }
-  return t < 0 ? rest : 1 - rest;
-}
-
 /// (E111)  c - C/O, negative in the liquid, and positive beyond walls and in bodies.
 template <int Dim>
 class LevelSet {
@@ -46,14 +35,14 @@ class LevelSet {
     for (Eigen::Index d = 0; d < Dim; ++d) {
       for (const double inside : {x[d] - of_.box.low[d], of_.box.high[d] - x[d]}) {
         beyond = std::max(beyond, -inside);
-        open *= seen_below(inside / width_);
+        open *= quadratic_spline_below(inside / width_);
       }
     }
     if (fill == 0) return std::max(level_, beyond / width_);
     if (of_.distance_to_bodies) {
       const double outside = of_.distance_to_bodies(x);
       beyond = std::max(beyond, -outside);
-      open *= seen_below(outside / width_);
+      open *= quadratic_spline_below(outside / width_);
     }
     constexpr double least_open = 0.05;
     return std::max(level_ - fill / std::max(open, least_open), beyond / width_);

@@ -1,12 +1,11 @@
 #include "systems/surface/surface_file.hpp"
 
+#include "engine/text_file.hpp"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <bit>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 namespace minamo {
 
@@ -102,22 +101,9 @@ std::string ply(const ParticleSurface<Dim>& surface) {
 
 std::string name_of(SurfaceFormat format) { return format == SurfaceFormat::vtp ? "vtp" : "ply"; }
 
-void write_whole(const std::string& text, const std::string& path) {
-  const std::string unfinished = path + ".unfinished";
-  std::ofstream file(unfinished, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw std::runtime_error("cannot write " + path);
-  }
-  std::filesystem::rename(unfinished, path);
-}
-
 template <int Dim>
 void write_surface(const ParticleSurface<Dim>& surface, SurfaceFormat format, const std::string& path) {
-  write_whole(format == SurfaceFormat::vtp ? vtp<Dim>(surface) : ply<Dim>(surface), path);
+  write_text(path, format == SurfaceFormat::vtp ? vtp<Dim>(surface) : ply<Dim>(surface));
 }
 
 template void write_surface<2>(const ParticleSurface<2>&, SurfaceFormat, const std::string&);

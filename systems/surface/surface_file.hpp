@@ -18,7 +18,4 @@ std::string name_of(SurfaceFormat format);
 template <int Dim>
 void write_surface(const ParticleSurface<Dim>& surface, SurfaceFormat format, const std::string& path);
 
-/// A text that appears when it is complete. \throws std::runtime_error if it cannot be written
-void write_whole(const std::string& text, const std::string& path);
-
 }  // namespace minamo

@@ -1,5 +1,6 @@
 #include "systems/surface/write_surfaces.hpp"
 
+#include "engine/text_file.hpp"
 #include "systems/bodies/cut.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -18,7 +19,7 @@ void write_index(const FieldsFile& fields, SurfaceFormat format) {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (std::size_t k = 0; k < fields.frames.size(); ++k)
     text += fmt::format("<DataSet timestep=\"{}\" file=\"surface/{}\"/>\n", fields.frames[k].time, file_of(k, format));
-  write_whole(text + "</Collection>\n</VTKFile>\n", fields.folder + "/surface.pvd");
+  write_text(fields.folder + "/surface.pvd", text + "</Collection>\n</VTKFile>\n");
 }
 
 }  // namespace

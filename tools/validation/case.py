@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -70,4 +70,3 @@ class Result:
     particles: int
     steps: int
     cpu_s: float
-    figures: dict[str, float] = field(default_factory=dict)
