@@ -27,11 +27,10 @@ struct FindDivergenceAhead {
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
                   Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Volume> V_p, Read<particle::Velocity<Dim>> v_p,
-                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f, Read<face::Open<Dim>> open,
-                  Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi, Read<multiplier::Volume> v_l,
-                  Update<multiplier::Curvature> curvature) const;
+                  Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
+                  Read<face::Open<Dim>> open, Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+                  Read<multiplier::Volume> v_l, Update<multiplier::Curvature> curvature) const;
 };
 
 }  // namespace minamo
