@@ -63,7 +63,14 @@ class SiteForces {
              std::span<Vec<Dim>> force)
       : lattice_(lattice), least_around_(least_around), around_(around), force_(force) {}
 
-  void add(const typename FreeSurface<Dim>::Corner& corner, const Vec<Dim>& force) {
+  void add(const typename FreeSurface<Dim>::Corner& corner, Vec<Dim> force) {
+    // What pulls across a wall at a corner on it, the wall takes.
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto& ax = lattice_.axis(d);
+      const bool is_low = ax.is_low_wall(corner.in[d]) && ax.is_low_wall(corner.out[d]);
+      const bool is_high = ax.is_high_wall(corner.in[d]) && ax.is_high_wall(corner.out[d]);
+      if (is_low || is_high) force[static_cast<Eigen::Index>(d)] = 0;
+    }
     double taken = 0;
     for_each_taker(corner, [&](std::size_t, double weight) { taken += weight; });
     constexpr double least = 0.1;  // a corner far from all sites: a drop of a particle or two, which has no surface

@@ -103,7 +103,6 @@ TEST_CASE("a drop rests on a wall at its contact angle", "[verification][long]")
   Json scene = scene_of_file("sessile_drop.json");
   scene["grid"] = {{"low", {0, 0}}, {"high", {1, 0.5}}, {"cells", {24, 12}}};
   scene["surface_tension"]["contact_angle"] = angle;
-  scene["particles"][0]["shape"] = {{"ball", {{"center", {0.5, 0}}, {"radius", 0.25}}}};
   scene["time"]["step"] = 1.5e-3;
   SceneRun run(scene);
   run.step(700);
