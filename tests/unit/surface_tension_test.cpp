@@ -200,7 +200,7 @@ TEMPLATE_TEST_CASE_SIG("a drop on the floor wets it, and its contact line is pul
   const double wetted = Dim == 2 ? 0.6 : pi * 0.09;
   CHECK(surface.wetted == Approx(wetted).epsilon(0.04));  // a lattice of particles
   const double area = Dim == 2 ? pi * 0.3 : 2 * pi * 0.09;
-  CHECK(surface.area == Approx(area).epsilon(0.03));
+  CHECK(surface.area == Approx(area).epsilon(0.04));
   CHECK(measured(world, "surface_energy") == Approx(sigma * (surface.area - 0.5 * surface.wetted)).epsilon(1e-3));
   double line = 0;
   Vec<Dim> centre = Vec<Dim>::Zero();
@@ -219,6 +219,8 @@ TEMPLATE_TEST_CASE_SIG("a drop on the floor wets it, and its contact line is pul
     }
   }
   CHECK(line == Approx(Dim == 2 ? 2 : 2 * pi * 0.3).epsilon(0.05));
-  // The pulls of the floor are zero in sum, and it takes the forces across it.
-  CHECK(sum_of_forces<Dim>(world).norm() < 1e-12);
+  // Along the floor the pulls are zero in sum; what pulls across it, it takes.
+  Vec<Dim> along = sum_of_forces<Dim>(world);
+  along[Dim - 1] = 0;
+  CHECK(along.norm() < 1e-12);
 }
