@@ -65,6 +65,11 @@ struct Traction : Column<Staggered, Vec<Dim>> {
 
 namespace face {
 
+/// Directions whose face takes forces of the surface, bit d for direction d. [1]
+struct TakesSurfaceForce : Column<Staggered, std::uint8_t> {
+  static constexpr ComponentInfo info{"face.takes_surface_force", "", "1", Lifetime::scratch};
+};
+
 /// Force of the surface tension. [N]
 template <int Dim>
 struct SurfaceForce : Column<Staggered, Vec<Dim>> {

@@ -96,33 +96,31 @@ class SiteForces {
   std::span<Vec<Dim>> force_;
 };
 
-/// Which faces take forces: those beside a multiplier that is an unknown, for others nothing holds against it, and
-/// those that walls hold, from which the walls take it.
+/// Directions in which the face of a row takes forces: beside a multiplier that is an unknown, for others nothing holds
+/// against it, and where walls hold, from which the walls take it.
 template <int Dim>
-struct Takers {
-  const Incidence<Dim>& incidence;
-  std::span<const std::uint8_t> held;
-  std::span<const std::int32_t> row;
-
-  bool operator()(std::int32_t i, std::size_t d) const {
-    if (i == staggered::none) return false;
-    const auto face = static_cast<std::size_t>(i);
-    bool takes = (held[face] & (1U << d)) != 0;
-    incidence.for_each_multiplier(face, d, [&](std::size_t l, double) { takes = takes || row[l] != staggered::none; });
-    return takes;
+std::uint8_t takers_of(const Incidence<Dim>& incidence, std::size_t i, unsigned held,
+                       std::span<const std::int32_t> row) {
+  unsigned takes = held;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    incidence.for_each_multiplier(i, d, [&](std::size_t l, double) {
+      if (row[l] != staggered::none) takes |= 1U << d;
+    });
   }
-};
+  return static_cast<std::uint8_t>(takes);
+}
 
 /// Hands a force at a point on to the faces around it.
 template <int Dim, int K>
-void add_to_faces(const PointSites<Dim, K>& sites, const SplineWeights<Dim, K>& weights, const Takers<Dim>& takes,
-                  const Vec<Dim>& force, std::span<Vec<Dim>> F_f) {
+void add_to_faces(const PointSites<Dim, K>& sites, const SplineWeights<Dim, K>& weights,
+                  std::span<const std::uint8_t> takes, const Vec<Dim>& force, std::span<Vec<Dim>> F_f) {
   for_each_direction<Dim>([&](auto direction) {
     constexpr int D = direction();
     double taken = 0;
     std::array<bool, cell_sites<Dim, K>> is_taker{};
     for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
-      is_taker[k] = takes(sites.row(k), D);
+      const std::int32_t i = sites.row(k);
+      is_taker[k] = i != staggered::none && (takes[static_cast<std::size_t>(i)] & (1U << D)) != 0;
       if (is_taker[k]) taken += weights.template face<D>(offset);
     });
     constexpr double least = 0.05;  // a point far out: the faces there have next to no mass
@@ -200,11 +198,11 @@ void AddSurfaceTension<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid,
                                         Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
                                         Read<multiplier::Row> row, Read<FreeSurface<Dim>> surface,
                                         Read<surface::Traction<Dim>> t_i, Read<face::Mobility<Dim>> mobility,
-                                        Write<face::SurfaceForce<Dim>> F_f,
+                                        Write<face::TakesSurfaceForce> takes, Write<face::SurfaceForce<Dim>> F_f,
                                         Update<face::Predictor<Dim>> predictor) const {
   for_each_row(F_f.size(), [&](std::size_t i) { F_f[i].setZero(); });
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-  const Takers<Dim> takes{incidence, held.span(), row.span()};
+  for_each_row(takes.size(), [&](std::size_t i) { takes[i] = takers_of<Dim>(incidence, i, held[i], row.span()); });
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     PointSites<Dim, K> sites(*grid, *splines, *rows);
@@ -215,7 +213,7 @@ void AddSurfaceTension<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid,
         if (sites.row(k) == staggered::none) return;
         traction += quadratic_weight<Dim, K>(weights, offset) * t_i[static_cast<std::size_t>(sites.row(k))];
       });
-      add_to_faces<Dim, K>(sites, weights, takes, Vec<Dim>(area * traction), F_f.span());
+      add_to_faces<Dim, K>(sites, weights, takes.span(), Vec<Dim>(area * traction), F_f.span());
     });
   });
   const double tau = rates->velocity / rates->acceleration;

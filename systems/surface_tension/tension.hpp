@@ -38,8 +38,8 @@ struct AddSurfaceTension {
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
                   Read<multiplier::Row> row, Read<FreeSurface<Dim>> surface, Read<surface::Traction<Dim>> t_i,
-                  Read<face::Mobility<Dim>> mobility, Write<face::SurfaceForce<Dim>> F_f,
-                  Update<face::Predictor<Dim>> predictor) const;
+                  Read<face::Mobility<Dim>> mobility, Write<face::TakesSurfaceForce> takes,
+                  Write<face::SurfaceForce<Dim>> F_f, Update<face::Predictor<Dim>> predictor) const;
 };
 
 /// (E115)  sigma (A - cos theta W), taken from the middle of the step to its end by the work of the forces.
