@@ -6,6 +6,8 @@
 
 #include "components/surface_tension.hpp"
 #include "systems/conforming/quadratic_spline.hpp"
+#include "systems/setup/time_plan.hpp"
+#include "systems/surface_tension/capillary_step.hpp"
 #include "systems/surface_tension/free_surface.hpp"
 #include "systems/surface_tension/tension.hpp"
 
@@ -223,4 +225,18 @@ TEMPLATE_TEST_CASE_SIG("a drop on the floor wets it, and its contact line is pul
   Vec<Dim> along = sum_of_forces<Dim>(world);
   along[Dim - 1] = 0;
   CHECK(along.norm() < 1e-12);
+}
+
+TEST_CASE("steps are short enough for waves of surface tension, or one is told", "[unit]") {
+  Json scene = drop<2>(0.52, 20);
+  const double longest = 0.5 * std::sqrt(std::pow(0.05, 3) / (2 * std::numbers::pi * sigma));
+  scene["time"] = {{"end", 1}, {"step", 0.9 * longest}};
+  CHECK(warnings_of_surface_tension(read(scene)).empty());
+  scene["time"]["step"] = 1.1 * longest;
+  CHECK(warnings_of_surface_tension(read(scene)).size() == 1);
+  scene["time"] = {{"end", 1}, {"cfl", 0.5}};
+  CHECK(warnings_of_surface_tension(read(scene)).empty());
+  CHECK(longest_step(read(scene)) == Approx(longest));
+  scene.erase("surface_tension");
+  CHECK(!capillary_step(read(scene)));
 }
