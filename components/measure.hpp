@@ -16,6 +16,8 @@ namespace minamo::measure {
 struct Energy {
   double kinetic = 0;               ///< sum m_p |v_p|^2 / 2 [J]
   std::optional<double> potential;  ///< -sum m_p b . (x_p - low corner), for a constant body force [J]
+  std::optional<double> surface;    ///< of surface tension, where there is one [J]
+  double total() const { return kinetic + potential.value_or(0) + surface.value_or(0); }
   static constexpr ComponentInfo info{"measure.energy", "E", "J", Lifetime::scratch};
 };
 

@@ -25,6 +25,7 @@ void add_stabilization(SystemRegistry& registry);    // assemble/
 void add_volume(SystemRegistry& registry);           // volume/
 void add_time(SystemRegistry& registry);             // setup/
 void add_conservation(SystemRegistry& registry);     // measure/
+void add_surface_tension(SystemRegistry& registry);  // surface_tension/
 void add_separating(SystemRegistry& registry);       // separating/
 void add_behind_bodies(SystemRegistry& registry);    // bodies/
 void add_probes(SystemRegistry& registry);           // measure/

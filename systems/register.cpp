@@ -24,6 +24,7 @@ void register_parts(SystemRegistry& registry) {
   add_volume(registry);
   add_time(registry);
   add_conservation(registry);
+  add_surface_tension(registry);
   add_separating(registry);
   add_behind_bodies(registry);
   add_probes(registry);

@@ -7,6 +7,7 @@
 #include "systems/setup/scene_systems.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/setup/seed.hpp"
+#include "systems/surface_tension/capillary_step.hpp"
 #include "tools/available_memory.hpp"
 #include "tools/machine.hpp"
 
@@ -125,11 +126,18 @@ void seed(const Scene& scene, const std::string& file, World& world) {
   seed_world(scene, file, world);
 }
 
+std::vector<std::string> warnings_of(const Scene& scene, World& world) {
+  std::vector<std::string> warnings = warnings_of_bodies(scene, world);
+  const auto of_tension = warnings_of_surface_tension(scene);
+  warnings.insert(warnings.end(), of_tension.begin(), of_tension.end());
+  return warnings;
+}
+
 Rehearsal rehearse(const Scene& scene, const std::string& file) {
   World world;
   seed(scene, file, world);
   const Schedule step(make_pipeline(scene).step, world);
-  return {world.rows<Particles>(), warnings_of_bodies(scene, world)};
+  return {world.rows<Particles>(), warnings_of(scene, world)};
 }
 
 }  // namespace minamo

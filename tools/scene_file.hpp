@@ -38,6 +38,9 @@ struct Rehearsal {
   std::vector<std::string> warnings;  ///< what the scene may not mean, a sentence each
 };
 
+/// What a scene may not mean, a sentence each. \pre the world was seeded with it
+std::vector<std::string> warnings_of(const Scene& scene, World& world);
+
 /// Makes ready what a run would start with, and lets it go.
 /// \throws InputError, ScheduleError
 Rehearsal rehearse(const Scene& scene, const std::string& file);

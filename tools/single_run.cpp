@@ -3,7 +3,6 @@
 #include "components/particle.hpp"
 #include "engine/memory_reserve.hpp"
 #include "engine/text_file.hpp"
-#include "systems/bodies/warnings.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/setup/time_plan.hpp"
@@ -66,7 +65,7 @@ void write_summary(const fs::path& folder, RunResult& result) {
 }
 
 void warn_of_scene(const Scene& scene, const std::string& path, World& world) {
-  for (const std::string& warning : warnings_of_bodies(scene, world)) spdlog::warn("{}: {}", path, warning);
+  for (const std::string& warning : warnings_of(scene, world)) spdlog::warn("{}: {}", path, warning);
 }
 
 void warn_of_rejection(const Clock& clock, const std::string& why) {

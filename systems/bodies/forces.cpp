@@ -140,7 +140,7 @@ void MeasureBodiesAtStart<Dim>::operator()(Read<BodySet<Dim>> set, Read<body::Po
 template <int Dim>
 void MeasureEnergyBalance<Dim>::operator()(Read<measure::Energy> energy, Read<body::Work> W_b,
                                            Update<measure::Columns> columns) const {
-  double balance = energy->kinetic + energy->potential.value_or(0);
+  double balance = energy->total();
   for (const double work : W_b) balance += work;
   columns->set("energy_balance", balance);
 }

@@ -14,6 +14,8 @@ namespace {
 /// Fill fraction from which on a multiplier is an unknown. In space more: foam at the surface would never settle.
 template <int Dim>
 constexpr double active_from = Dim == 2 ? 0.05 : 0.1;
+/// The same under surface tension, which holds the surface together: pressure balances its force as far out as it acts.
+constexpr double active_with_tension = 0.02;
 /// Least mass of a face, as a share of that of a full grid: lighter ones only spoil the condition of S.
 constexpr double least_mass = 1e-8;
 /// |dt/2 grad v| up to which the second term of (E63) counts in full, and from which on not at all.
@@ -165,8 +167,9 @@ template <int Dim>
 void AssembleMultipliers<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
     Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
-    Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released, Resize<Unknowns> unknowns,
-    Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+    Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released,
+    Optional<Read<SurfaceTension>> tension, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
+    Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
     Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
     Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
@@ -181,10 +184,11 @@ void AssembleMultipliers<Dim>::operator()(
     }
     return false;
   };
+  const double from = tension ? active_with_tension : active_from<Dim>;
   std::int32_t count = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const bool is_released = released && released[i] != 0;
-    row[i] = phi[i] > active_from<Dim> && !is_released && moves(i) ? count++ : staggered::none;
+    row[i] = phi[i] > from && !is_released && moves(i) ? count++ : staggered::none;
   }
   unknowns.resize(static_cast<std::size_t>(count));
   for_each_row(row.size(), [&](std::size_t i) {

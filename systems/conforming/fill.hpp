@@ -8,6 +8,7 @@
 #include "components/fluid.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
+#include "components/surface_tension.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
@@ -69,10 +70,11 @@ struct AssembleMultipliers {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
                   Read<multiplier::FillFraction> phi, Optional<Read<face::Open<Dim>>> open,
-                  Optional<Read<multiplier::Released>> released, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
-                  Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
-                  Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
-                  Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const;
+                  Optional<Read<multiplier::Released>> released, Optional<Read<SurfaceTension>> tension,
+                  Resize<Unknowns> unknowns, Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
+                  Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
+                  Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
+                  Write<unknown::NullVector> null_vector) const;
 };
 
 }  // namespace minamo

@@ -100,6 +100,7 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
                                     Write<measure::Energy> energy) const {
   energy->kinetic = kinetic_energy<Dim>(m_p.span(), v_p.span());
   energy->potential.reset();
+  energy->surface.reset();
   const auto force = force_with_potential<Dim>(*grid, *b);
   if (!force) return;
   energy->potential = reduce_rows(

@@ -47,7 +47,7 @@ void MeasureOpeningsAtStart<Dim>::operator()(Read<OpeningSet<Dim>> set, Read<ope
 template <int Dim>
 void BalanceEnergyOfOpenings<Dim>::operator()(Read<measure::Energy> energy, Read<opening::EnergyIn> energy_in,
                                               Optional<Read<body::Work>> W_b, Update<measure::Columns> columns) const {
-  double balance = energy->kinetic + energy->potential.value_or(0);
+  double balance = energy->total();
   for (const double work : W_b.span()) balance += work;
   for (const double came_in : energy_in) balance -= came_in;
   columns->set("energy_balance", balance);

@@ -12,8 +12,7 @@ namespace {
 
 template <int Dim>
 RunTotals::Values values(const measure::Energy& energy, const measure::Momentum<Dim>& momentum) {
-  RunTotals::Values values{
-      .energy = energy.kinetic + energy.potential.value_or(0), .momentum = {}, .angular_momentum = {}};
+  RunTotals::Values values{.energy = energy.total(), .momentum = {}, .angular_momentum = {}};
   for (int d = 0; d < Dim; ++d) values.momentum[static_cast<std::size_t>(d)] = momentum.linear[d];
   for (int d = 0; d < rotations<Dim>; ++d) values.angular_momentum[static_cast<std::size_t>(d)] = momentum.angular[d];
   return values;
@@ -43,11 +42,12 @@ RunTotals added(RunTotals totals, const Clock& clock, const measure::Energy& ene
   require_known(further, totals.columns);
   if (energy.potential) {
     const double* balance = further.find("energy_balance");
-    const double work = balance ? *balance - energy.kinetic - *energy.potential : 0;
+    const double work = balance ? *balance - energy.total() : 0;
+    const double stored = *energy.potential + energy.surface.value_or(0);
     if (is_start) {
-      totals.energy.start(energy.kinetic, *energy.potential);
+      totals.energy.start(energy.kinetic, stored);
     } else {
-      totals.energy.see(clock.end_of_step, energy.kinetic, *energy.potential, work);
+      totals.energy.see(clock.end_of_step, energy.kinetic, stored, work);
     }
   }
   keep_measured(further, "error_velocity", totals.error_velocity);

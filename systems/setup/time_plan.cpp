@@ -4,6 +4,7 @@
 #include "components/instant.hpp"
 #include "components/particle.hpp"
 #include "systems/pipeline.hpp"
+#include "systems/surface_tension/capillary_step.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
@@ -52,7 +53,7 @@ double crossing_time(double v, double b, double distance) {
 
 double step_of_cfl(const Scene& scene, double largest_speed, double largest_force) {
   const double dt = crossing_time(largest_speed, largest_force, scene.time.cfl * scene.grid.spacing);
-  return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every});
+  return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every, capillary_step(scene).value_or(dt)});
 }
 
 double longest_step(const Scene& scene) {

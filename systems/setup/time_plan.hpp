@@ -8,7 +8,8 @@
 namespace minamo {
 
 /// (E34)  With `cfl`, the step in which the fastest particle, pushed by the body force, crosses `cfl` cells:
-/// (max |v_p| + |b| dt) dt = cfl h, at most `max_step` and the time between two frames. [s]
+/// (max |v_p| + |b| dt) dt = cfl h, at most `max_step`, the time between two frames, and with surface tension (E116).
+/// [s]
 double step_of_cfl(const Scene& scene, double largest_speed, double largest_force);
 
 /// The longest step that a run can take: where the CFL number chooses it, one from rest. [s]

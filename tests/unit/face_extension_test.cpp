@@ -12,7 +12,7 @@ namespace {
 /// A closed face, the last row, of two open ones at distances h and 2 h: linear through both.
 FaceExtension<2> of_two_faces() {
   FaceExtension<2> extension;
-  extension.targets = {{.row = 2, .direction = 0, .begin = 0, .count = 2}};
+  extension.targets = {{.row = 2, .direction = 0, .begin = 0, .count = 2, .own = false}};
   extension.source = {0, 1};
   extension.weight = {2, -1};
   return extension;

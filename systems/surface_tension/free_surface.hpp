@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// (E112) The free surface as a step computes with it, from how full of liquid quadratic splines are. The surface of
+/// frames (systems/surface) is another: finer, closed at walls, around the liquid's volume.
+
+#include "components/cells.hpp"
+#include "components/particle.hpp"
+#include "components/surface_tension.hpp"
+#include "engine/system.hpp"
+#include "systems/conforming/splines.hpp"
+
+namespace minamo {
+
+/// Distance from a plane, in units of h, on whose one side a quadratic spline has a fraction of its integral: the
+/// inverse of quadratic_spline_below(). \pre 0 <= fraction <= 1
+double distance_of_fill(double fraction);
+
+/// (E112)  psi_i = h F^-1(phi_i), phi_i = sum_p N_i V_p/V_i.
+template <int Dim>
+struct FindSurfaceDistance {
+  static constexpr std::string_view doc = "(E112) psi_i, distance from the free surface";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
+                  Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Read<particle::Volume> V_p, Read<staggered::Site<Dim>> site, Write<surface::Distance> psi) const;
+};
+
+/// (E112)  Where psi, linear in triangles or tetrahedra, is zero.
+template <int Dim>
+struct FindFreeSurface {
+  static constexpr std::string_view doc = "(E112) segments or triangles of the free surface, contact lines";
+  void operator()(Read<Grid<Dim>> grid, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                  Read<surface::Distance> psi, Write<FreeSurface<Dim>> surface) const;
+};
+
+/// Length of a segment, area of a triangle. [m^(d-1)]
+template <int Dim>
+double area_of(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim)>& x);
+template <int Dim>
+double area_of(const typename FreeSurface<Dim>::Element& element);
+
+}  // namespace minamo
