@@ -13,7 +13,9 @@
 
 namespace minamo {
 
-/// What the velocity of every closed face is made of.
+/// What the velocity of every closed face is made of, and that which friction holds an open one to that is close to a
+/// wall. Particles see the own velocity of open faces: set back to this one in every step, it would cost an impulse in
+/// the balance of mass, a force like 1/dt.
 template <int Dim>
 struct FaceExtension {
   struct Target {
@@ -21,6 +23,7 @@ struct FaceExtension {
     std::int32_t direction;
     std::size_t begin;                                  ///< in `source` and `weight`
     std::size_t count;                                  ///< of open faces
+    bool own = false;                                   ///< open enough for a velocity of its own
     std::int32_t wall = -1;                             ///< body that the liquid sticks to, or -1
     RigidVector<Dim> lever = RigidVector<Dim>::Zero();  ///< weights of that body's motion
 
@@ -39,7 +42,7 @@ struct FaceExtension {
   void apply(std::span<Vec<Dim>> field, double beyond, const MotionOf& motion) const {
     for_each_row(targets.size(), [&](std::size_t k) {
       const Target& at = targets[k];
-      if (at.count == 0 && at.wall < 0) return;
+      if (at.own || (at.count == 0 && at.wall < 0)) return;
       double sum = 0;
       double least = std::numeric_limits<double>::infinity();
       double most = -least;
