@@ -36,9 +36,11 @@ def run_scene(scene, folder, settings):
     return subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode
 
 
-def figures(*arguments):
-    """Calls the python part of tools/figures in WORK."""
+def figures(*arguments, path=None):
+    """Calls the python part of tools/figures in WORK; `path`: where it finds programs."""
     environment = os.environ | {"PYTHONPATH": str(ROOT / "tools"), "MINAMO": PROGRAM}
+    if path is not None:
+        environment["PATH"] = str(path)
     return subprocess.run([sys.executable, "-P", "-B", "-m", "figuring", *map(str, arguments)], cwd=WORK, text=True,
                           env=environment, capture_output=True, check=False)
 

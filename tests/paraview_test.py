@@ -6,14 +6,17 @@ import shutil
 import subprocess
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 import h5py
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws; vtkRenderingCore alone has no pixels
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkMassProperties
 from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
 from vtkmodules.vtkIOXdmf3 import vtkXdmf3Reader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 from vtkmodules.vtkRenderingCore import vtkActor, vtkDataSetMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -21,7 +24,7 @@ WORK = Path(os.environ["WORK"])
 SCENES = {
     "dam_break": {"/time/end": 0.2, "/time/step": 0.01, "/output/every": 0.05},
     "dam_break_3d": {"/grid/cells": [16, 8, 16], "/particles/0/per_cell": 2, "/time/end": 0.2, "/time/step": 0.02,
-                     "/output/every": 0.1},
+                     "/output/every": 0.1, "/output/surface": "vtp"},
 }
 BODIES = {"/time/end": 0.2, "/grid/cells": [20, 20], "/time/step": 0.01, "/output/every": 0.1}  # of the mixer
 READERS = (vtkXdmfReader, vtkXdmf3Reader)  # ParaView offers both: "XDMF Reader" and "Xdmf3 Reader"
@@ -128,6 +131,28 @@ class ParaView(unittest.TestCase):
                         self.assertEqual(cross.GetNumberOfCells(), 12)
                         points = vtk_to_numpy(cross.GetPoints().GetData())[:, :2]
                         np.testing.assert_array_equal(points, file[f"bodies/{k}/cross/points"][:])
+
+    def test_the_surfaces_of_the_index_are_closed_and_hold_the_liquid(self):
+        folder = WORK / "dam_break_3d"
+        sets = ElementTree.parse(folder / "surface.pvd").getroot().findall("Collection/DataSet")
+        self.assertEqual([float(one.get("timestep")) for one in sets], times_of(opened(vtkXdmf3Reader, "dam_break_3d")))
+        for one in sets:
+            with self.subTest(file=one.get("file")):
+                reader = vtkXMLPolyDataReader()
+                reader.SetFileName(str(folder / one.get("file")))
+                reader.Update()
+                surface = reader.GetOutput()
+                self.assertGreater(surface.GetNumberOfPolys(), 1000)
+                self.assertEqual(column(surface, "velocity").shape, (surface.GetNumberOfPoints(), 3))
+                self.assertTrue(np.isfinite(column(surface, "velocity")).all())
+                edges = vtkFeatureEdges()
+                edges.SetInputData(surface)
+                edges.FeatureEdgesOff()  # leaves those of one triangle, and of more than two
+                edges.Update()
+                self.assertEqual(edges.GetOutput().GetNumberOfCells(), 0)
+                inside = vtkMassProperties()
+                inside.SetInputData(surface)
+                self.assertAlmostEqual(inside.GetVolume() / (0.146 * 0.146 * 0.292), 1, delta=0.01)
 
     def test_the_particles_can_be_seen(self):
         for scene in SCENES:

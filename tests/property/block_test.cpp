@@ -88,7 +88,7 @@ double difference(const Values& x, const Eigen::VectorXd& y) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property][long]", ((int Dim), Dim), 2, 3) {
   // mu dt/(rho h^2) from 0 to 125, through the diagonal velocity block and the factorized one.
   const double viscosity = GENERATE(0.0, 1e-3, 3.0, 1e2, 1e5);
   // The residual of the stiffest liquid does not fall below 3e-10 of its right-hand side, which is rounding.
@@ -113,7 +113,7 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property
 }
 
 TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK where iterations solve for stiff velocities",
-                       "[property]", ((int Dim), Dim), 2, 3) {
+                       "[property][long]", ((int Dim), Dim), 2, 3) {
   // Friction of once and seven times the inertia; more than 3000 velocities.
   constexpr double viscosity = Dim == 2 ? 10 : 450;
   constexpr int steps = Dim == 2 ? 2 : 1;  // UMFPACK takes seconds in space

@@ -465,7 +465,7 @@ TEST_CASE("friction in the balances lets energy of the faces never rise, whateve
   }
 }
 
-TEST_CASE("friction adds no energy, whatever the viscosity", "[property]") {
+TEST_CASE("friction adds no energy, whatever the viscosity", "[property][long]") {
   const auto [dimension, degree] = GENERATE(table<int, int>({{2, 2}, {2, 3}, {3, 2}}));
   const std::string integrator = GENERATE("midpoint", "newmark");
   const Json walls = any_walls(without_force(dimension, degree, 0))["walls"];
@@ -509,7 +509,7 @@ TEST_CASE("friction is the same to the last bit on one thread and on three", "[p
   CHECK(after(scene, 4, 1) == after(scene, 4, 3));
 }
 
-TEST_CASE("a shear wave decays with exp(-nu k^2 t)", "[verification]") {
+TEST_CASE("a shear wave decays with exp(-nu k^2 t)", "[verification][long]") {
   // With degree 3 transfers damp more, in every step: 0.09 of the rate at 0.01.
   const auto [degree, number] = GENERATE(table<int, double>({{2, 0.01}, {2, 0.3}, {2, 3}, {3, 0.3}, {3, 3}}));
   CAPTURE(number, degree);

@@ -125,7 +125,7 @@ TEMPLATE_TEST_CASE_SIG("theta of a node is that of the least filled node around 
 }
 
 TEMPLATE_TEST_CASE_SIG("mixed quadrature is the integral of theta and the sum of 1 - theta over particles",
-                       "[property]", ((int Dim), Dim), 2, 3) {
+                       "[property][long]", ((int Dim), Dim), 2, 3) {
   std::string integrator = "midpoint";
   if constexpr (Dim == 2) integrator = GENERATE(as<std::string>(), "midpoint", "newmark");  // 3-D takes 20 s sanitized
   SceneRun run(with(tank<Dim>(), {R"(/integrator={"scheme": ")" + integrator + "\"}"}));

@@ -17,7 +17,8 @@ class InThePlane(PageTest):
     @classmethod
     def setUpClass(cls) -> None:
         super().setUpClass()
-        cls.folder = RESULTS.run("paper/dam_break_tpic", "dam_break", "/time/end=0.1", "/time/step=0.005", "/output/every=0.02")
+        cls.folder = RESULTS.run("paper/dam_break_tpic", "dam_break", "/time/end=0.1", "/time/step=0.005",
+                                 "/output/every=0.02", '/output/surface="ply"')
         cls.page = RESULTS.page(cls.folder)
 
     def test_a_page_loads_nothing_but_itself(self) -> None:
@@ -169,6 +170,21 @@ class InThePlane(PageTest):
         self.browser.settle()
         self.assertGreater(self.reds(), 100)
         self.assertIn("interFoam at 0.1 s", self.text(".note"))
+
+    def test_the_surface_of_the_liquid_is_drawn_around_it(self) -> None:
+        self.open(self.page)
+        for frame in range(6):
+            loops = [np.array(loop).T for loop in self.js(f"app.panels[0].particles.surfaces.at({frame})")]
+            area = sum(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)) for x, y in loops)
+            self.assertAlmostEqual(1, area / (0.146 * 0.292), delta=0.01)
+        self.assertIn("line: the surface of the liquid", self.text(".note"))
+        # In the middle of the upper side of the column: the liquid below it is lighter, and nothing is above.
+        darkest = self.js("""((panel) => {
+          const [x, y] = panel.projection.point([0.073, 0.292]).map((at) => at * devicePixels());
+          const data = panel.context.getImageData(Math.round(x), Math.round(y) - 3, 1, 6).data;
+          return Math.min(...[0, 1, 2, 3, 4, 5].map((k) => data[4*k] + data[4*k + 1] + data[4*k + 2]));
+        })(app.panels[0])""")
+        self.assertLess(darkest, 130)
 
     def test_the_graph_of_the_systems_is_drawn_or_the_page_says_what_is_missing(self) -> None:
         self.open(self.page)

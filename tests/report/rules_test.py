@@ -11,6 +11,7 @@ import subprocess
 import time
 import unittest
 import zlib
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,8 @@ from reporting.overlays import corner_paths, fits, references
 from reporting.packing import pack_frames
 from reporting.particles import Particles, Quantity
 from reporting.runs import NoResults, Run
+from reporting.shading import coarsened, shaded, surface_section
+from reporting.surfaces import Surface, loops_of, packed_surfaces
 
 
 def unpacked(text: str, frames: int, order: int) -> np.ndarray:
@@ -129,6 +132,65 @@ class Sections(unittest.TestCase):
             x, y = np.delete(loops[0], axis, axis=1).T
             self.assertAlmostEqual(expected, 0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
         self.assertEqual([], chained(section(corners[rows], 0, 5.0)))
+
+
+class Surfaces(unittest.TestCase):
+    """reporting.surfaces and reporting.shading."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.space = Run(RESULTS.run("dam_break_3d", "shaded", "/grid/cells=[8,4,8]", "/time/end=0.02",
+                                    "/time/step=0.01", "/output/every=0.02", '/output/surface="vtp"'))
+
+    def test_lines_become_loops_whatever_their_order(self) -> None:
+        lines = np.array([[0, 1], [2, 0], [1, 2], [6, 3], [4, 5], [3, 4], [5, 6]])
+        loops = loops_of(Surface(np.zeros((7, 2)), lines[[4, 0, 6, 2, 1, 3, 5]]))
+        self.assertEqual({(0, 1, 2), (3, 4, 5, 6)}, {tuple(np.roll(loop, -loop.argmin())) for loop in loops})
+
+    def test_runs_without_surface_and_in_space_have_no_lines(self) -> None:
+        kept = []
+        self.assertIsNone(packed_surfaces(self.space, kept.append))
+        plane = Run(RESULTS.run("dam_break", "no_surface", "/time/end=0.004"))
+        self.assertIsNone(packed_surfaces(plane, kept.append))
+        self.assertEqual("", surface_section(plane, [0.0]))
+        self.assertEqual([], kept)
+
+    def test_what_is_coarsened_keeps_its_shape_in_fewer_triangles(self) -> None:
+        grids = np.meshgrid(np.linspace(0, np.pi, 61), np.linspace(0, 2 * np.pi, 121))
+        polar, around = (grid.ravel() for grid in grids)
+        points = np.column_stack([np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)])
+        first = (61 * np.arange(120)[:, None] + np.arange(60)).ravel()
+        triangles = np.concatenate([np.column_stack([first, first + 1, first + 62]),
+                                    np.column_stack([first, first + 62, first + 61])])
+        lost = []
+        for cell, fewer in ((0.1, 3), (0.2, 12)):
+            few = coarsened(Surface(points, triangles), cell)
+            self.assertLess(len(few.elements), len(triangles) / fewer)
+            a, b, c = (few.points[few.elements[:, k]] for k in range(3))
+            lost.append(1 - abs(np.sum(a * np.cross(b, c))) / 6 / (4 / 3 * np.pi))
+        # Means of a cap lie within the ball: 0.027 of its volume is lost with the finer cubes, 0.067 with the others.
+        self.assertLess(lost[0], 0.04)
+        self.assertLess(lost[0], 0.5 * lost[1])
+        self.assertEqual(0, len(coarsened(Surface(0.01 + 0.001 * points, triangles), 0.2).elements))
+
+    def test_the_picture_of_a_surface_has_the_column_where_it_is(self) -> None:
+        from matplotlib.image import imread
+
+        picture = imread(BytesIO(shaded(self.space, 0)))
+        blue = (picture[:, :, 3] > 0.9) & (picture[:, :, 2] > picture[:, :, 0] + 0.1)
+        rows, columns = np.nonzero(blue)
+        # A quarter of the width of the box, half of its height, at the left in front.
+        self.assertGreater(blue.mean(), 0.08)
+        self.assertLess(blue.mean(), 0.25)
+        self.assertLess(columns.max(), 0.6 * blue.shape[1])
+        self.assertGreater(rows.min(), 0.3 * blue.shape[0])
+        # The front and the right side are lit differently, so is what is above.
+        self.assertGreaterEqual(len(np.unique(np.round(picture[blue][:, 2], 1))), 3)
+
+    def test_a_page_on_a_run_in_space_has_a_picture_per_time_of_the_strip(self) -> None:
+        section = surface_section(self.space, [0.0, 0.02])
+        self.assertEqual(2, section.count("<img "))
+        self.assertIn("0.02 s</figcaption>", section)
 
 
 class WhileItRuns(unittest.TestCase):

@@ -93,7 +93,7 @@ TEST_CASE("a run that goes on ends with the bytes of one that never stopped", "[
   CHECK(differing_files(folder / "whole", folder / "parts", output).empty());
 }
 
-TEST_CASE("a run that is killed at any moment goes on to the bytes of one that was not", "[scene]") {
+TEST_CASE("a run that is killed at any moment goes on to the bytes of one that was not", "[scene][long]") {
   // More of them by hand: MINAMO_KILLS=200 build/test/minamo_tests "a run that is killed at any moment*"
   const char* wanted = std::getenv("MINAMO_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 8;

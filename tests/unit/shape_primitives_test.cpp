@@ -27,7 +27,7 @@ void check(const Shape<Dim>& shape, double expected) {
 
 }  // namespace
 
-TEST_CASE("a box is as far as its nearest face, edge or corner", "[unit]") {
+TEST_CASE("a box is as far as its nearest face, edge or corner", "[unit][long]") {
   check<2>(shapes::Box<2>({-1, 0.5}, {0.5, 1.5}), 1.5);
   check<2>(shapes::Box<2>({-1, 0.5}, {0.5, 1.5}, turned_2d), 1.5);
   check<3>(shapes::Box<3>({-1, 0.5, 0}, {0.5, 1.5, 2}), 3);
@@ -50,7 +50,7 @@ TEST_CASE("a ball is as far as its centre less the radius", "[unit]") {
   CHECK(shapes::Ball<2>({0.5, -1}, 0.7).gradient({0.5, -1}).norm() == 1);
 }
 
-TEST_CASE("an ellipsoid is as far as its nearest point", "[unit]") {
+TEST_CASE("an ellipsoid is as far as its nearest point", "[unit][long]") {
   check<2>(shapes::Ellipsoid<2>({0.5, -1}, {2, 0.3}), std::numbers::pi * 0.6);
   check<2>(shapes::Ellipsoid<2>({0.5, -1}, {0.3, 2}, turned_2d), std::numbers::pi * 0.6);
   check<3>(shapes::Ellipsoid<3>({0.5, -1, 2}, {1, 0.3, 0.6}, turned_3d), 4 * std::numbers::pi / 3 * 0.18);

@@ -180,7 +180,7 @@ TEST_CASE("the farthest particle is measured from the centre of mass", "[unit]")
   CHECK(farthest_distance(run.world(), 2) == Approx(std::sqrt(2.0) * (0.5 - 1.0 / 16)).epsilon(1e-15));
 }
 
-TEST_CASE("every study beside the scenes is valid", "[unit]") {
+TEST_CASE("every study beside the scenes is valid", "[unit][long]") {
   for (const auto& entry : std::filesystem::directory_iterator(studies)) {
     if (entry.path().extension() != ".json") continue;  // results lie beside the studies
     CAPTURE(entry.path().string());

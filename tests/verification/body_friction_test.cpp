@@ -74,7 +74,7 @@ TEST_CASE("flow between a turning ball and a sphere around it", "[verification][
   CHECK(std::abs(measured(run.world(), "ball_friction_torque_x")) < 0.01 * torque);
 }
 
-TEST_CASE("flow in a channel across the grid", "[verification]") {
+TEST_CASE("flow in a channel across the grid", "[verification][long]") {
   // Walls along the diagonal, periodic: 20 cells of h between them.
   SceneRun run(Json::parse(R"json({"dimension": 2, "constants": {"W": 1, "L": 1.76776695},
     "grid": {"low": [0, 0], "high": ["L", "L"], "cells": [35, 35]}, "walls": {"x": "periodic", "y": "periodic"},

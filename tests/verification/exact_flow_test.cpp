@@ -30,7 +30,7 @@ Json taylor_green(int cells, const std::string& integrator) {
 
 }  // namespace
 
-TEST_CASE("Taylor-Green with midpoint and TPIC converges at an order above 2", "[verification]") {
+TEST_CASE("Taylor-Green with midpoint and TPIC converges at an order above 2", "[verification][long]") {
   // t = 0.25 is 25 steps at 16 cells; 5.7e-3 and 7.0e-4 were measured, order 3.0.
   const double coarse = velocity_error(taylor_green(16, "midpoint"), 25);
   const double fine = velocity_error(taylor_green(32, "midpoint"), 50);

@@ -86,7 +86,7 @@ TEST_CASE("a light disc rises as its added mass lets it", "[verification]") {
   CHECK(value_of(run.world(), "body_velocity_y") / 0.002 == Approx(exact).epsilon(2e-2));
 }
 
-TEST_CASE("a box at the draught of Archimedes floats", "[verification]") {
+TEST_CASE("a box at the draught of Archimedes floats", "[verification][long]") {
   const double density = GENERATE(100.0, 500.0, 900.0);
   CAPTURE(density);
   const double submerged = 0.4 * density / 1000;
@@ -161,7 +161,7 @@ TEST_CASE("bodies come to rest on the floor and on each other", "[verification][
   CHECK(std::abs(value_of(run.world(), "upper_velocity_y")) < 1e-6);
 }
 
-TEST_CASE("a box that bobs gives no energy to the water and the box", "[verification]") {
+TEST_CASE("a box that bobs gives no energy to the water and the box", "[verification][long]") {
   // Too high by 0.08 m. What it gets on its way up it gives back: the volume correction may not lift water for it.
   SceneRun run(
       tank_with<2>(0.5, R"({"box": {"low": [0.3, 0.48], "high": [0.7, 0.68], "angle": 10}})", R"({"density": 500})"));

@@ -4,6 +4,7 @@
   tools/figures out/dam_break out/honey            the same, runs side by side, into the first folder
   tools/figures out/dam_break --times 0.1,0.3,0.6 --field vorticity
   tools/figures out/dam_break_3d --slice y=0.05
+  tools/figures out/splash --render --times 0.08   water in a tank, by Blender, of runs with "surface": "ply"
   tools/figures readme                             the pictures of the README; runs the scene if its results are missing
   tools/figures paper                              the figures of scenes/paper, in the same way
 """
@@ -22,6 +23,7 @@ from figuring.fields import find_field
 from figuring.layout import WIDTH, png
 from figuring.movies import check_ffmpeg, write_movie
 from figuring.plots import draw_history, draw_systems
+from figuring.rendering import Rendering, render
 from figuring.strips import Strip, draw_strip
 from figuring.views import Slice, check_slice, read_slice
 from reporting.references import read_references
@@ -56,6 +58,20 @@ def positive(text: str) -> int:
     return int(text)
 
 
+def pixels(text: str) -> tuple[int, int]:
+    """`900x600`."""
+    width, _, height = text.partition("x")
+    return positive(width), positive(height)
+
+
+def angles(text: str) -> tuple[float, float]:
+    """`-25,20`."""
+    found = numbers(text)
+    if len(found) != 2 or not -90 <= found[1] <= 90:
+        raise argparse.ArgumentTypeError(f"expected two angles, the second from -90 to 90 degrees, got \"{text}\"")
+    return found[0], found[1]
+
+
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/figures", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -75,6 +91,14 @@ def arguments() -> argparse.Namespace:
                              "with the velocity of the start, as for the rotating square")
     parser.add_argument("--fps", type=positive, metavar="N", help="frames per second; default: a movie of 6 s")
     parser.add_argument("--no-movie", action="store_true", help="pictures only")
+    parser.add_argument("--render", action="store_true",
+                        help="of the first run, in space: pictures of its surface by Blender, and nothing else; of "
+                             "every frame, or of those of --times")
+    parser.add_argument("--size", type=pixels, default=(900, 600), metavar="WxH", help="of these; default: 900x600")
+    parser.add_argument("--eye", type=angles, default=(-24.0, 16.0), metavar="A,E",
+                        help="where they are seen from: degrees to the right of the front, and above the floor; "
+                             "default: -24,16, written --eye=-24,16")
+    parser.add_argument("--samples", type=positive, default=128, metavar="N", help="rays per pixel; default: 128")
     return parser.parse_args()
 
 
@@ -100,6 +124,11 @@ def read_run(folder: str) -> Run:
 def figures(options: argparse.Namespace) -> None:
     """All figures of some runs."""
     runs = [read_run(folder) for folder in options.folders]
+    if options.render:
+        how = Rendering(options.size, options.samples, options.eye)
+        for picture in render(runs[0], options.times, how, options.out or runs[0].folder / "figures"):
+            print(picture)
+        return
     for run in runs if options.slice else []:
         check_slice(run, options.slice)
     if not options.no_movie:

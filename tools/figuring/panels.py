@@ -12,11 +12,14 @@ from matplotlib.colors import Normalize
 
 from figuring.fields import Field
 from figuring.solids import draw_flat_bodies, draw_solid_bodies, has_bodies, hidden_by_bodies
-from figuring.views import AXES, Slice, View, place, plane_of, project
+from figuring.views import AXES, Slice, View, place, plane_of
+from reporting.projection import project
 from reporting.references import Curves, corners_at
 from reporting.runs import Run
+from reporting.surfaces import has_surface, surface_of
 
 WALL = "#303030"
+SURFACE = "#202020"
 REFERENCE_COLOURS = ("#d62728", "#ff7f00", "#6a3d9a")
 SAME_TIME = 1e-6  # [s]; times of references are written with few digits
 
@@ -43,6 +46,10 @@ def draw_panel(panel, look: Look, run: Run, index: int | None, time: float, view
                    fontsize=8)
         return
     _draw_frame(panel, look, run, index)
+    if run.dimension == 2 and has_surface(run, index):
+        surface = surface_of(run, index)
+        panel.add_collection(LineCollection(surface.points[surface.elements], colors=SURFACE, linewidths=0.8,
+                                            capstyle="round", zorder=3))
     _draw_references(panel, look.references, time)
     if look.corners:
         _draw_corners(panel, run, time)

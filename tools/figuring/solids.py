@@ -9,8 +9,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path
 
-from figuring.views import Slice, plane_of, project
+from figuring.views import Slice, plane_of
 from reporting.bodies import Body, bodies_of, chained, section
+from reporting.projection import project
 from reporting.runs import Run
 
 FILL, EDGE = "#b9bec4", "#303030"

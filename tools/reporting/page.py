@@ -18,10 +18,12 @@ from reporting.overlays import corner_paths, references, walls
 from reporting.particles import Particles
 from reporting.profile import profile_section
 from reporting.runs import Run, labels, telling_times
+from reporting.shading import surface_section
+from reporting.surfaces import packed_surfaces
 
 SOURCES = Path(__file__).resolve().parent / "page"
 STYLES = ("vendor/uPlot.min.css", "page.css")
-SCRIPTS = ("vendor/uPlot.iife.min.js", "data.js", "bodies.js", "colours.js", "camera.js", "painter.js",
+SCRIPTS = ("vendor/uPlot.iife.min.js", "data.js", "bodies.js", "surfaces.js", "colours.js", "camera.js", "painter.js",
            "drawing.js", "panel.js", "colour_bar.js", "player.js", "strip.js", "plots.js", "systems.js", "theme.js",
            "app.js")
 # Particles times frames of a page, by dimension: about 30 MB at the 5 and 9 bytes that violent flows need for each.
@@ -60,7 +62,7 @@ def write_page(path: Path, runs: list[Run], times: list[float] | None, program: 
         "style": "\n".join(_source(name) for name in STYLES), "script": "\n".join(_source(name) for name in SCRIPTS),
         "particles": _particles_section(described, beside) if any(particles) else beside,
         "histories": _histories_section(described) if shown else "",
-        "sections": "\n".join([comparison_section(runs) if len(runs) > 1 else "", balance_section(runs),
+        "sections": "\n".join([*(surface_section(run, report["strip"]) for run in runs), comparison_section(runs) if len(runs) > 1 else "", balance_section(runs),
                                profile_section(runs), _graph_section(runs, program), scene_files(runs)]),
         "footer": "Written by tools/report of minamo. Plots by uPlot, MIT licence.",
         "report": json.dumps(report, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c"),
@@ -88,7 +90,7 @@ def _described(run: Run, particles: Particles | None, shown: list[Plot], packer:
         "walls": sides, "periodic": any("periodic" in each for each in sides), "times": run.times.tolist(),
         "particles": particles.packed(packer.add) if particles else None,
         "bodies": packed_bodies(bodies_of(run), packer.add),
-        "references": references(run), "corners": corner_paths(run),
+        "surfaces": packed_surfaces(run, packer.add), "references": references(run), "corners": corner_paths(run),
         "history": packed_history(run, shown, packer.add),
     }
 

@@ -55,6 +55,7 @@ class Particles {
   /** Places are at [(frame*rows + particle)*dimension + axis], 0 ... 65535 from low to low + span. */
   async loadPlaces() {
     this.bodies = await loadBodies(this.run);
+    this.surfaces = await loadSurfaces(this.run);
     const axes = [];
     for (const key of this.run.particles.position.keys) axes.push(codesOf(await unpack(key), this.frames, 2));
     this.places = new Uint16Array(axes[0].length * this.dimension);

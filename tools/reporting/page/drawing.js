@@ -60,6 +60,7 @@ function drawRun(context, width, height, particles, time, look) {
       projection,
       look.theme,
     );
+    drawSurface(context, particles.surfaces, projection, moment, look.theme);
     drawReferences(context, run, projection, time, look.theme);
     drawCorners(context, run, projection, moment.part ? time : run.times[moment.frame], look.theme);
     if (look.scale) drawScale(context, projection, height, look.theme);

@@ -45,6 +45,7 @@ class Panel {
     if (reference) parts.push(["―", `${reference.curves.name} at ${shown(reference.curves.time)} s`]);
     else if (this.run.references.length)
       parts.push(["", `${this.run.references[0].name} at ${this.referenceTimes()} s`]);
+    if (this.run.surfaces) parts.push(["", "line: the surface of the liquid"]);
     if (this.run.corners) parts.push(["×", "where the corners are in theory: in free flight"]);
     const last = this.run.times[this.run.times.length - 1];
     if (time > last * (1 + 1e-6)) parts.push(["", `ended at ${shown(last)} s`]);
