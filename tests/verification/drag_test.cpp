@@ -55,7 +55,7 @@ double drag(const Json& scene, double from, double to) {
 }  // namespace
 
 TEST_CASE("a stream does nothing to a cylinder without friction", "[verification]") {
-  // 0.24, 0.48 at 6 cells across the cylinder; 1.19, 1.57 without (E119).
+  // 0.24, 0.48 at 6 cells across the cylinder; 1.19, 1.57 without (E120).
   const auto [body_moves, most] = GENERATE(table<bool, double>({{false, 0.4}, {true, 0.7}}));
   CAPTURE(body_moves);
   CHECK(std::abs(drag(stream(cylinder, "slip", 0, 0.04, body_moves), 0.4, 1.2)) < most);
@@ -80,6 +80,6 @@ TEST_CASE("nothing is damped in liquid that turns like a rigid body in a drum", 
   double most = 0;
   for (const Vec<2>& w : run.world().column<face::Damping<2>>()) most = std::max(most, w.norm());
   // The velocities of the start, over the places of the middle, lead w^2 dt/2 = 0.02 m/s through the wall. 1.9e-4;
-  // 0.011 without (E119).
+  // 0.011 without (E120).
   CHECK(most < 4e-4);
 }
