@@ -23,9 +23,13 @@ void seed_friction(const Scene&, World& world, SeedProblems&) {
 void add_friction(const Scene& scene, Recipe& recipe) {
   const Friction friction = friction_of(scene);
   if (friction == Friction::none) return;
-  if (scene.facts.find<Rheology>() != nullptr) {
+  if (const auto* rheology = scene.facts.find<Rheology>()) {
     recipe.add("material", "shear_particles");
     recipe.add("material", "find_cell_viscosity_by_particles");
+    if (depends_on_pressure(rheology->law)) {
+      recipe.add("accept", "recover_pressure");
+      recipe.add("accept", "keep_pressure");
+    }
   } else {
     recipe.add("material", "find_cell_viscosity");
   }
@@ -44,7 +48,7 @@ RepeatsFriction repeat_friction(int iterations) {
   }};
 }
 
-/// \return the viscosity at rest
+/// \return the viscosity at rest, without pressure
 double read_flow(Input& input, Scene& scene) {
   const Rheology rheology = read_rheology(input);
   if (input.describing()) return 0;
@@ -91,6 +95,7 @@ void add_fluid(SystemRegistry& registry) {
   registry.add<ShearParticles>("shear_particles");
   registry.add<ShearParticlesAgain>("shear_particles_again");
   registry.add<FindCellViscosityByParticles>("find_cell_viscosity_by_particles");
+  registry.add<KeepPressure>("keep_pressure");
   registry.add<KeepBalanceVelocity>("keep_balance_velocity");
   registry.add<CompareBalanceVelocity>("compare_balance_velocity");
   registry.add(Part{"fluid", "density and viscosity of the liquid", read_fluid});

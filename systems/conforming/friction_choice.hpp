@@ -19,8 +19,9 @@ enum class Friction { none, at_start, in_balances };
 inline Friction friction_of(const Scene& scene) {
   constexpr double largest_at_start = 1e-2;
   const Fluid& fluid = scene.facts.get<Fluid>();
-  if (!is_conforming(scene) || fluid.viscosity == 0) return Friction::none;
+  if (!is_conforming(scene)) return Friction::none;
   if (scene.facts.find<Rheology>() != nullptr) return Friction::in_balances;
+  if (fluid.viscosity == 0) return Friction::none;
   const double h = scene.grid.spacing;
   const double diffusion = fluid.viscosity * longest_step(scene) / (fluid.density * h * h);
   const auto* walls = scene.facts.find<WallFriction>();

@@ -14,11 +14,11 @@ namespace {
 
 template <int Dim>
 void shear(const FaceTarget<Dim>& target, std::span<const Vec<Dim>> v_f, const rheology::Law& law,
-           std::span<double> g_p, std::span<double> mu_p) {
+           std::span<const double> p_p, std::span<double> g_p, std::span<double> mu_p) {
   gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f), [&](std::size_t p, const Jet<Dim>& v) {
     // 2 D:D, D = (grad v + grad v^T)/2.
     g_p[p] = std::sqrt(0.5) * (v.gradient + v.gradient.transpose()).norm();
-    mu_p[p] = viscosity_at(law, g_p[p]);
+    mu_p[p] = viscosity_at(law, g_p[p], p_p.empty() ? 0 : p_p[p]);
   });
 }
 
@@ -27,18 +27,22 @@ void shear(const FaceTarget<Dim>& target, std::span<const Vec<Dim>> v_f, const r
 template <int Dim>
 void ShearParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology,
                                      Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_f,
+                                     Read<particle::QuadraturePosition<Dim>> y_p,
+                                     Optional<Read<particle::LastPressure>> p_p, Read<face::Velocity<Dim>> v_f,
                                      Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const {
-  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), rheology->law, g_p.span(), mu_p.span());
+  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), rheology->law, p_p.span(), g_p.span(),
+             mu_p.span());
 }
 
 template <int Dim>
 void ShearParticlesAgain<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology,
                                           Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                           Read<particle::QuadraturePosition<Dim>> y_p,
+                                          Optional<Read<particle::LastPressure>> p_p,
                                           Read<face::BalanceVelocity<Dim>> v_f, Write<particle::ShearRate> g_p,
                                           Write<particle::Viscosity> mu_p) const {
-  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), rheology->law, g_p.span(), mu_p.span());
+  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), rheology->law, p_p.span(), g_p.span(),
+             mu_p.span());
 }
 
 template <int Dim>
@@ -71,6 +75,11 @@ void FindCellViscosityByParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Sp
 }
 
 template <int Dim>
+void KeepPressure<Dim>::operator()(Read<particle::Pressure> found, Write<particle::LastPressure> p_p) const {
+  std::copy(found.begin(), found.end(), p_p.begin());
+}
+
+template <int Dim>
 void KeepBalanceVelocity<Dim>::operator()(Read<face::BalanceVelocity<Dim>> v_f,
                                           Write<face::LastBalanceVelocity<Dim>> last) const {
   std::copy(v_f.begin(), v_f.end(), last.begin());
@@ -98,6 +107,8 @@ template struct ShearParticlesAgain<2>;
 template struct ShearParticlesAgain<3>;
 template struct FindCellViscosityByParticles<2>;
 template struct FindCellViscosityByParticles<3>;
+template struct KeepPressure<2>;
+template struct KeepPressure<3>;
 template struct KeepBalanceVelocity<2>;
 template struct KeepBalanceVelocity<3>;
 template struct CompareBalanceVelocity<2>;
