@@ -5,6 +5,7 @@
 #include "systems/bodies/couple.hpp"
 #include "systems/bodies/cut.hpp"
 #include "systems/bodies/cut_friction.hpp"
+#include "systems/bodies/divergence_ahead.hpp"
 #include "systems/bodies/extension.hpp"
 #include "systems/bodies/fill.hpp"
 #include "systems/bodies/forces.hpp"
@@ -188,6 +189,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   if (scene.schemes.at("volume") == "projection") recipe.add("volume", "find_solid_parts", When::step);
   recipe.add("boundaries", "extend_old_velocity");
   recipe.add("material", "fill_beside_bodies");
+  recipe.add("material", "find_divergence_ahead");
   recipe.add("material", "find_uncut_mass");
   recipe.add("material", "find_attached_mass");
   recipe.add("correct", "push_bodies", When::step);
@@ -269,6 +271,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<FindFaceExtension>("find_face_extension");
   registry.add<FindCutFriction>("find_cut_friction");
   registry.add<ExtendOldVelocity>("extend_old_velocity");
+  registry.add<FindDivergenceAhead>("find_divergence_ahead");
   registry.add<FillBesideBodies>("fill_beside_bodies");
   registry.add<FindUncutMass>("find_uncut_mass");
   registry.add<FindAttachedMass>("find_attached_mass");

@@ -151,7 +151,11 @@ void FindFaceExtension<Dim>::operator()(
   for (std::size_t i = 0; i < site.size(); ++i) {
     for (int d = 0; d < Dim; ++d) {
       if (((is_open[i] | held[i]) & (1U << d)) != 0) continue;
-      extension->targets.push_back({static_cast<std::uint32_t>(i), d, extension->targets.size() * most, 0});
+      extension->targets.push_back({.row = static_cast<std::uint32_t>(i),
+                                    .direction = d,
+                                    .begin = extension->targets.size() * most,
+                                    .count = 0,
+                                    .own = open[i][d] > sliver});
     }
   }
   extension->source.resize(extension->targets.size() * most);

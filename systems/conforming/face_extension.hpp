@@ -19,8 +19,9 @@ struct FaceExtension {
   struct Target {
     std::uint32_t row;
     std::int32_t direction;
-    std::size_t begin;                                  ///< in `source` and `weight`
-    std::size_t count;                                  ///< of open faces
+    std::size_t begin;  ///< in `source` and `weight`
+    std::size_t count;  ///< of open faces
+    bool own;  ///< open: particles see the velocity of its own, which friction ties to the one that is made here
     std::int32_t wall = -1;                             ///< body that the liquid sticks to, or -1
     RigidVector<Dim> lever = RigidVector<Dim>::Zero();  ///< weights of that body's motion
 
@@ -39,7 +40,7 @@ struct FaceExtension {
   void apply(std::span<Vec<Dim>> field, double beyond, const MotionOf& motion) const {
     for_each_row(targets.size(), [&](std::size_t k) {
       const Target& at = targets[k];
-      if (at.count == 0 && at.wall < 0) return;
+      if (at.own || (at.count == 0 && at.wall < 0)) return;
       double sum = 0;
       double least = std::numeric_limits<double>::infinity();
       double most = -least;
