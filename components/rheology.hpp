@@ -6,7 +6,9 @@
 #include "components/staggered.hpp"
 #include "engine/loop.hpp"
 
+#include <algorithm>
 #include <variant>
+#include <vector>
 
 namespace minamo {
 
@@ -53,13 +55,15 @@ struct MuI {
 
 using Law = std::variant<PowerLaw, Carreau, Bingham, HerschelBulkley, MuI>;
 
-inline bool depends_on_pressure(const Law& law) { return std::holds_alternative<MuI>(law); }
+inline bool depends_on_pressure(const std::vector<Law>& laws) {
+  return std::any_of(laws.begin(), laws.end(), [](const Law& law) { return std::holds_alternative<MuI>(law); });
+}
 
 }  // namespace rheology
 
 struct Rheology {
-  rheology::Law law;
-  int iterations = 1;  ///< most solves in a step
+  std::vector<rheology::Law> laws;  ///< one per liquid
+  int iterations = 1;               ///< most solves in a step
   static constexpr ComponentInfo info{"rheology", "mu(rate)", "Pa s", Lifetime::constant};
 };
 

@@ -80,7 +80,7 @@ Rheology read_rheology(Input& input) {
   Rheology rheology;
   const auto law = [&](const std::string& name, const std::string& doc, const auto& read) {
     return std::pair<std::string, std::function<void(Input&)>>(name, [&rheology, name, doc, read](Input& in) {
-      in.object(name, doc, Input::Presence::required, [&](Input& of) { rheology.law = read(of); });
+      in.object(name, doc, Input::Presence::required, [&](Input& of) { rheology.laws = {read(of)}; });
     });
   };
   input.one_of("how the stress depends on the shear rate",

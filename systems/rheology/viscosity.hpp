@@ -3,6 +3,7 @@
 /// (E96) Viscosity of particles and cells from how fast the liquid is sheared.
 
 #include "components/cells.hpp"
+#include "components/fluids.hpp"
 #include "components/grid.hpp"
 #include "components/rheology.hpp"
 #include "engine/system.hpp"
@@ -19,8 +20,8 @@ struct ShearParticles {
   static constexpr std::string_view doc = "(E96) shear rate and viscosity at the start of the step";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Optional<Read<particle::LastPressure>> p_p, Read<face::Velocity<Dim>> v_f,
-                  Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
+                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<particle::LastPressure>> p_p,
+                  Read<face::Velocity<Dim>> v_f, Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
 };
 
 /// (E96) of the velocity that the balances have given.
@@ -29,8 +30,9 @@ struct ShearParticlesAgain {
   static constexpr std::string_view doc = "(E96) shear rate and viscosity of the balances";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Optional<Read<particle::LastPressure>> p_p, Read<face::BalanceVelocity<Dim>> v_f,
-                  Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
+                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<particle::LastPressure>> p_p,
+                  Read<face::BalanceVelocity<Dim>> v_f, Write<particle::ShearRate> g_p,
+                  Write<particle::Viscosity> mu_p) const;
 };
 
 /// (E96)  mu_c = sum_p V_p g_p^2 mu_p/sum_p V_p g_p^2, with which the cell dissipates what its particles do, times what
