@@ -13,15 +13,17 @@
 
 namespace minamo {
 
-/// What the velocity of every closed face is made of.
+/// What the velocity of every closed face is made of, and that which friction holds an open one to that is close to a
+/// wall. Particles see the own velocity of open faces: set back to this one in every step, it would cost an impulse in
+/// the balance of mass, a force like 1/dt.
 template <int Dim>
 struct FaceExtension {
   struct Target {
     std::uint32_t row;
     std::int32_t direction;
-    std::size_t begin;  ///< in `source` and `weight`
-    std::size_t count;  ///< of open faces
-    bool own;  ///< open: particles see the velocity of its own, which friction ties to the one that is made here
+    std::size_t begin;                                  ///< in `source` and `weight`
+    std::size_t count;                                  ///< of open faces
+    bool own = false;                                   ///< open enough for a velocity of its own
     std::int32_t wall = -1;                             ///< body that the liquid sticks to, or -1
     RigidVector<Dim> lever = RigidVector<Dim>::Zero();  ///< weights of that body's motion
 
