@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// (E112) The divergence that a velocity without divergence at the start of a step has at its middle, beside bodies.
+/// (E117) The divergence that a velocity without divergence at the start of a step has at its middle, beside bodies.
 ///
 /// Inside the liquid the velocities of the start, over the places of the middle, have the divergence -dt/2 tr(grad v
 /// grad v), the second term of (E63). Along a curved wall, and in front of one, they also lead through the wall, since
-/// the liquid turns in half a step. Damping that takes this for an error holds the liquid back: without (E112) a
+/// the liquid turns in half a step. Damping that takes this for an error holds the liquid back: without (E117) a
 /// cylinder without friction has a drag coefficient of 1.6 instead of 0 on any grid.
 
 #include "components/body.hpp"
@@ -18,11 +18,11 @@
 
 namespace minamo {
 
-/// (E112) in the place of what particles bring to multipliers that bodies cut; with transfer schemes that carry a
+/// (E117) in the place of what particles bring to multipliers that bodies cut; with transfer schemes that carry a
 /// gradient.
 template <int Dim>
 struct FindDivergenceAhead {
-  static constexpr std::string_view doc = "(E112) divergence of the middle beside bodies";
+  static constexpr std::string_view doc = "(E117) divergence of the middle beside bodies";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
                   Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells,

@@ -52,7 +52,7 @@ struct FindMobility {
                   Write<face::Mobility<Dim>> mobility) const;
 };
 
-/// (E68)  1/m_f with the mass of a full grid where the liquid fills it, of several liquids with (E113).
+/// (E68)  1/m_f with the mass of a full grid where the liquid fills it, of several liquids with (E118).
 template <int Dim>
 struct FindMobilityMixed {
   static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";

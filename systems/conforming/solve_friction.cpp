@@ -82,7 +82,7 @@ struct FrictionSystem {
     for_each_row(work.r.size(), [&](std::size_t f) { work.z[f] = work.per_g[f] * work.r[f]; });
     return dot(work.r, work.z);
   }
-  /// (E114) pays where a tenth of many faces have much more friction than inertia.
+  /// (E119) pays where a tenth of many faces have much more friction than inertia.
   bool is_stiff() const {
     constexpr std::size_t many = 2000;
     constexpr double much = 20;
@@ -93,7 +93,7 @@ struct FrictionSystem {
     for (const double mass : work.mass) held += mass == 0 ? 1 : 0;
     return 10 * (stiff - held) > work.mass.size();
   }
-  /// (E114) \param left  r . z before \return r . z
+  /// (E119) \param left  r . z before \return r . z
   double add_streams(double left) const {
     if (!has_streams) return left;
     work.streams.correct(work.r, work.z);

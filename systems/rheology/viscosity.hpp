@@ -14,7 +14,7 @@
 namespace minamo {
 
 /// (E96)  g_p = sqrt(2 D:D) of the velocity at the start of the step at y_p, and mu_p = mu(g_p), (E95); of grains with
-/// the pressure of the last step, (E112).
+/// the pressure of the last step, (E117).
 template <int Dim>
 struct ShearParticles {
   static constexpr std::string_view doc = "(E96) shear rate and viscosity at the start of the step";
@@ -46,10 +46,10 @@ struct FindCellViscosityByParticles {
                   Optional<Read<FrictionAtRest<Dim>>> at_rest, Write<cell::Viscosity> mu_c) const;
 };
 
-/// (E112)  For the next step: the pressure that this one has found.
+/// (E117)  For the next step: the pressure that this one has found.
 template <int Dim>
 struct KeepPressure {
-  static constexpr std::string_view doc = "(E112) p_p for the viscosity of the next step";
+  static constexpr std::string_view doc = "(E117) p_p for the viscosity of the next step";
   void operator()(Read<particle::Pressure> found, Write<particle::LastPressure> p_p) const;
 };
 

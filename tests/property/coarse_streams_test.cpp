@@ -1,5 +1,5 @@
 /// \file
-/// (E114) The second level of friction in the plane: few iterations on any grid at any contrast, and the same solution.
+/// (E119) The second level of friction in the plane: few iterations on any grid at any contrast, and the same solution.
 
 #include "support/scene_run.hpp"
 
