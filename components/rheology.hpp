@@ -6,11 +6,13 @@
 #include "components/staggered.hpp"
 #include "engine/loop.hpp"
 
+#include <algorithm>
 #include <variant>
+#include <vector>
 
 namespace minamo {
 
-/// The viscosity of every law is a function of the shear rate, sqrt(2 D:D). [1/s]
+/// The viscosity of every law is a function of the shear rate, sqrt(2 D:D) [1/s], that of grains of the pressure, too.
 namespace rheology {
 
 /// W. Ostwald, Kolloid-Z. 36 (1925) 99; A. de Waele (1923): consistency * rate^(index - 1), between two limits.
@@ -41,13 +43,27 @@ struct HerschelBulkley {
   double regularization = 1e3;
 };
 
-using Law = std::variant<PowerLaw, Carreau, Bingham, HerschelBulkley>;
+/// Dry grains. P. Jop, Y. Forterre, O. Pouliquen, Nature 441 (2006) 727, regularized in the same way.
+struct MuI {
+  double least = 0;     ///< friction coefficient at rest [1]
+  double most = 0;      ///< at high rates [1]
+  double I0 = 0;        ///< inertial number half way between [1]
+  double diameter = 0;  ///< of a grain [m]
+  double density = 0;   ///< of a grain [kg/m^3]
+  double regularization = 1e5;
+};
+
+using Law = std::variant<PowerLaw, Carreau, Bingham, HerschelBulkley, MuI>;
+
+inline bool depends_on_pressure(const std::vector<Law>& laws) {
+  return std::any_of(laws.begin(), laws.end(), [](const Law& law) { return std::holds_alternative<MuI>(law); });
+}
 
 }  // namespace rheology
 
 struct Rheology {
-  rheology::Law law;
-  int iterations = 1;  ///< most solves in a step
+  std::vector<rheology::Law> laws;  ///< one per liquid
+  int iterations = 1;               ///< most solves in a step
   static constexpr ComponentInfo info{"rheology", "mu(rate)", "Pa s", Lifetime::constant};
 };
 
@@ -67,6 +83,10 @@ struct ShearRate : Column<Particles, double> {
 /// Dynamic viscosity. [Pa s]
 struct Viscosity : Column<Particles, double> {
   static constexpr ComponentInfo info{"particle.viscosity", "mu_p", "Pa s", Lifetime::cache};
+};
+/// Pressure of the last step, where the viscosity depends on it. [Pa]
+struct LastPressure : Column<Particles, double> {
+  static constexpr ComponentInfo info{"particle.last_pressure", "p_p", "Pa", Lifetime::state};
 };
 
 }  // namespace particle

@@ -13,7 +13,7 @@ from typing import Any, Iterator
 from jsonschema import Draft202012Validator
 
 # Their keys are names that the user chooses.
-FREE_NAMES = {"constants", "ode"}
+FREE_NAMES = {"constants", "ode", "fluids"}
 
 
 def objects(value: Any, under: str = "") -> Iterator[dict[str, Any]]:

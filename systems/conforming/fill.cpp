@@ -147,6 +147,7 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                         Read<face::Held> held, Read<face::Mass<Dim>> m_f,
                                         Read<multiplier::LeastFill> least, Optional<Read<face::UncutMass<Dim>>> uncut,
+                                        Optional<Read<face::Density<Dim>>> rho_f,
                                         Write<face::Mobility<Dim>> mobility) const {
   const auto of_particles = uncut ? uncut.span() : m_f.span();
   // Of the multipliers below and above a face; at a wall there is one.
@@ -158,8 +159,10 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
   };
   invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
                      [&](std::size_t i, std::size_t d, double full) {
+                       const auto axis = static_cast<Eigen::Index>(d);
                        const double theta = filled_indicator(fill_of_face(i, d));
-                       return (1 - theta) * of_particles[i][static_cast<Eigen::Index>(d)] + theta * full;
+                       const double whole = rho_f ? rho_f[i][axis] / fluid->density * full : full;
+                       return (1 - theta) * of_particles[i][axis] + theta * whole;
                      });
 }
 

@@ -5,7 +5,7 @@
 #include "components/body.hpp"
 #include "components/cells.hpp"
 #include "components/contact.hpp"
-#include "components/fluid.hpp"
+#include "components/fluids.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "components/surface_tension.hpp"
@@ -53,14 +53,14 @@ struct FindMobility {
                   Write<face::Mobility<Dim>> mobility) const;
 };
 
-/// (E68)  1/m_f with the mass of a full grid where the liquid fills it.
+/// (E68)  1/m_f with the mass of a full grid where the liquid fills it, of several liquids with (E118).
 template <int Dim>
 struct FindMobilityMixed {
   static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
                   Read<multiplier::LeastFill> least, Optional<Read<face::UncutMass<Dim>>> uncut,
-                  Write<face::Mobility<Dim>> mobility) const;
+                  Optional<Read<face::Density<Dim>>> rho_f, Write<face::Mobility<Dim>> mobility) const;
 };
 
 /// (E78)  The active multipliers and the matrix S = B m^-1 B^T between them.

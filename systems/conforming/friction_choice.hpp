@@ -2,7 +2,7 @@
 /// \file
 /// How friction of the conforming discretization enters the balances of a scene.
 
-#include "components/fluid.hpp"
+#include "components/fluids.hpp"
 #include "components/rheology.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
@@ -14,15 +14,25 @@ namespace minamo {
 
 enum class Friction { none, at_start, in_balances };
 
+/// Of the thickest liquid, weighed by the lightest where there are several. [m^2/s]
+inline double largest_diffusivity(const Scene& scene) {
+  const Fluid& fluid = scene.facts.get<Fluid>();
+  double lightest = fluid.density;
+  if (const auto* fluids = scene.facts.find<Fluids>()) {
+    for (const Fluid& of : fluids->of) lightest = std::min(lightest, of.density);
+  }
+  return fluid.viscosity / lightest;
+}
+
 /// Up to nu dt/h^2 = 1e-2 friction at the start of the step is exact enough, and costs next to nothing. A wall with
 /// slip length b is as stiff as nu dt/(b h). A viscosity that depends on the flow has no bound that is known before.
 inline Friction friction_of(const Scene& scene) {
   constexpr double largest_at_start = 1e-2;
-  const Fluid& fluid = scene.facts.get<Fluid>();
-  if (!is_conforming(scene) || fluid.viscosity == 0) return Friction::none;
+  if (!is_conforming(scene)) return Friction::none;
   if (scene.facts.find<Rheology>() != nullptr) return Friction::in_balances;
+  if (scene.facts.get<Fluid>().viscosity == 0) return Friction::none;
   const double h = scene.grid.spacing;
-  const double diffusion = fluid.viscosity * longest_step(scene) / (fluid.density * h * h);
+  const double diffusion = largest_diffusivity(scene) * longest_step(scene) / (h * h);
   const auto* walls = scene.facts.find<WallFriction>();
   const double number = walls == nullptr ? diffusion : diffusion * std::max(1.0, h * walls->largest_per_length);
   return number <= largest_at_start ? Friction::at_start : Friction::in_balances;

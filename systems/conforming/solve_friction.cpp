@@ -21,6 +21,7 @@ struct FrictionSystem {
   std::span<const std::int32_t> row;
   Passage<Dim> passage;
   FrictionWork<Dim>& work;
+  bool has_streams = false;
 
   bool walls_rub() const { return friction.cut != nullptr; }
 
@@ -81,6 +82,23 @@ struct FrictionSystem {
     for_each_row(work.r.size(), [&](std::size_t f) { work.z[f] = work.per_g[f] * work.r[f]; });
     return dot(work.r, work.z);
   }
+  /// (E119) pays where a tenth of many faces have much more friction than inertia.
+  bool is_stiff() const {
+    constexpr std::size_t many = 2000;
+    constexpr double much = 20;
+    if (work.mass.size() < many) return false;
+    std::size_t stiff = 0;
+    for (std::size_t f = 0; f < work.mass.size(); ++f) stiff += work.mass[f] * work.per_g[f] * (1 + much) < 1 ? 1 : 0;
+    std::size_t held = 0;
+    for (const double mass : work.mass) held += mass == 0 ? 1 : 0;
+    return 10 * (stiff - held) > work.mass.size();
+  }
+  /// (E119) \param left  r . z before \return r . z
+  double add_streams(double left) const {
+    if (!has_streams) return left;
+    work.streams.correct(work.r, work.z);
+    return dot(work.r, work.z);
+  }
   /// What passes a face of G^-1 r.
   double through(std::size_t f) const {
     return passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) * work.per_g[f] * work.r[f];
@@ -118,16 +136,18 @@ struct FrictionSystem {
     for_each_row(work.f.size(), [&](std::size_t f) { work.r[f] = work.f[f] - work.product[f]; });
     std::fill(work.sum_of_y.begin(), work.sum_of_y.end(), 0.0);
     double left = project();
+    double sloped = add_streams(left);
     work.direction = work.z;
     for (std::int64_t k = 0;; ++k) {
       if (left <= target * target || k == most_friction_iterations || !std::isfinite(left)) return k;
       apply(work.direction, work.product);
-      const double step = left / dot(work.direction, work.product);
+      const double step = sloped / dot(work.direction, work.product);
       add_scaled(step, work.direction, work.v);
       add_scaled(-step, work.product, work.r);
-      const double before = std::exchange(left, project());
+      left = project();
+      const double before = std::exchange(sloped, add_streams(left));
       for_each_row(work.z.size(),
-                   [&](std::size_t f) { work.direction[f] = work.z[f] + left / before * work.direction[f]; });
+                   [&](std::size_t f) { work.direction[f] = work.z[f] + sloped / before * work.direction[f]; });
     }
   }
 };
@@ -185,6 +205,12 @@ void SolveFriction<Dim>::operator()(
   work->multipliers.prepare(*splines, system.incidence,
                             {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span()},
                             work->through);
+  if constexpr (Dim == 2) {
+    if (!open && system.is_stiff()) {
+      work->streams.prepare(grid->spacing, system.friction, site.span(), work->mass);
+      system.has_streams = true;
+    }
+  }
   const double size = std::sqrt(weighted_square(work->per_g, work->f));
   report->iterations = system.solve(tolerance->relative * size);
   if (size > 0) report->residual = std::max(report->residual, system.residual() / size);

@@ -15,6 +15,7 @@
 #include "components/step.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
+#include "systems/conforming/coarse_streams.hpp"
 #include "systems/conforming/cut_friction.hpp"
 #include "systems/conforming/face_extension.hpp"
 #include "systems/conforming/friction_matrices.hpp"
@@ -27,10 +28,11 @@ namespace minamo {
 template <int Dim>
 struct FrictionWork {
   MultiplierMatrix<Dim> multipliers;
-  Values mass, per_g;  ///< m/tau, 0 at faces that walls hold; G^-1
-  Values through;      ///< a_f^2 G^-1
-  Values tie;          ///< of closed faces where bodies rub, else empty [kg/s]
-  Values extended;     ///< room for velocities of closed faces
+  CoarseStreams streams;  ///< in the plane, without bodies
+  Values mass, per_g;     ///< m/tau, 0 at faces that walls hold; G^-1
+  Values through;         ///< a_f^2 G^-1
+  Values tie;             ///< of closed faces where bodies rub, else empty [kg/s]
+  Values extended;        ///< room for velocities of closed faces
   Values f, v, r, z, direction, product;
   Values divergence, y, sum_of_y;
   static constexpr ComponentInfo info{"solve.friction_work", "", "", Lifetime::cache};

@@ -30,6 +30,8 @@ std::vector<double> row_by_row(std::span<const Mat<Dim>> values) {
 
 std::string group(std::size_t frame) { return fmt::format("/particles/{}", frame); }
 
+constexpr std::string_view whole_numbers = R"(NumberType="Int" Precision="8")";
+
 /// A dataset of fields.h5 as an XDMF data item.
 std::string data_item(std::size_t frame, const std::string& name, std::size_t rows, int width,
                       std::string_view type = R"(NumberType="Float" Precision="8")") {
@@ -60,7 +62,7 @@ std::string time_text(const FieldsFile::Frame& frame) {
 template <int Dim>
 std::string particles_text(const FieldsFile::Frame& frame, std::size_t k, const std::string& head) {
   const std::size_t n = frame.particles;
-  const std::string ids = data_item(k, "id", n, 1, R"(NumberType="Int" Precision="8")");
+  const std::string ids = data_item(k, "id", n, 1, whole_numbers);
   std::string text = fmt::format("      <Grid Name=\"particles\" GridType=\"Uniform\">\n{}"
                                  "{}        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
                                  head, vertices(ids, n), Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
@@ -68,6 +70,10 @@ std::string particles_text(const FieldsFile::Frame& frame, std::size_t k, const 
   text += attribute("pressure", "Scalar", data_item(k, "pressure", n, 1));
   text += attribute("id", "Scalar", ids);
   for (const std::string& field : frame.extra_fields) {
+    if (field == "fluid") {
+      text += attribute(field, "Scalar", data_item(k, field, n, 1, whole_numbers));
+      continue;
+    }
     const bool is_tensor = field == "velocity_gradient";
     text += attribute(field, is_tensor ? "Matrix" : "Scalar", data_item(k, field, n, is_tensor ? Dim * Dim : 1));
   }
@@ -104,7 +110,7 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
                                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
                                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                  Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
-                                 Update<FieldsFile> fields) const {
+                                 Optional<Read<particle::FluidIndex>> k_p, Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
   const std::string name = group(fields->frames.size());
   begin_frame(*fields, clock->time, x_p.size());
@@ -118,12 +124,13 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
     frame.extents.push_back(file.write(name + "/velocity_gradient", row_by_row<Dim>(grad_v_p.span()), Dim * Dim));
     frame.extra_fields.emplace_back("velocity_gradient");
   }
-  const auto write_scalar = [&](const char* field, std::span<const double> values) {
+  const auto write_scalar = [&](const char* field, const auto& values) {
     fields->frames.back().extents.push_back(file.write(name + "/" + field, values));
     fields->frames.back().extra_fields.emplace_back(field);
   };
   if (g_p) write_scalar("shear_rate", g_p.span());
   if (mu_p) write_scalar("viscosity", mu_p.span());
+  if (k_p) write_scalar("fluid", k_p.span());
   file.set_attribute(name, "time", clock->time);
   file.close();
 }

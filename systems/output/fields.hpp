@@ -3,6 +3,7 @@
 /// fields.h5 and fields.xdmf: what particles carry, at every output time. /particles/{frame}/{position, velocity,
 /// pressure, id, ...}, attribute `time`. Bodies are in body_fields.hpp.
 
+#include "components/fluids.hpp"
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
@@ -31,7 +32,8 @@ struct WriteFrame {
   void operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<particle::ShearRate>> g_p,
-                  Optional<Read<particle::Viscosity>> mu_p, Update<FieldsFile> fields) const;
+                  Optional<Read<particle::Viscosity>> mu_p, Optional<Read<particle::FluidIndex>> k_p,
+                  Update<FieldsFile> fields) const;
 };
 
 /// Rewrites fields.xdmf, the index that ParaView opens. With bodies a frame is a collection of particles and bodies.

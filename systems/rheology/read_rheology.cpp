@@ -11,11 +11,11 @@ double read_index(Input& in) {
                              .at_most = 3,
                              .above = 0});
 }
-double read_regularization(Input& in) {
+double read_regularization(Input& in, double fallback) {
   return in.number("regularization",
                    {.doc = "the yield stress grows to its value within this fraction of the rate at which the viscous "
                            "stress is as large",
-                    .fallback = 1e3,
+                    .fallback = fallback,
                     .at_least = 1,
                     .at_most = 1e7});
 }
@@ -47,7 +47,7 @@ Bingham read_bingham(Input& in) {
   Bingham law;
   law.yield_stress = read_yield_stress(in);
   law.viscosity = in.number("viscosity", {.unit = "Pa s", .doc = "above the yield stress", .above = 0});
-  law.regularization = read_regularization(in);
+  law.regularization = read_regularization(in, 1e3);
   return law;
 }
 
@@ -57,7 +57,20 @@ HerschelBulkley read_herschel_bulkley(Input& in) {
   law.consistency =
       in.number("consistency", {.unit = "Pa s^index", .doc = "stress above the yield stress at 1/s", .above = 0});
   law.index = read_index(in);
-  law.regularization = read_regularization(in);
+  law.regularization = read_regularization(in, 1e3);
+  return law;
+}
+
+MuI read_mu_i(Input& in) {
+  MuI law;
+  law.least = in.number("static", {.doc = "friction coefficient of grains at rest", .above = 0});
+  law.most = in.number("dynamic", {.doc = "friction coefficient at high rates", .above = 0});
+  law.I0 = in.number("I0", {.doc = "inertial number at which it is half way between", .above = 0});
+  law.diameter = in.number("diameter", {.unit = "m", .doc = "of a grain", .above = 0});
+  law.density = in.number("density", {.unit = "kg/m^3", .doc = "of a grain, not of grains with gaps", .above = 0});
+  law.regularization = read_regularization(in, 1e5);
+  if (!in.describing() && in.sound("static") && in.sound("dynamic") && law.least > law.most)
+    in.problem("static", "more than dynamic", "at most dynamic");
   return law;
 }
 
@@ -67,14 +80,15 @@ Rheology read_rheology(Input& input) {
   Rheology rheology;
   const auto law = [&](const std::string& name, const std::string& doc, const auto& read) {
     return std::pair<std::string, std::function<void(Input&)>>(name, [&rheology, name, doc, read](Input& in) {
-      in.object(name, doc, Input::Presence::required, [&](Input& of) { rheology.law = read(of); });
+      in.object(name, doc, Input::Presence::required, [&](Input& of) { rheology.laws = {read(of)}; });
     });
   };
   input.one_of("how the stress depends on the shear rate",
                {law("power_law", "consistency rate^index, of Ostwald and de Waele", read_power_law),
                 law("carreau", "from one viscosity at rest to another at high rates", read_carreau),
                 law("bingham", "flows above a yield stress, then like a Newtonian liquid", read_bingham),
-                law("herschel_bulkley", "flows above a yield stress, then by a power law", read_herschel_bulkley)});
+                law("herschel_bulkley", "flows above a yield stress, then by a power law", read_herschel_bulkley),
+                law("mu_i", "dry grains, whose friction grows with pressure and rate", read_mu_i)});
   rheology.iterations =
       static_cast<int>(input.integer("iterations", {.doc = "most solves in a step: 1 takes the viscosity of its start",
                                                     .fallback = 10,

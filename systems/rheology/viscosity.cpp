@@ -3,6 +3,7 @@
 #include "systems/conforming/cell_room.hpp"
 #include "systems/conforming/gather.hpp"
 #include "systems/grid/filled_nodes.hpp"
+#include "systems/rheology/dissipation.hpp"
 #include "systems/rheology/law.hpp"
 
 #include <algorithm>
@@ -12,13 +13,25 @@ namespace minamo {
 
 namespace {
 
+/// What the viscosity of a particle follows from.
+struct Flow {
+  const Rheology& rheology;
+  std::span<const std::int64_t> k_p;  ///< empty with one liquid
+  std::span<const double> p_p;        ///< empty where no law asks
+
+  double viscosity_of(std::size_t p, double rate) const {
+    const auto k = static_cast<std::size_t>(k_p.empty() ? 0 : k_p[p]);
+    return viscosity_at(rheology.laws[k], rate, p_p.empty() ? 0 : p_p[p]);
+  }
+};
+
 template <int Dim>
-void shear(const FaceTarget<Dim>& target, std::span<const Vec<Dim>> v_f, const rheology::Law& law,
-           std::span<double> g_p, std::span<double> mu_p) {
+void shear(const FaceTarget<Dim>& target, std::span<const Vec<Dim>> v_f, const Flow& flow, std::span<double> g_p,
+           std::span<double> mu_p) {
   gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f), [&](std::size_t p, const Jet<Dim>& v) {
     // 2 D:D, D = (grad v + grad v^T)/2.
     g_p[p] = std::sqrt(0.5) * (v.gradient + v.gradient.transpose()).norm();
-    mu_p[p] = viscosity_at(law, g_p[p]);
+    mu_p[p] = flow.viscosity_of(p, g_p[p]);
   });
 }
 
@@ -27,18 +40,24 @@ void shear(const FaceTarget<Dim>& target, std::span<const Vec<Dim>> v_f, const r
 template <int Dim>
 void ShearParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology,
                                      Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                                     Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_f,
+                                     Read<particle::QuadraturePosition<Dim>> y_p,
+                                     Optional<Read<particle::FluidIndex>> k_p,
+                                     Optional<Read<particle::LastPressure>> p_p, Read<face::Velocity<Dim>> v_f,
                                      Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const {
-  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), rheology->law, g_p.span(), mu_p.span());
+  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), {*rheology, k_p.span(), p_p.span()}, g_p.span(),
+             mu_p.span());
 }
 
 template <int Dim>
 void ShearParticlesAgain<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology,
                                           Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                           Read<particle::QuadraturePosition<Dim>> y_p,
+                                          Optional<Read<particle::FluidIndex>> k_p,
+                                          Optional<Read<particle::LastPressure>> p_p,
                                           Read<face::BalanceVelocity<Dim>> v_f, Write<particle::ShearRate> g_p,
                                           Write<particle::Viscosity> mu_p) const {
-  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), rheology->law, g_p.span(), mu_p.span());
+  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), {*rheology, k_p.span(), p_p.span()}, g_p.span(),
+             mu_p.span());
 }
 
 template <int Dim>
@@ -49,25 +68,25 @@ void FindCellViscosityByParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Sp
                                                    Optional<Read<CutFriction<Dim>>> cut,
                                                    Optional<Read<FrictionAtRest<Dim>>> at_rest,
                                                    Write<cell::Viscosity> mu_c) const {
-  constexpr double least = 1e-200;  // squared rate [1/s^2]
   const CellRoom<Dim> room(grid->spacing, cut, at_rest);
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       double volume = 0;
-      double sheared = 0;
-      double friction = 0;
+      Dissipation dissipation;
       for (std::size_t p = cell.begin; p < cell.end; ++p) {
         volume += V_p[p];
-        // The least that tells particles at rest apart from none.
-        const double dissipates = V_p[p] * std::max(g_p[p] * g_p[p], least);
-        sheared += dissipates;
-        friction += dissipates * mu_p[p];
+        dissipation.add(V_p[p], g_p[p], mu_p[p]);
       }
       const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), phi.span()));
-      mu_c[c] = friction / sheared * room.liquid_share(c, theta, volume);
+      mu_c[c] = dissipation.viscosity() * room.liquid_share(c, theta, volume);
     });
   });
+}
+
+template <int Dim>
+void KeepPressure<Dim>::operator()(Read<particle::Pressure> found, Write<particle::LastPressure> p_p) const {
+  std::copy(found.begin(), found.end(), p_p.begin());
 }
 
 template <int Dim>
@@ -98,6 +117,8 @@ template struct ShearParticlesAgain<2>;
 template struct ShearParticlesAgain<3>;
 template struct FindCellViscosityByParticles<2>;
 template struct FindCellViscosityByParticles<3>;
+template struct KeepPressure<2>;
+template struct KeepPressure<3>;
 template struct KeepBalanceVelocity<2>;
 template struct KeepBalanceVelocity<3>;
 template struct CompareBalanceVelocity<2>;

@@ -3,6 +3,7 @@
 /// (E96) Viscosity of particles and cells from how fast the liquid is sheared.
 
 #include "components/cells.hpp"
+#include "components/fluids.hpp"
 #include "components/grid.hpp"
 #include "components/rheology.hpp"
 #include "engine/system.hpp"
@@ -12,13 +13,15 @@
 
 namespace minamo {
 
-/// (E96)  g_p = sqrt(2 D:D) of the velocity at the start of the step at y_p, and mu_p = mu(g_p), (E95).
+/// (E96)  g_p = sqrt(2 D:D) of the velocity at the start of the step at y_p, and mu_p = mu(g_p), (E95); of grains with
+/// the pressure of the last step, (E117).
 template <int Dim>
 struct ShearParticles {
   static constexpr std::string_view doc = "(E96) shear rate and viscosity at the start of the step";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology, Read<GridCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_f,
-                  Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<particle::LastPressure>> p_p,
+                  Read<face::Velocity<Dim>> v_f, Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
 };
 
 /// (E96) of the velocity that the balances have given.
@@ -27,6 +30,7 @@ struct ShearParticlesAgain {
   static constexpr std::string_view doc = "(E96) shear rate and viscosity of the balances";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<particle::LastPressure>> p_p,
                   Read<face::BalanceVelocity<Dim>> v_f, Write<particle::ShearRate> g_p,
                   Write<particle::Viscosity> mu_p) const;
 };
@@ -40,6 +44,13 @@ struct FindCellViscosityByParticles {
                   Read<particle::Volume> V_p, Read<particle::ShearRate> g_p, Read<particle::Viscosity> mu_p,
                   Read<multiplier::FillFraction> phi, Optional<Read<CutFriction<Dim>>> cut,
                   Optional<Read<FrictionAtRest<Dim>>> at_rest, Write<cell::Viscosity> mu_c) const;
+};
+
+/// (E117)  For the next step: the pressure that this one has found.
+template <int Dim>
+struct KeepPressure {
+  static constexpr std::string_view doc = "(E117) p_p for the viscosity of the next step";
+  void operator()(Read<particle::Pressure> found, Write<particle::LastPressure> p_p) const;
 };
 
 /// Before the loop: the velocities to compare with.

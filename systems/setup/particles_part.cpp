@@ -1,4 +1,4 @@
-#include "components/fluid.hpp"
+#include "components/fluids.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "systems/bodies/bodies_part.hpp"
@@ -31,6 +31,31 @@ Region read_region(Input& input, const Scene& scene) {
     auto shape = read_shape<dim()>(input, scene, ShapePlace::inside_the_grid, where_it_is_true);
     return shape ? Region(std::move(shape)) : Region(where.value_or(Where()));
   });
+}
+
+/// Which of several liquids every region is filled with.
+struct FluidsOfRegions {
+  std::vector<std::size_t> of;
+};
+
+std::size_t read_fluid_of(Input& input, const Scene& scene) {
+  const std::string doc = "which of the \"fluids\"; required with several";
+  if (input.describing()) {
+    input.optional_text("fluid", doc);
+    return 0;
+  }
+  if (const auto* fluids = scene.facts.find<Fluids>()) {
+    if (fluids->names.empty()) {
+      input.optional_text("fluid", doc);
+      return 0;
+    }
+    const auto& names = fluids->names;
+    const auto named = std::find(names.begin(), names.end(), input.choice("fluid", names, doc));
+    return static_cast<std::size_t>(named - names.begin());
+  }
+  if (input.optional_text("fluid", doc))
+    input.problem("fluid", "there are no fluids with names", "\"fluids\", not \"fluid\"");
+  return 0;
 }
 
 ParticleScene read_particles(Input& input, const Scene& scene) {
@@ -121,6 +146,13 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
   return seeds;
 }
 
+/// Of the liquid in a region.
+double density_of(const Scene& scene, std::size_t region) {
+  const auto* fluids = scene.facts.find<Fluids>();
+  return fluids == nullptr ? scene.facts.get<Fluid>().density
+                           : fluids->of[scene.facts.get<FluidsOfRegions>().of[region]].density;
+}
+
 /// (E6)  V_p = (h/n)^d for n per cell and direction, m_p = rho V_p, v_p = v(x_p), grad v_p by central differences.
 template <int Dim>
 void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& seeds, World& world,
@@ -134,7 +166,7 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
   const auto id = world.column<particle::Id>();
   const auto grad_v_p = with_gradient ? world.column<particle::VelocityGradient<Dim>>() : std::span<Mat<Dim>>{};
   const Instant start = scene.start;
-  const double density = scene.facts.get<Fluid>().density;
+  const auto k_p = scene.facts.find<Fluids>() ? world.column<particle::FluidIndex>() : std::span<std::int64_t>{};
   std::vector<bool> reported(scene.particles.size(), false);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const std::size_t r = seeds.region[p];
@@ -142,7 +174,8 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     x_p[p] = seeds.position[p];
     id[p] = static_cast<std::int64_t>(p);
     V_p[p] = seeds.share[p] * std::pow(grid.spacing / region.per_cell, Dim);
-    m_p[p] = density * V_p[p];
+    m_p[p] = density_of(scene, r) * V_p[p];
+    if (!k_p.empty()) k_p[p] = static_cast<std::int64_t>(scene.facts.get<FluidsOfRegions>().of[r]);
     v_p[p] = value_at<Dim>(region.velocity, x_p[p], start);
     if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], start, grid.spacing);
     const bool finite = v_p[p].allFinite() && (!with_gradient || grad_v_p[p].allFinite());
@@ -157,11 +190,15 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
 /// Of every region a particle must weigh something, and not infinitely much.
 template <int Dim>
 void check_mass(const Scene& scene, const Grid<Dim>& grid, SeedProblems& problems) {
-  const double density = scene.facts.get<Fluid>().density;
-  for (const ParticleScene& region : scene.particles) {
-    const double mass = density * std::pow(grid.spacing / region.per_cell, Dim);
+  const auto* fluids = scene.facts.find<Fluids>();
+  for (std::size_t r = 0; r < scene.particles.size(); ++r) {
+    const double density = density_of(scene, r);
+    const double mass = density * std::pow(grid.spacing / scene.particles[r].per_cell, Dim);
     if (std::isnormal(mass)) continue;
-    problems.note("/fluid/density", "particles without a mass", "a density with which they have one",
+    problems.note(fluids == nullptr
+                      ? "/fluid/density"
+                      : fmt::format("/fluids/{}/density", fluids->names[scene.facts.get<FluidsOfRegions>().of[r]]),
+                  "particles without a mass", "a density with which they have one",
                   fmt::format("{} kg/m^3, particles of {} kg", density, mass));
     return;
   }
@@ -174,9 +211,26 @@ void seed_particles(const Scene& scene, World& world, SeedProblems& problems) {
   set_particles<Dim>(scene, grid, lay_out<Dim>(scene, grid, world, problems), world, problems);
 }
 
+/// A liquid that no region names was misspelt, or forgotten.
+void check_fluids_used(Input& input, const Scene& scene) {
+  const auto* fluids = scene.facts.find<Fluids>();
+  if (fluids == nullptr || !input.sound("particles")) return;
+  const auto& of_regions = scene.facts.get<FluidsOfRegions>().of;
+  for (std::size_t k = 0; k < fluids->names.size(); ++k) {
+    if (std::find(of_regions.begin(), of_regions.end(), k) != of_regions.end()) continue;
+    input.problem("fluids/" + fluids->names[k], "no particles of it",
+                  fmt::format("particles with \"fluid\": \"{}\"", fluids->names[k]));
+  }
+}
+
 Contribution read_regions(Input& input, Scene& scene) {
-  input.list("particles", "regions filled with liquid", 1,
-             [&](Input& in, std::size_t) { scene.particles.push_back(read_particles(in, scene)); });
+  FluidsOfRegions fluids;
+  input.list("particles", "regions filled with liquid", 1, [&](Input& in, std::size_t) {
+    fluids.of.push_back(read_fluid_of(in, scene));
+    scene.particles.push_back(read_particles(in, scene));
+  });
+  scene.facts.set(fluids);
+  check_fluids_used(input, scene);
   return [](const Scene&, Recipe& recipe) {
     recipe.seed([](const Scene& of, World& world, SeedProblems& problems) {
       with_dimension(of.dimension, [&](auto dim) { seed_particles<dim()>(of, world, problems); });

@@ -20,6 +20,7 @@ import numpy as np
 from results import RESULTS
 
 from reporting.bodies import chained, section
+from reporting.facts import liquids
 from reporting.graph import draw_graph
 from reporting.histories import MOST_ROWS, packed_history, plots
 from reporting.overlays import corner_paths, fits, references
@@ -38,6 +39,18 @@ def unpacked(text: str, frames: int, order: int) -> np.ndarray:
     for _ in range(order):
         codes = np.cumsum(codes, axis=0)
     return codes % 65536
+
+
+class Liquids(unittest.TestCase):
+    """reporting.facts."""
+
+    def test_a_liquid_is_told_by_its_viscosity_or_its_law_and_several_by_their_names(self) -> None:
+        water = {"density": 1000, "viscosity": 1e-3}
+        paste = {"density": 1500, "rheology": {"bingham": {"yield_stress": 5, "viscosity": 1}, "iterations": 10}}
+        self.assertEqual("1000 kg/m³, 0.001 Pa s", liquids({"fluid": water}))
+        self.assertEqual("1500 kg/m³, bingham", liquids({"fluid": paste}))
+        self.assertEqual("water: 1000 kg/m³, 0.001 Pa s; paste: 1500 kg/m³, bingham",
+                         liquids({"fluids": {"water": water, "paste": paste}}))
 
 
 class Packing(unittest.TestCase):

@@ -77,6 +77,8 @@ const std::vector<Case> cases{
     {"tap.json", {"/output/every=0.02", "/grid/cells=[48, 32]"}},
     {"weir.json", {"/output/every=0.05", "/grid/cells=[80, 12]", "/time/step=0.01"}},
     {"dam_break_3d.json", {"/grid/cells=[14, 7, 14]", "/output/every=0.01"}},
+    {"granular_slope.json", {"/output/every=0.02"}},
+    {"lock_exchange.json", {"/grid/cells=[48, 8]", "/output/every=0.5"}},
 };
 
 }  // namespace

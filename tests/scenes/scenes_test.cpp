@@ -70,8 +70,8 @@ TEST_CASE("every scene runs five steps with a finite state and all its mass", "[
   run.step(5);
   for (const double came_in : run.world().column<opening::MassIn>()) mass += came_in;
   CHECK(not_finite(run.world()).empty());
-  // The same numbers in another order: nothing of it was measured.
-  CHECK(total_mass(run.world()) == Approx(mass).epsilon(1e-14));
+  // The same numbers in another order, up to 25 000 of them: nothing of it was measured.
+  CHECK(total_mass(run.world()) == Approx(mass).epsilon(1e-13));
 }
 
 TEST_CASE("PIC and FLIP name no velocity gradient", "[scene]") {

@@ -46,3 +46,20 @@ TEST_CASE("with an index of 1 Herschel and Bulkley's law is Bingham's above the 
   const Law herschel_bulkley = HerschelBulkley{.yield_stress = 5, .consistency = 2, .index = 1};
   CHECK(viscosity_at(herschel_bulkley, 1) == Approx(viscosity_at(bingham, 1)).epsilon(1e-14));
 }
+
+TEST_CASE("grains rub by mu(I) times their pressure, and not at all without", "[unit]") {
+  const Law law = MuI{.least = 0.4, .most = 0.6, .I0 = 0.3, .diameter = 1e-3, .density = 2500};
+  for (const double rate : {1.0, 30.0, 1e3}) {
+    for (const double pressure : {10.0, 1e3}) {
+      CAPTURE(rate, pressure);
+      const double I = rate * 1e-3 / std::sqrt(pressure / 2500);
+      CHECK(viscosity_at(law, rate, pressure) * rate == Approx((0.4 + 0.2 * I / (0.3 + I)) * pressure).epsilon(1e-13));
+    }
+  }
+  // What the regularization leaves at rest: as if the yield stress were that of a rate of I0/1e5 at p = 2500 Pa.
+  CHECK(viscosity_at(law, 0, 2500) == Approx(2500 * (0.4 * 1e5 + 0.2) / 300).epsilon(1e-14));
+  CHECK(viscosity_at(law, 1e-15, 2500) == Approx(viscosity_at(law, 0, 2500)).epsilon(1e-8));
+  CHECK(viscosity_at(law, 5, 0) == 0);
+  CHECK(viscosity_at(law, 5, -100) == 0);
+  CHECK(viscosity_at(law, 0) == 0);
+}

@@ -51,6 +51,18 @@ def _threads(summary: dict[str, Any]) -> str:
     return f"{summary['threads']} thread{'s'[:summary['threads'] != 1]}"
 
 
+def liquid(of: dict[str, Any]) -> str:
+    flow = f"{of['viscosity']:g} Pa s" if "viscosity" in of else " ".join(of["rheology"].keys() - {"iterations"})
+    return f"{of['density']:g} kg/m³, {flow}"
+
+
+def liquids(scene: dict[str, Any]) -> str:
+    """The liquid, or the several by name."""
+    if "fluid" in scene:
+        return liquid(scene["fluid"])
+    return "; ".join(f"{name}: {liquid(of)}" for name, of in scene["fluids"].items())
+
+
 def facts(run: Run) -> dict[str, str]:
     """Name and value of what is worth telling."""
     scene, summary = run.scene, run.summary
@@ -61,7 +73,7 @@ def facts(run: Run) -> dict[str, str]:
     found |= {
         "Grid": f"{cells} cells of {1e3 * run.spacing:.4g} mm",
         "Walls": short(scene.get("walls", "")),
-        "Liquid": f"{scene['fluid']['density']:g} kg/m³, {scene['fluid']['viscosity']:g} Pa s",
+        "Liquid": liquids(scene),
         "Body force": f"{short(scene.get('body_force', ''))} m/s²",
         "Time step": f"{scene['time']['step']:g} s" if "step" in scene["time"] else f"CFL {scene['time']['cfl']:g}",
     }

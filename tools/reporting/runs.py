@@ -41,7 +41,8 @@ class Run:
                             "expected: a folder that `minamo run SCENE --out DIR` wrote")
         self.problems: list[str] = []  # of files that are there and cannot be read
         self.scene = self._json("scene.json")
-        missing = [key for key in ("dimension", "grid", "fluid", "particles", "time") if key not in self.scene]
+        liquid = "fluids" if "fluids" in self.scene else "fluid"
+        missing = [key for key in ("dimension", "grid", liquid, "particles", "time") if key not in self.scene]
         if missing:
             raise NoResults(f"{self.folder}/scene.json: no /{missing[0]}; expected: the scene that "
                             "`minamo run SCENE --out DIR` wrote")

@@ -1,0 +1,77 @@
+/// \file
+/// (E119) The second level of friction in the plane: few iterations on any grid at any contrast, and the same solution.
+
+#include "support/scene_run.hpp"
+
+#include "engine/linear_solver.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace minamo;
+using namespace minamo::scene_run;
+
+namespace {
+
+/// A thick disc in a thin liquid, in a closed box.
+Json disc(int cells, double viscosity) {
+  Json scene = Json::parse(R"json({
+    "dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [64, 64]}, "walls": "no_slip",
+    "fluids": {"thick": {"density": 1000, "viscosity": 1}, "thin": {"density": 1000, "viscosity": 1}},
+    "body_force": ["sin(2*pi*y)", "sin(2*pi*x)"],
+    "particles": [{"fluid": "thick", "shape": {"where": "(x-0.5)^2 + (y-0.5)^2 < 0.09"}},
+                  {"fluid": "thin", "shape": {"where": "(x-0.5)^2 + (y-0.5)^2 >= 0.09"}}],
+    "time": {"end": 1, "step": 0.05}})json");
+  scene["grid"]["cells"] = {cells, cells};
+  scene["fluids"]["thick"]["viscosity"] = viscosity;
+  return scene;
+}
+
+Json slump() { return with(scene_of_file("slump.json"), {"/grid/cells=[128, 64]"}); }
+
+std::int64_t most_iterations(const Json& scene, int steps) {
+  SceneRun run(scene);
+  std::int64_t most = 0;
+  for (int k = 0; k < steps; ++k) {
+    run.step();
+    most = std::max(most, run.world().resource<SolveReport>().iterations);
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("stiff friction takes few iterations on any grid and at any contrast", "[property]") {
+  // 20, 24, 20, 24 measured; the diagonal alone takes 52 to 129.
+  CHECK(most_iterations(disc(64, 1e3), 2) <= 26);
+  CHECK(most_iterations(disc(64, 1e6), 2) <= 30);
+  CHECK(most_iterations(disc(128, 1e3), 1) <= 26);
+  CHECK(most_iterations(disc(128, 1e6), 1) <= 30);
+}
+
+TEST_CASE("stiff friction takes few iterations under a surface", "[property]") {
+  CHECK(most_iterations(slump(), 3) <= 20);  // 15 measured, 142 by the diagonal alone
+}
+
+TEST_CASE("stiff friction has the solution of the sparse LU", "[property]") {
+  const Json scene =
+      GENERATE(disc(48, 1e4), with(scene_of_file("bingham_channel.json"), {"/grid/cells=[32, 64]"}),
+               with(scene_of_file("slump.json"), {"/grid/cells=[96, 48]", "/fluid/rheology/iterations=1"}),
+               with(scene_of_file("slump.json"),
+                    {"/grid/cells=[96, 48]", "/fluid/rheology/iterations=1", R"(/discretization={"degree": 3})"}));
+  const auto speeds = [&](const std::string& solver) {
+    Json of = scene;
+    of["solver"] = solver == "umfpack" ? Json({{"scheme", solver}}) : Json({{"scheme", solver}, {"tolerance", 1e-11}});
+    SceneRun run(of);
+    run.step(2);
+    return by_id<particle::Velocity<2>>(run.world());
+  };
+  const auto direct = speeds("umfpack");
+  const auto iterated = speeds("block");
+  double largest = 0;
+  double difference = 0;
+  for (std::size_t p = 0; p < direct.size(); ++p) {
+    largest = std::max(largest, direct[p].norm());
+    difference = std::max(difference, (direct[p] - iterated[p]).norm());
+  }
+  CHECK(difference < 1e-6 * largest);
+}
