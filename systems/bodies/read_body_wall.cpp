@@ -15,7 +15,7 @@ BodyWall read_body_wall(Input& input, const Scene& scene) {
   const Json schema{
       {"description", R"(what its surface does to the liquid: "slip", "no_slip", "separating" or {"slip_length": m})"},
       {"oneOf", {{{"enum", words.names}}, slip_length_schema(words)}}};
-  const Side side = read_wall(input, "wall", input.raw("wall", schema, "slip"), words, words.names);
+  const WallOfScene side = read_wall(input, "wall", input.raw("wall", schema, "slip"), words, words.names);
   if (side.length > 0) return {BodyWall::Kind::slip_length, side.length};
   if (side.condition == "no_slip") return {BodyWall::Kind::no_slip};
   return {side.condition == "slip" ? BodyWall::Kind::slip : BodyWall::Kind::separating};

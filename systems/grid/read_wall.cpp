@@ -9,8 +9,8 @@ namespace minamo {
 namespace {
 
 /// What reads {"slip_length": 1e-3}, once for values, messages and schema.
-Side read_length(Input& input, const WallWords& words) {
-  Side side;
+WallOfScene read_length(Input& input, const WallWords& words) {
+  WallOfScene side;
   Input::Variants variants;
   for (const std::string& name : words.lengths) {
     variants.emplace_back(name, [&, name](Input& in) {
@@ -24,7 +24,7 @@ Side read_length(Input& input, const WallWords& words) {
 }
 
 /// The problems of an object of its own are those of the scene at a place.
-Side read_length_at(Input& input, const std::string& at, const Json& value, const WallWords& words) {
+WallOfScene read_length_at(Input& input, const std::string& at, const Json& value, const WallWords& words) {
   if (!words.is_conforming) {
     input.problem(
         at, "a slip length needs the conforming discretization",
@@ -34,7 +34,7 @@ Side read_length_at(Input& input, const std::string& at, const Json& value, cons
   }
   Input::Document document(value, "");
   document.root().use_constants(words.constants);
-  Side side = read_length(document.root(), words);
+  WallOfScene side = read_length(document.root(), words);
   document.finish();
   for (const Problem& problem : document.problems()) {
     input.problem(at + problem.pointer, problem.what, problem.expected, problem.got, problem.closest);
@@ -67,8 +67,8 @@ Json slip_length_schema(const WallWords& words) {
   return schema;
 }
 
-Side read_wall(Input& input, const std::string& at, const Json& value, const WallWords& words,
-               const std::vector<std::string>& names) {
+WallOfScene read_wall(Input& input, const std::string& at, const Json& value, const WallWords& words,
+                      const std::vector<std::string>& names) {
   if (value.is_object()) return read_length_at(input, at, value, words);
   const std::string name = value.is_string() ? value.get<std::string>() : "";
   if (std::find(names.begin(), names.end(), name) != names.end()) return {name};

@@ -21,7 +21,7 @@ struct WallWords {
 };
 
 /// What a scene says of a wall.
-struct Side {
+struct WallOfScene {
   std::string condition;
   double length = 0;  ///< of those that have one [m]
 };
@@ -35,7 +35,7 @@ Json slip_length_schema(const WallWords& words);
 /// `at` is the place of the value, as Input::problem() takes it.
 /// \param names  those that it may have here
 /// \return the first of the words if there is a problem
-Side read_wall(Input& input, const std::string& at, const Json& value, const WallWords& words,
-               const std::vector<std::string>& names);
+WallOfScene read_wall(Input& input, const std::string& at, const Json& value, const WallWords& words,
+                      const std::vector<std::string>& names);
 
 }  // namespace minamo

@@ -49,7 +49,7 @@ Json schema(const WallWords& words) {
 }
 
 /// Low and high side per axis.
-using Sides = std::vector<std::array<Side, 2>>;
+using Sides = std::vector<std::array<WallOfScene, 2>>;
 
 /// Whether an object is a wall, and not a wall per axis.
 bool is_length(const Json& value, const WallWords& words) {
@@ -57,9 +57,9 @@ bool is_length(const Json& value, const WallWords& words) {
                                           [&](const std::string& name) { return value.contains(name); });
 }
 
-std::array<Side, 2> read_axis(Input& input, const std::string& at, const Json& value, const WallWords& words) {
+std::array<WallOfScene, 2> read_axis(Input& input, const std::string& at, const Json& value, const WallWords& words) {
   if (!value.is_array()) {
-    const Side both = read_wall(input, at, value, words, known_names(words, {std::string(periodic)}));
+    const WallOfScene both = read_wall(input, at, value, words, known_names(words, {std::string(periodic)}));
     return {both, both};
   }
   if (value.size() == 2) {
@@ -67,7 +67,7 @@ std::array<Side, 2> read_axis(Input& input, const std::string& at, const Json& v
             read_wall(input, at + "/1", value[1], words, known_names(words))};
   }
   input.problem(at, "wrong length", "one wall, or a list of two: low side, high side", shown(value));
-  return {Side{words.names.front()}, Side{words.names.front()}};
+  return {WallOfScene{words.names.front()}, WallOfScene{words.names.front()}};
 }
 
 /// Around a shorter axis a node would be a neighbour of itself.
@@ -79,11 +79,11 @@ void check_periodic(Input& input, const std::string& at, const std::string& wall
 }
 
 Sides read_sides(Input& input, std::span<const int> cells, const WallWords& words) {
-  const Side usual{words.names.front()};
+  const WallOfScene usual{words.names.front()};
   const Json walls = input.raw("walls", schema(words), usual.condition);
   Sides all(cells.size(), {usual, usual});
   if (walls.is_string() || is_length(walls, words)) {
-    const Side wall = read_wall(input, "walls", walls, words, known_names(words));
+    const WallOfScene wall = read_wall(input, "walls", walls, words, known_names(words));
     std::fill(all.begin(), all.end(), std::array{wall, wall});
     return all;
   }
@@ -113,7 +113,7 @@ Walls<Dim> make_walls(const Sides& sides, const SystemRegistry& registry) {
   Walls<Dim> walls;
   for (std::size_t d = 0; d < Dim; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
-      const Side& side = sides[d][end];
+      const WallOfScene& side = sides[d][end];
       if (side.condition == periodic) continue;
       const auto& condition = registry.choices<WallCondition>().at(side.condition);
       walls.held[d][end] = condition.held(Dim, static_cast<int>(d));
@@ -137,7 +137,7 @@ SeparatingSides<Dim> separating_of(const Sides& sides, const SystemRegistry& reg
 
 bool any_separates(const Sides& sides, const WallWords& words) {
   return std::any_of(sides.begin(), sides.end(), [&](const auto& axis) {
-    return std::any_of(axis.begin(), axis.end(), [&](const Side& side) {
+    return std::any_of(axis.begin(), axis.end(), [&](const WallOfScene& side) {
       return std::find(words.separating.begin(), words.separating.end(), side.condition) != words.separating.end();
     });
   });
@@ -146,7 +146,7 @@ bool any_separates(const Sides& sides, const WallWords& words) {
 WallFriction friction_of(const Sides& sides) {
   WallFriction friction;
   for (const auto& axis : sides) {
-    for (const Side& side : axis) {
+    for (const WallOfScene& side : axis) {
       if (side.length > 0) friction.largest_per_length = std::max(friction.largest_per_length, 1 / side.length);
     }
   }
