@@ -102,8 +102,8 @@ CASES = (
         "moving_square", "Square that starts to move",
         "SPHERIC benchmark test 6 (A. Colagrossi), computed with finite differences",
         "A square of 1 m in a box of 10 m x 5 m full of liquid, brought to 1 m/s in half a second; Reynolds number 100. "
-        "Drag coefficients of pressure and friction. Steps are short, a CFL number of 0.2: at 0.5 the drag of the pressure is "
-        "10 % larger. Friction is too low, and no better on the finer grid.",
+        "Drag coefficients of pressure and friction. Steps are short, a CFL number of 0.2. Friction is half too high while the "
+        "square starts, and too low afterwards, the more so on the finer grid.",
         "t [s]",
         (Curve("pressure", "pressure: drag coefficient", "square_force_x", "spheric6_drag_Re100.csv", "Cd_pressure",
                scale=-2),
