@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <vector>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -178,6 +179,27 @@ TEST_CASE("a box that bobs gives no energy to the water and the box", "[verifica
     exchanged = std::max(exchanged, std::abs(value_of(run.world(), "body_work")));
   }
   CHECK(rise < 0.005 * exchanged);  // 0.0029 measured
+}
+
+TEST_CASE("a box that bobs makes waves, and comes up again after the time that finer grids say",
+          "[verification][long]") {
+  SceneRun run(Json::parse(R"json({"dimension": 2, "grid": {"low": [0, 0], "high": [6, 1], "cells": [120, 20]},
+    "fluid": {"density": 1000, "viscosity": 1e-3}, "body_force": [0, -9.81],
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [6, 0.7]}}, "per_cell": 2}],
+    "bodies": [{"name": "box", "shape": {"box": {"low": [2.8, 0.53], "high": [3.2, 0.93]}},
+                "motion": {"free": {"density": 500, "locked": ["x", "rotation"]}}}],
+    "time": {"end": 2, "step": 4e-3}})json"));
+  double before = 0;
+  std::vector<double> turns;
+  for (int k = 0; k < 400 && turns.size() < 2; ++k) {
+    run.step();
+    const double now = run.world().column<body::Velocity<2>>()[0][1];
+    if (before * now < 0) turns.push_back(run.world().resource<Clock>().time);
+    before = now;
+  }
+  REQUIRE(turns.size() == 2);
+  // 1.244 s, a whole number of steps; 1.240 and 1.234 s with half and a quarter of h.
+  CHECK(turns[1] == Approx(1.234).epsilon(0.015));
 }
 
 TEST_CASE("free bodies give the same bits on any number of threads", "[verification][threads]") {
