@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <numeric>
 #include <vector>
 
 namespace minamo {
@@ -32,37 +33,22 @@ template <int Dim>
 void add_surface(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim) + 1>& corner,
                  const std::array<double, static_cast<std::size_t>(Dim) + 1>& value,
                  std::vector<SurfacePiece<Dim>>& surface) {
-  std::vector<Vec<Dim>> open_corners;
-  std::vector<double> open_values;
-  std::vector<Vec<Dim>> shut_corners;
-  std::vector<double> shut_values;
-  for (std::size_t k = 0; k < corner.size(); ++k) {
-    (value[k] > 0 ? open_corners : shut_corners).push_back(corner[k]);
-    (value[k] > 0 ? open_values : shut_values).push_back(value[k]);
-  }
-  if (open_corners.empty() || shut_corners.empty()) return;
-  const auto crossing = [&](std::size_t above, std::size_t below) -> Vec<Dim> {
-    const double part = open_values[above] / (open_values[above] - shut_values[below]);
-    return open_corners[above] + part * (shut_corners[below] - open_corners[above]);
-  };
-  if constexpr (Dim == 2) {
-    const bool one_is_open = open_corners.size() == 1;
-    const Vec<2> a = crossing(0, 0);
-    const Vec<2> b = one_is_open ? crossing(0, 1) : crossing(1, 0);
-    surface.push_back({0.5 * (a + b), (b - a).norm()});
-  } else {
-    const auto add = [&](const Vec<3>& a, const Vec<3>& b, const Vec<3>& c) {
-      surface.push_back({(a + b + c) / 3, 0.5 * (b - a).cross(c - a).norm()});
-    };
-    if (open_corners.size() == 1) {
-      add(crossing(0, 0), crossing(0, 1), crossing(0, 2));
-    } else if (open_corners.size() == 3) {
-      add(crossing(0, 0), crossing(1, 0), crossing(2, 0));
-    } else {
-      add(crossing(0, 0), crossing(0, 1), crossing(1, 1));
-      add(crossing(0, 0), crossing(1, 1), crossing(1, 0));
+  std::array<std::size_t, static_cast<std::size_t>(Dim) + 1> order;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t open = put_inside_first(order, [&](std::size_t k) { return value[k] > 0; });
+  for_each_cut(order, open, [&](const auto& edges) {
+    std::array<Vec<Dim>, static_cast<std::size_t>(Dim)> x;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const auto [above, below] = edges[k];
+      const double part = value[above] / (value[above] - value[below]);
+      x[k] = corner[above] + part * (corner[below] - corner[above]);
     }
-  }
+    if constexpr (Dim == 2) {
+      surface.push_back({0.5 * (x[0] + x[1]), (x[1] - x[0]).norm()});
+    } else {
+      surface.push_back({(x[0] + x[1] + x[2]) / 3, 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm()});
+    }
+  });
 }
 
 /// A cube of small boxes.

@@ -39,25 +39,9 @@ class Tetrahedra {
     for (const auto& [a, b, c, d] : simplices_of_box<3>()) cut({corner[a], corner[b], corner[c], corner[d]});
   }
 
-  /// One triangle around a corner that is alone on its side, two between two corners and two.
   void cut(std::array<std::size_t, 4> corner) {
-    const auto outside =
-        std::stable_partition(corner.begin(), corner.end(), [&](std::size_t row) { return crossings_.inside(row); });
-    const auto& [a, b, c, d] = corner;
-    switch (outside - corner.begin()) {
-    case 1:
-      add({{{a, b}, {a, c}, {a, d}}});
-      break;
-    case 2:
-      add({{{a, c}, {a, d}, {b, d}}});
-      add({{{a, c}, {b, d}, {b, c}}});
-      break;
-    case 3:
-      add({{{a, d}, {b, d}, {c, d}}});
-      break;
-    default:
-      break;
-    }
+    const std::size_t inside = put_inside_first(corner, [&](std::size_t row) { return crossings_.inside(row); });
+    for_each_cut(corner, inside, [&](const auto& lines) { add(lines); });
   }
 
   /// A triangle between points on lines from inside to outside. Which way it turns, the middles of the lines tell: the

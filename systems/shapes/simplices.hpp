@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Triangles and tetrahedra that a square or a cube falls into.
+/// Triangles and tetrahedra that a square or a cube falls into, and the surface that cuts one.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -16,6 +17,35 @@ constexpr auto simplices_of_box() {
   } else {
     return std::array<std::array<std::size_t, 4>, 6>{
         {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
+  }
+}
+
+/// Puts the corners of a simplex that are inside first, otherwise in the order that they have. \return how many are
+template <std::size_t Corners, class IsInside>
+std::size_t put_inside_first(std::array<std::size_t, Corners>& corner, const IsInside& is_inside) {
+  const auto outside = std::stable_partition(corner.begin(), corner.end(), is_inside);
+  return static_cast<std::size_t>(outside - corner.begin());
+}
+
+/// Calls use(edges) for what parts the corners inside from those outside, between points on edges, each given by its
+/// corner inside and the one outside: a segment in a triangle; in a tetrahedron a triangle around a corner that is
+/// alone on its side, two between two corners and two. Nothing where all are on one side. \param corner  those inside
+/// first
+template <std::size_t Corners, class Use>
+void for_each_cut(const std::array<std::size_t, Corners>& corner, std::size_t inside, const Use& use) {
+  using Edges = std::array<std::array<std::size_t, 2>, Corners - 1>;
+  if constexpr (Corners == 3) {
+    const auto& [a, b, c] = corner;
+    if (inside == 1) use(Edges{{{a, b}, {a, c}}});
+    if (inside == 2) use(Edges{{{a, c}, {b, c}}});
+  } else {
+    const auto& [a, b, c, d] = corner;
+    if (inside == 1) use(Edges{{{a, b}, {a, c}, {a, d}}});
+    if (inside == 2) {
+      use(Edges{{{a, c}, {a, d}, {b, d}}});
+      use(Edges{{{a, c}, {b, d}, {b, c}}});
+    }
+    if (inside == 3) use(Edges{{{a, d}, {b, d}, {c, d}}});
   }
 }
 

@@ -118,29 +118,17 @@ class Cube {
   }
 
   void cut(Simplex corner, Piece& piece) const {
-    const auto outside =
-        std::stable_partition(corner.begin(), corner.end(), [&](std::size_t c) { return node_[c].psi > 0; });
-    const auto inside = static_cast<std::size_t>(outside - corner.begin());
+    const std::size_t inside = put_inside_first(corner, [&](std::size_t c) { return node_[c].psi > 0; });
     if (inside == 0 || inside == corner.size()) return;
     Vec<Dim> out = Vec<Dim>::Zero();
     for (std::size_t k = 0; k < inside; ++k) out -= node_[corner[k]].x / static_cast<double>(inside);
     for (std::size_t k = inside; k < corner.size(); ++k)
       out += node_[corner[k]].x / static_cast<double>(corner.size() - inside);
-    if constexpr (Dim == 2) {
-      const auto& [a, b, c] = corner;
-      const bool one_is_inside = inside == 1;
-      add(piece, out, {between(a, one_is_inside ? b : c), between(one_is_inside ? a : b, c)});
-    } else {
-      const auto& [a, b, c, d] = corner;
-      if (inside == 1) {
-        add(piece, out, {between(a, b), between(a, c), between(a, d)});
-      } else if (inside == 3) {
-        add(piece, out, {between(a, d), between(b, d), between(c, d)});
-      } else {
-        add(piece, out, {between(a, c), between(a, d), between(b, d)});
-        add(piece, out, {between(a, c), between(b, d), between(b, c)});
-      }
-    }
+    for_each_cut(corner, inside, [&](const auto& edges) {
+      Corners on_edge;
+      for (std::size_t k = 0; k < edges.size(); ++k) on_edge[k] = between(edges[k][0], edges[k][1]);
+      add(piece, out, on_edge);
+    });
   }
 
   void add(Piece& piece, const Vec<Dim>& out, Corners corner) const {
