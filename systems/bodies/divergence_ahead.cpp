@@ -40,7 +40,7 @@ struct WallMotion {
 };
 
 /// How much a velocity that turns at a rate counts. \param turn  dt/2 times the rate
-double resolved_share(double turn) { return std::min(1.0, largest_turn / turn); }
+double counted_share(double turn) { return std::min(1.0, largest_turn / turn); }
 
 /// Multipliers that bodies cut, and the sites of their faces.
 struct CutMultipliers {
@@ -108,9 +108,9 @@ void FindDivergenceAhead<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> gri
         const SplineWeights<Dim, K> weights(frame, frame.local(y_p[p]));
         const auto wall = walls.at(y_p[p]);
         const Vec<Dim> by_liquid =
-            resolved_share(half_step * gradient[p].norm()) * (gradient[p] * (v_p[p] - wall.there));
+            counted_share(half_step * gradient[p].norm()) * (gradient[p] * (v_p[p] - wall.there));
         const Vec<Dim> by_wall =
-            resolved_share(half_step * wall.spin.norm()) *
+            counted_share(half_step * wall.spin.norm()) *
             rigid_velocity(Vec<Dim>(Vec<Dim>::Zero()), wall.spin, Vec<Dim>(v_p[p] - wall.of_pivot));
         const Vec<Dim> m_turn = m_p[p] * half_step * (by_liquid + by_wall);
         for_each_direction<Dim>([&](auto d) {

@@ -88,10 +88,11 @@ struct FrictionSystem {
     constexpr double much = 20;
     if (work.mass.size() < many) return false;
     std::size_t stiff = 0;
-    for (std::size_t f = 0; f < work.mass.size(); ++f) stiff += work.mass[f] * work.per_g[f] * (1 + much) < 1 ? 1 : 0;
-    std::size_t held = 0;
-    for (const double mass : work.mass) held += mass == 0 ? 1 : 0;
-    return 10 * (stiff - held) > work.mass.size();
+    for (std::size_t f = 0; f < work.mass.size(); ++f) {
+      const bool is_held = work.mass[f] == 0;
+      if (!is_held && work.mass[f] * work.per_g[f] * (1 + much) < 1) ++stiff;
+    }
+    return 10 * stiff > work.mass.size();
   }
   /// (E119) \param left  r . z before \return r . z
   double add_streams(double left) const {

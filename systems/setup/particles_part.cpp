@@ -40,20 +40,14 @@ struct FluidsOfRegions {
 
 std::size_t read_fluid_of(Input& input, const Scene& scene) {
   const std::string doc = "which of the \"fluids\"; required with several";
-  if (input.describing()) {
-    input.optional_text("fluid", doc);
-    return 0;
-  }
-  if (const auto* fluids = scene.facts.find<Fluids>()) {
-    if (fluids->names.empty()) {
-      input.optional_text("fluid", doc);
-      return 0;
-    }
+  const auto* fluids = scene.facts.find<Fluids>();
+  if (!input.describing() && fluids != nullptr && !fluids->names.empty()) {
     const auto& names = fluids->names;
     const auto named = std::find(names.begin(), names.end(), input.choice("fluid", names, doc));
     return static_cast<std::size_t>(named - names.begin());
   }
-  if (input.optional_text("fluid", doc))
+  const bool is_named = input.optional_text("fluid", doc).has_value();
+  if (is_named && !input.describing() && fluids == nullptr)
     input.problem("fluid", "there are no fluids with names", "\"fluids\", not \"fluid\"");
   return 0;
 }
@@ -167,6 +161,9 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
   const auto grad_v_p = with_gradient ? world.column<particle::VelocityGradient<Dim>>() : std::span<Mat<Dim>>{};
   const Instant start = scene.start;
   const auto k_p = scene.facts.find<Fluids>() ? world.column<particle::FluidIndex>() : std::span<std::int64_t>{};
+  const std::vector<std::size_t>& fluid_of_region = scene.facts.get<FluidsOfRegions>().of;
+  std::vector<double> density;
+  for (std::size_t r = 0; r < scene.particles.size(); ++r) density.push_back(density_of(scene, r));
   std::vector<bool> reported(scene.particles.size(), false);
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const std::size_t r = seeds.region[p];
@@ -174,8 +171,8 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     x_p[p] = seeds.position[p];
     id[p] = static_cast<std::int64_t>(p);
     V_p[p] = seeds.share[p] * std::pow(grid.spacing / region.per_cell, Dim);
-    m_p[p] = density_of(scene, r) * V_p[p];
-    if (!k_p.empty()) k_p[p] = static_cast<std::int64_t>(scene.facts.get<FluidsOfRegions>().of[r]);
+    m_p[p] = density[r] * V_p[p];
+    if (!k_p.empty()) k_p[p] = static_cast<std::int64_t>(fluid_of_region[r]);
     v_p[p] = value_at<Dim>(region.velocity, x_p[p], start);
     if (with_gradient) grad_v_p[p] = velocity_gradient_at<Dim>(region.velocity, x_p[p], start, grid.spacing);
     const bool finite = v_p[p].allFinite() && (!with_gradient || grad_v_p[p].allFinite());
