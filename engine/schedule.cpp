@@ -1,5 +1,7 @@
 #include "engine/schedule.hpp"
 
+#include "engine/communicator.hpp"
+
 #include <oneapi/tbb/flow_graph.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -23,6 +25,12 @@ bool conflict(const System& x, const System& y) {
   return std::any_of(x.access.begin(), x.access.end(), [&y](const Access& of_x) {
     return std::any_of(y.access.begin(), y.access.end(), [&of_x](const Access& of_y) { return conflict(of_x, of_y); });
   });
+}
+
+/// Whether it exchanges anything with other ranks.
+bool talks(const System& system) {
+  return std::any_of(system.access.begin(), system.access.end(),
+                     [](const Access& access) { return is_of_ranks(access.component); });
 }
 
 /// What the scratch check knows of a component that some earlier system has written.
@@ -180,6 +188,7 @@ struct Schedule::Impl {
   void build_graph();
   void run_graph(std::size_t count);
   void run_list(std::size_t count);
+  void run_on_ranks(std::size_t count);
   Time now() const { return profiler_ ? std::chrono::steady_clock::now() : Time{}; }
   void run_system(std::size_t place, Time& begin);
   void run_timed(const System& system, std::size_t row, Time& begin);
@@ -194,7 +203,8 @@ struct Schedule::Impl {
   World* world_;
   Profiler* profiler_;
   std::vector<std::size_t> rows_;     // of the profiler, by place; those of a loop's body come after its own
-  std::unique_ptr<Graph> graph_;      // null for Execution::list
+  std::unique_ptr<Graph> graph_;      // null but for Execution::graph
+  Communicator* ranks_ = nullptr;     // null but for Execution::ranks
   std::atomic<std::size_t> end_ = 0;  // systems from this place on do not begin: a failed one's, or the list's end
   std::mutex failure_mutex_;
   std::exception_ptr failure_;
@@ -215,6 +225,7 @@ Schedule::Impl::Impl(std::vector<System> list, World& world_of_run, Profiler* pr
     }
   }
   if (execution == Execution::graph) build_graph();
+  if (execution == Execution::ranks) ranks_ = all_ranks();
 }
 
 void Schedule::Impl::build_graph() {
@@ -237,13 +248,30 @@ void Schedule::Impl::run(std::size_t count) {
     run_graph(count);
   } else {
     // Isolated, so that a thread waiting in a system does not run what its caller has to do.
-    tbb::this_task_arena::isolate([this, count] { run_list(count); });
+    tbb::this_task_arena::isolate([this, count] { ranks_ != nullptr ? run_on_ranks(count) : run_list(count); });
   }
 }
 
 void Schedule::Impl::run_list(std::size_t count) {
   Time begin = now();
   for (std::size_t place = 0; place < count; ++place) run_system(place, begin);
+}
+
+/// Whoever talks to other ranks waits until all have come that far, and a rank on which something has failed would never
+/// come. So all ask before.
+void Schedule::Impl::run_on_ranks(std::size_t count) {
+  Time begin = now();
+  std::exception_ptr failure;
+  for (std::size_t place = 0; place < count; ++place) {
+    if (talks(systems[place])) agree_on_failure(*ranks_, failure);
+    if (failure) continue;
+    try {
+      run_system(place, begin);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  agree_on_failure(*ranks_, failure);
 }
 
 void Schedule::Impl::run_graph(std::size_t count) {

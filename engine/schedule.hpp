@@ -50,6 +50,7 @@ class ScheduleError : public std::runtime_error {
 enum class Execution {
   graph,  ///< oneTBB flow graph
   list,   ///< one after the other, the meaning of the graph
+  ranks,  ///< the same on every rank; what fails on one has failed on all (communicator.hpp)
 };
 
 /// A list of systems, ready to run again and again.

@@ -130,9 +130,10 @@ class Loop {
     Recurrence checkpoints(plan_.checkpoint_every, clock_.time, clock_.step);
     while (!is_over()) {
       const bool has_frame = take_step(frames);
-      if (checkpoints.due(clock_.time, clock_.step) || is_over() || stop) checkpoint();
+      const bool is_stopped = observers_.on_any_rank ? observers_.on_any_rank(stop) : stop.load();
+      if (checkpoints.due(clock_.time, clock_.step) || is_over() || is_stopped) checkpoint();
       if (is_over() && !has_frame) frame_.run();
-      if (stop && !is_over()) return Ending::interrupted;
+      if (is_stopped && !is_over()) return Ending::interrupted;
     }
     return Ending::done;
   }

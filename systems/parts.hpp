@@ -32,5 +32,6 @@ void add_probes(SystemRegistry& registry);           // measure/
 void add_exact(SystemRegistry& registry);            // measure/
 void add_output(SystemRegistry& registry);           // output/
 void add_behind_openings(SystemRegistry& registry);  // openings/
+void add_ranks(SystemRegistry& registry);            // ranks/
 
 }  // namespace minamo

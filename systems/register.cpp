@@ -31,6 +31,7 @@ void register_parts(SystemRegistry& registry) {
   add_exact(registry);
   add_output(registry);
   add_behind_openings(registry);
+  add_ranks(registry);
 }
 
 }  // namespace minamo

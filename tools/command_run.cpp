@@ -1,5 +1,6 @@
 #include "tools/commands.hpp"
 
+#include "engine/communicator.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/machine.hpp"
 #include "tools/single_run.hpp"
@@ -25,6 +26,7 @@ std::string rows_text(std::int64_t every) {
 }
 
 int report(const RunResult& result, const Scene& scene, const fs::path& folder, bool quiet) {
+  if (!writes_for_all()) return exit_done;
   const fs::path checkpoint = folder / "checkpoint.h5";
   if (result.outcome.ending == Ending::failed) {
     std::cerr << result.outcome.message << '\n';
@@ -52,7 +54,8 @@ int report(const RunResult& result, const Scene& scene, const fs::path& folder, 
 
 int run_scene(const RunOptions& options, const SystemRegistry& registry) {
   const SceneFile file = load_scene(options.scene, options.overrides, registry);
-  const int threads = prepare_threads(options.threads);
+  // Ranks share the processors of a machine; how many threads each may have they cannot know.
+  const int threads = prepare_threads(options.threads == 0 && all_ranks() != nullptr ? 1 : options.threads);
   const fs::path folder = output_folder(options);
   Profiler profiler(options.profile);
   const RunPlan plan{.scene = options.scene,
@@ -63,7 +66,7 @@ int run_scene(const RunOptions& options, const SystemRegistry& registry) {
                      .quiet = options.quiet,
                      .at_end = {}};
   const RunResult result = run_into_folder(file, plan, profiler, stop_on_signal());
-  if (options.profile) {
+  if (options.profile && writes_for_all()) {
     std::cout << profiler.table(result.loop_seconds);
     profiler.write_trace(options.trace.empty() ? (folder / "trace.json").string() : options.trace);
   }

@@ -1,5 +1,7 @@
 #include "tools/continuation.hpp"
 
+#include "engine/communicator.hpp"
+#include "systems/ranks/rows_of_ranks.hpp"
 #include "engine/checkpoint.hpp"
 #include "engine/step_control.hpp"
 #include "systems/output/fields.hpp"
@@ -131,9 +133,7 @@ void write_index(World& world) {
   }
 }
 
-}  // namespace
-
-void write_run_checkpoint(const fs::path& folder, const SceneFile& scene, World& world) {
+void write_checkpoint_of_world(const fs::path& folder, const SceneFile& scene, World& world) {
   FieldsFile& fields = world.resource<FieldsFile>();
   take_back_frame(fields);
   // The rows that the checkpoint counts are in the file.
@@ -143,6 +143,16 @@ void write_run_checkpoint(const fs::path& folder, const SceneFile& scene, World&
     file.write_text(dataset::scene, scene.as_run.dump());
     file.write_text(dataset::version, std::string(version));
     add_fields(fields, file);
+  });
+}
+
+}  // namespace
+
+void write_run_checkpoint(const fs::path& folder, const SceneFile& scene, World& world) {
+  if (all_ranks() == nullptr) return write_checkpoint_of_world(folder, scene, world);
+  const RowsOfRanks rows(*all_ranks(), world);
+  do_on_all(all_ranks(), [&] {
+    if (writes_for_all()) write_checkpoint_of_world(folder, scene, world);
   });
 }
 

@@ -2,6 +2,7 @@
 #include "tools/minamo.hpp"
 #include "tools/version.hpp"
 
+#include "engine/communicator.hpp"
 #include "engine/schedule.hpp"
 #include "systems/register.hpp"
 
@@ -14,6 +15,7 @@
 #include <cctype>
 #include <charconv>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <new>
@@ -138,6 +140,48 @@ int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) 
   return show_schema(show.as_table, registry);
 }
 
+/// Copies of this program that know nothing of each other would overwrite each other's results.
+void require_one_process() {
+  const char* processes = std::getenv("OMPI_COMM_WORLD_SIZE");
+  if (all_ranks() != nullptr || processes == nullptr || std::string_view(processes) == "1") return;
+  throw InputError({{"minamo",
+                     {},
+                     "runs in one process",
+                     "minamo-mpi, which tools/run --mpi N builds and starts",
+                     fmt::format("{} processes", processes),
+                     {}}});
+}
+
+/// What every process does, with others or alone. \return the exit code
+int run_alone(int argc, const char* const* argv, const std::function<void(SystemRegistry&)>& add) {
+  const auto say = [](const char* what) {
+    if (writes_for_all()) std::cerr << what << '\n';
+  };
+  try {
+    SystemRegistry registry;
+    register_parts(registry);
+    if (add) add(registry);
+    require_one_process();
+    const int code = dispatch(argc, argv, registry);
+    if (!std::cout.flush()) throw std::runtime_error("stdout: cannot be written");
+    return code;
+  } catch (const InputError& error) {
+    say(error.what());
+    return exit_bad_input;
+  } catch (const ScheduleError& error) {
+    say(error.what());
+    return exit_bad_input;
+  } catch (const FailedElsewhere&) {
+    return exit_failed;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "out of memory\n";
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+  }
+  if (all_ranks() != nullptr) all_ranks()->abort(exit_failed);
+  return exit_failed;
+}
+
 }  // namespace
 
 int run(int argc, const char* const* argv, const std::function<void(SystemRegistry&)>& add) {
@@ -148,26 +192,9 @@ int run(int argc, const char* const* argv, const std::function<void(SystemRegist
   // the program.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    SystemRegistry registry;
-    register_parts(registry);
-    if (add) add(registry);
-    const int code = dispatch(argc, argv, registry);
-    if (!std::cout.flush()) throw std::runtime_error("stdout: cannot be written");
-    return code;
-  } catch (const InputError& error) {
-    std::cerr << error.what() << '\n';
-    return exit_bad_input;
-  } catch (const ScheduleError& error) {
-    std::cerr << error.what() << '\n';
-    return exit_bad_input;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "out of memory\n";
-    return exit_failed;
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << '\n';
-    return exit_failed;
-  }
+  // What all ranks would say, one says.
+  if (!writes_for_all()) logger->set_level(spdlog::level::off);
+  return run_alone(argc, argv, add);
 }
 
 }  // namespace minamo

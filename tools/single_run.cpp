@@ -1,10 +1,13 @@
 #include "tools/single_run.hpp"
 
 #include "components/particle.hpp"
+#include "engine/communicator.hpp"
 #include "engine/memory_reserve.hpp"
 #include "engine/text_file.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
+#include "systems/ranks/fit_for_ranks.hpp"
+#include "systems/ranks/migrate.hpp"
 #include "systems/setup/time_plan.hpp"
 #include "tools/continuation.hpp"
 #include "tools/progress.hpp"
@@ -43,13 +46,18 @@ void open_output(const fs::path& folder, World& world) {
 /// \return whether there is anything left to run
 bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& times, World& world) {
   if (plan.beginning == Beginning::start) {
-    open_output(plan.folder, world);
+    do_on_all(all_ranks(), [&] {
+      if (writes_for_all()) open_output(plan.folder, world);
+    });
   } else {
     StoredFields fields = load_checkpoint(plan.folder, plan.scene, file, world);
+    if (all_ranks() != nullptr) keep_own_particles(file.scene.dimension, world);
     if (is_over(times, world.resource<Clock>())) return false;
-    continue_output(plan.folder, std::move(fields), world);
+    do_on_all(all_ranks(), [&] {
+      if (writes_for_all()) continue_output(plan.folder, std::move(fields), world);
+    });
   }
-  write_text(plan.folder / "scene.json", file.as_run.dump(2) + "\n");
+  if (writes_for_all()) write_text(plan.folder / "scene.json", file.as_run.dump(2) + "\n");
   return true;
 }
 
@@ -120,8 +128,11 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
   seed(scene, plan.scene, world);
   if (plan.beginning == Beginning::start) warn_of_scene(scene, plan.scene, world);
   Pipeline pipeline = make_pipeline(scene);
+  if (all_ranks() != nullptr) require_fit_for_ranks(pipeline, plan.scene);
   // One thread has nobody to share a graph with.
-  const Execution execution = plan.threads == 1 ? Execution::list : Execution::graph;
+  const Execution execution = all_ranks() != nullptr ? Execution::ranks
+                              : plan.threads == 1    ? Execution::list
+                                                     : Execution::graph;
   Schedule start(std::move(pipeline.start), world, nullptr, execution);
   Schedule step(std::move(pipeline.step), world, &profiler, execution);
   Schedule frame(std::move(pipeline.output), world, &profiler, execution);
@@ -134,30 +145,32 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
     return result;
   }
 
-  Progress progress(times, world.resource<Clock>(), world.rows<Particles>(), plan.quiet);
+  Progress progress(times, world.resource<Clock>(), world.rows<Particles>(), plan.quiet || !writes_for_all());
   MemoryReserve reserve;
   const Observers observers{
       .after_step = [&](const Clock& clock) { progress.show(clock, world.resource<SolveReport>()); },
       .after_rejection =
           [&](const Clock& clock, const std::string& why) {
             warn_of_rejection(clock, why);
-            take_back_row(plan.folder, world);
+            if (writes_for_all()) take_back_row(plan.folder, world);
           },
       .write_checkpoint =
           [&] {
             reserve.release();
             write_run_checkpoint(plan.folder, file, world);
             reserve.take();
-          }};
+          },
+      .on_any_rank = all_ranks() == nullptr ? std::function<bool(bool)>()
+                                            : [](bool is_asked) { return all_ranks()->any(is_asked); }};
   const double before_loop = stopwatch.wall_seconds();
   result.outcome = run_simulation(world, start, step, frame, times, observers, stop, plan.beginning);
   result.loop_seconds = stopwatch.wall_seconds() - before_loop;
   progress.end();
 
-  close_history(plan.folder, world);
+  if (writes_for_all()) close_history(plan.folder, world);
   result.clock = world.resource<Clock>();
   result.summary = make_summary(plan.scene, result.outcome, plan.threads, stopwatch, profiler, world);
-  write_summary(plan.folder, result);
+  if (writes_for_all()) write_summary(plan.folder, result);
   warn_of_energy(result.summary, world);
   if (plan.at_end && result.outcome.ending == Ending::done) plan.at_end(world);
   return result;

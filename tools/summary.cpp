@@ -4,6 +4,7 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
+#include "engine/communicator.hpp"
 #include "engine/step_control.hpp"
 #include "systems/measure/acceptance.hpp"
 #include "systems/output/history.hpp"
@@ -88,6 +89,13 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   const RunTotals& totals = totals_of_all_rows(world);
   const StepTotals& steps = world.resource<StepTotals>();
   const double wall = stopwatch.wall_seconds();
+  auto particles = static_cast<std::int64_t>(world.rows<Particles>());
+  double mass = 0;
+  for (const double m : world.column<particle::Mass>()) mass += m;
+  if (all_ranks() != nullptr) {
+    particles = all_ranks()->sum(particles);
+    mass = all_ranks()->sum(mass);
+  }
   Json summary{{"scene", scene}, {"status", status(outcome.ending)}};
   if (!outcome.message.empty()) summary["message"] = outcome.message;
   summary.update({{"steps", clock.index},
@@ -99,15 +107,17 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
                   {"cpu_model", cpu_model()},
                   {"version", version},
                   {"build", build_facts()},
-                  {"particles", world.rows<Particles>()},
+                  {"particles", particles},
                   {"clamped", world.resource<Clamped>().count},
                   {"active_nodes_max", steps.active_nodes_max},
                   {"unknowns_max", steps.unknowns_max},
                   {"peak_memory_bytes", peak_memory()},
                   {"systems", system_rows(profiler, wall)}});
-  double mass = 0;
-  for (const double m : world.column<particle::Mass>()) mass += m;
   const bool in_plane = world.has<Grid<2>>();
+  if (Communicator* ranks = all_ranks()) {
+    const auto sent = ranks->traffic();
+    summary["ranks"] = {{"count", ranks->size()}, {"messages", ranks->sum(sent.messages)}, {"bytes", ranks->sum(sent.bytes)}};
+  }
   Json conservation{{"mass", mass}};
   conservation.update(conserved(totals.last, in_plane));
   conservation["overlap_max"] = steps.overlap_max;

@@ -16,6 +16,7 @@
 #include "engine/system.hpp"
 #include "systems/conforming/incidence.hpp"
 #include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -72,7 +73,7 @@ struct P2GFaceForce {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::BodyForce<Dim>> b_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                  Write<face::BodyForce<Dim>> b_f) const;
+                  Optional<Read<SiteExchange>> shared, Write<face::BodyForce<Dim>> b_f) const;
 };
 
 /// (E53) on faces: m_f c_f = s sum_p w_c N_f m_p grad f_p (x_f - y_p); v*_f gets tau c_f.
@@ -83,7 +84,7 @@ struct AddFaceInertia {
                   Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<cell::LiquidIndicator> w_c, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p, Read<face::Mass<Dim>> m_f,
-                  Read<face::Held> held, Write<face::InertiaCorrection<Dim>> c_f,
+                  Read<face::Held> held, Optional<Read<SiteExchange>> shared, Write<face::InertiaCorrection<Dim>> c_f,
                   Update<face::Predictor<Dim>> predictor) const;
 };
 

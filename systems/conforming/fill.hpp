@@ -12,6 +12,7 @@
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -21,8 +22,8 @@ struct P2GMultipliers {
   static constexpr std::string_view doc = "(E35) (E63) volume and divergence of the middle around multipliers";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
-                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Write<multiplier::Volume> v_l,
-                  Write<multiplier::Curvature> curvature) const;
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::Volume> v_l, Write<multiplier::Curvature> curvature) const;
 };
 
 /// phi_l = V~_l/V_l, and the least of a multiplier and its neighbours; beyond walls there are none.

@@ -45,7 +45,7 @@ void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Re
                                Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
                                Optional<Read<face::Open<Dim>>> open, Optional<Read<FaceExtension<Dim>>> extension,
                                Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest,
-                               Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
+                               Optional<Read<SiteExchange>> shared, Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
                                Write<face::Friction<Dim>> friction, Write<FrictionOnWalls<Dim>> on_walls,
                                Update<face::Predictor<Dim>> predictor) const {
   const double tau = rates->velocity / rates->acceleration;
@@ -66,6 +66,7 @@ void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Re
   });
   add_friction_diagonal<Dim>(of, numbers<Dim>(bound.span()).data(),
                              [&](std::size_t c, std::size_t f, std::size_t) { return of.bounds_of(c)[f]; });
+  add_up(shared, bound.span());
   if (walls_rub) bound_by_open_faces<Dim>(*extension, numbers<Dim>(bound.span()));
   // 2 tau D_f/m_f takes the place of the bound.
   for_each_row(bound.size(), [&](std::size_t i) {
@@ -92,6 +93,7 @@ void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Re
     apply_friction<Dim>(of, numbers<Dim>(std::span<const Vec<Dim>>(predictor.span())).data(),
                         numbers<Dim>(friction.span()).data());
   }
+  add_up(shared, friction.span());
   for_each_row(predictor.size(), [&](std::size_t i) {
     for (Eigen::Index d = 0; d < Dim; ++d) predictor[i][d] -= tau * (per_mass(i, d) * friction[i][d]);
   });

@@ -12,6 +12,7 @@
 #include "systems/conforming/cut_friction.hpp"
 #include "systems/conforming/face_extension.hpp"
 #include "systems/conforming/friction_matrices.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -36,7 +37,7 @@ struct RubFaces {
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
                   Optional<Read<face::Open<Dim>>> open, Optional<Read<FaceExtension<Dim>>> extension,
                   Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest,
-                  Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
+                  Optional<Read<SiteExchange>> shared, Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
                   Write<face::Friction<Dim>> friction, Write<FrictionOnWalls<Dim>> on_walls,
                   Update<face::Predictor<Dim>> predictor) const;
 };

@@ -13,20 +13,42 @@ void MeasureFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<D
                                             Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                             Optional<Read<face::Open<Dim>>> open,
                                             Optional<Read<face::WallFlux<Dim>>> wall_flux,
-                                            Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f,
+                                            Optional<Read<SiteExchange>> shared, Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f,
                                             Write<measure::MaxDivergence> largest) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const Passage<Dim> passage{open.span(), wall_flux.span()};
   largest->value = reduce_rows(
       of_unknown.size(), 0.0,
-      [&](std::size_t l) { return std::abs(incidence.divergence(of_unknown[l], v_f.span(), passage)); },
+      [&](std::size_t l) {
+        const std::size_t i = of_unknown[l];
+        return shared && !shared->owns(i) ? 0 : std::abs(incidence.divergence(i, v_f.span(), passage));
+      },
       [](double x, double y) { return std::max(x, y); });
+  if (shared) largest->value = shared->ranks().largest(largest->value);
 }
+
+namespace {
+
+/// overlap_of() of all ranks, every multiplier counted once.
+double overlap_on_ranks(const SiteExchange& shared, std::span<const double> V_p, std::span<const double> capacity,
+                        std::span<const double> v_l) {
+  std::array<double, 2> sums{};
+  for (std::size_t i = 0; i < v_l.size(); ++i) {
+    if (shared.owns(i)) sums[0] += std::max(0.0, v_l[i] - capacity[i]);
+  }
+  for (const double V : V_p) sums[1] += V;
+  shared.ranks().sum(sums);
+  return sums[0] / sums[1];
+}
+
+}  // namespace
 
 template <int Dim>
 void MeasureMultiplierOverlap<Dim>::operator()(Read<particle::Volume> V_p, Read<multiplier::Capacity> capacity,
-                                               Read<multiplier::Volume> v_l, Write<measure::Overlap> overlap) const {
-  overlap->value = overlap_of(V_p.span(), capacity.span(), v_l.span());
+                                               Read<multiplier::Volume> v_l, Optional<Read<SiteExchange>> shared,
+                                               Write<measure::Overlap> overlap) const {
+  overlap->value = shared ? overlap_on_ranks(*shared, V_p.span(), capacity.span(), v_l.span())
+                          : overlap_of(V_p.span(), capacity.span(), v_l.span());
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include "components/staggered.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -18,8 +19,8 @@ struct MeasureFaceDivergence {
   static constexpr std::string_view doc = "(E31) largest divergence";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Optional<Read<face::Open<Dim>>> open,
-                  Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
-                  Read<face::BalanceVelocity<Dim>> v_f, Write<measure::MaxDivergence> largest) const;
+                  Optional<Read<face::WallFlux<Dim>>> wall_flux, Optional<Read<SiteExchange>> shared,
+                  Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f, Write<measure::MaxDivergence> largest) const;
 };
 
 /// (E32)  overlap = sum_l max(0, V~_l - V_l) / sum_p V_p, at y_p.
@@ -27,7 +28,7 @@ template <int Dim>
 struct MeasureMultiplierOverlap {
   static constexpr std::string_view doc = "(E32) overlap";
   void operator()(Read<particle::Volume> V_p, Read<multiplier::Capacity> capacity, Read<multiplier::Volume> v_l,
-                  Write<measure::Overlap> overlap) const;
+                  Optional<Read<SiteExchange>> shared, Write<measure::Overlap> overlap) const;
 };
 
 /// (E43), (E44) on the staggered grid: p_s = sum_l N_l p_l, and of every component sum_f N_f v_f / sum_f N_f over the

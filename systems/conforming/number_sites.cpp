@@ -43,29 +43,33 @@ std::uint8_t held_at(const Splines<Dim>& splines, const Walls<Dim>& walls, const
   return static_cast<std::uint8_t>(held);
 }
 
-/// Sites that share a cell know each other.
+/// Sites that share a cell know each other. \param rows  of the sites of a cell
+template <int Dim, int K>
+void join_sites(const std::uint32_t* rows, std::span<typename staggered::Neighbour<Dim>::value_type> neighbour) {
+  for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (offset[d] == K) continue;
+      const std::uint32_t above = rows[k + power(K + 1, static_cast<int>(d))];
+      neighbour[rows[k]][2 * d + 1] = static_cast<std::int32_t>(above);
+      neighbour[above][2 * d] = static_cast<std::int32_t>(rows[k]);
+    }
+  });
+}
+
 template <int Dim, int K>
 void find_site_neighbours(const OccupiedCells<Dim>& cells, const CellSites& sites,
                           std::span<typename staggered::Neighbour<Dim>::value_type> neighbour) {
   for_each_row(neighbour.size(), [&](std::size_t i) { neighbour[i].fill(staggered::none); });
-  for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto&) {
-    const std::uint32_t* rows = sites.of(c);
-    for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
-      for (std::size_t d = 0; d < Dim; ++d) {
-        if (offset[d] == K) continue;
-        const std::uint32_t above = rows[k + power(K + 1, static_cast<int>(d))];
-        neighbour[rows[k]][2 * d + 1] = static_cast<std::int32_t>(above);
-        neighbour[above][2 * d] = static_cast<std::int32_t>(rows[k]);
-      }
-    });
-  });
+  for_each_cell_coloured<Dim>(cells,
+                              [&](std::size_t c, const auto&) { join_sites<Dim, K>(sites.of(c), neighbour); });
 }
 
 }  // namespace
 
 template <int Dim>
 void NumberSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
-                                  Read<GridCells<Dim>> cells, Resize<Staggered> table, Write<CellSites> sites,
+                                  Read<GridCells<Dim>> cells, Optional<Read<GhostCells<Dim>>> ghosts,
+                                  Resize<Staggered> table, Write<CellSites> sites,
                                   Update<StaggeredIndex<Dim>> rows, Update<staggered::Site<Dim>> site,
                                   Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
                                   Write<multiplier::Capacity> capacity, Update<NumberingBuffer> buffer) const {
@@ -74,9 +78,13 @@ void NumberSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splin
     constexpr int K = degree();
     Addresses<Dim> address;
     typename SiteRows<Dim>::Adder add(*rows);
-    for (const auto& cell : cells->cells) {
-      find_addresses<Dim, K>(*splines, *rows, cell.node, address);
+    const auto add_cell = [&](const Index<Dim>& cell) {
+      find_addresses<Dim, K>(*splines, *rows, cell, address);
       for (std::size_t k = 0; k < cell_sites<Dim, K>; ++k) add(address[k]);
+    };
+    for (const auto& cell : cells->cells) add_cell(cell.node);
+    if (ghosts) {
+      for (const auto& cell : ghosts->cells) add_cell(cell.at);
     }
     buffer->from.resize(rows->number_rows());
     rows->find_former_rows(site.span(), buffer->from);
@@ -99,6 +107,15 @@ void NumberSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splin
         },
         cells_per_task);
     find_site_neighbours<Dim, K>(*cells, *sites, neighbour.span());
+    if (ghosts) {
+      for (const auto& cell : ghosts->cells) {
+        std::array<std::uint32_t, cell_sites<Dim, K>> of_cell;
+        for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+          of_cell[k] = *rows->find(splines->site(cell.at, offset));
+        });
+        join_sites<Dim, K>(of_cell.data(), neighbour.span());
+      }
+    }
   });
   rows->for_each([&](const Index<Dim>& at, std::uint32_t i) { site[i] = at; });
   const double cell_volume = std::pow(grid->spacing, Dim);

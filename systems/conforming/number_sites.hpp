@@ -7,6 +7,7 @@
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/grid/number_nodes.hpp"
+#include "systems/ranks/ghost_cells.hpp"
 
 namespace minamo {
 
@@ -16,7 +17,7 @@ template <int Dim>
 struct NumberSites {
   static constexpr std::string_view doc = "number the staggered sites of occupied cells";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls, Read<GridCells<Dim>> cells,
-                  Resize<Staggered> table, Write<CellSites> sites, Update<StaggeredIndex<Dim>> rows,
+                  Optional<Read<GhostCells<Dim>>> ghosts, Resize<Staggered> table, Write<CellSites> sites, Update<StaggeredIndex<Dim>> rows,
                   Update<staggered::Site<Dim>> site, Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
                   Write<multiplier::Capacity> capacity, Update<NumberingBuffer> buffer) const;
 };

@@ -27,8 +27,8 @@ class PressureMass {
 
   PressureMass(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
                std::span<const Index<Dim>> site, std::span<const Vec<Dim>> y_p, std::span<const double> V_p,
-               std::span<const double> lambda)
-      : V_p_(V_p) {
+               std::span<const double> lambda, const SiteExchange* shared)
+      : V_p_(V_p), shared_(shared) {
     list_runs(grid, splines, rows, y_p);
     find_weights(grid, splines, y_p);
     find_exact_shares(grid, splines, site);
@@ -58,6 +58,7 @@ class PressureMass {
         sum[run.rows[k]] += of_run;
       }
     }
+    add_up(sum);
     return sum;
   }
   /// out = M x, zero where the pressure is known.
@@ -82,6 +83,7 @@ class PressureMass {
       }
       for (std::size_t k = 0; k < local; ++k) out[run.rows[k]] += of_run[k];
     }
+    add_up(out);
     for (std::size_t i = 0; i < out.size(); ++i) {
       if (!is_free_[i]) out[i] = 0;
     }
@@ -110,6 +112,10 @@ class PressureMass {
     std::array<std::array<std::array<double, K>, K>, static_cast<std::size_t>(Dim)> axis_mass{};
   };
 
+  /// With what particles of other ranks bring.
+  void add_up(std::vector<double>& column) const {
+    if (shared_ != nullptr) shared_->add_up(std::span<double>(column));
+  }
   /// Volume of a particle in the products of weights.
   double by_particles(const Run& run, std::size_t p) const { return (1 - lumped_share) * (1 - run.exact) * V_p_[p]; }
 
@@ -149,6 +155,7 @@ class PressureMass {
         for (std::size_t k = 0; k < local; ++k) volume_[run.rows[k]] += V_p_[p] * weights_[p][k];
       }
     }
+    add_up(volume_);
     std::vector<double> fill = volume_;
     for (std::size_t i = 0; i < site.size(); ++i) {
       if (fill[i] > 0) fill[i] /= std::pow(grid.spacing, Dim) * splines.widths(site[i]);
@@ -194,25 +201,45 @@ class PressureMass {
   }
 
   std::span<const double> V_p_;
+  const SiteExchange* shared_;
   std::vector<Run> runs_;
   std::vector<Local> weights_;  ///< of every particle
-  std::vector<double> lumped_;  ///< of every multiplier, on the diagonal
+  std::vector<double> lumped_;  ///< of every multiplier, on the diagonal, by the particles of this rank
   std::vector<double> volume_;  ///< v_l of every multiplier
   std::vector<bool> is_free_;
 };
 
+/// Every row counts on the rank that owns it.
+struct ProductsOnRanks {
+  const SiteExchange* shared;
+  double operator()(const Values& x, const Values& y) const {
+    return sum(x.size(), [&](std::size_t i) { return x[i] * y[i]; });
+  }
+  double weighted_square(const Values& weight, const Values& x) const {
+    return sum(x.size(), [&](std::size_t i) { return weight[i] * x[i] * x[i]; });
+  }
+
+ private:
+  template <class OfRow>
+  double sum(std::size_t rows, const OfRow& of_row) const {
+    double own = 0;
+    for (std::size_t i = 0; i < rows; ++i) own += shared->owns(i) ? of_row(i) : 0;
+    return shared->ranks().sum(own);
+  }
+};
+
 /// M^-1 b.
-template <class Mass>
-Values solve_mass(const Mass& mass, std::span<const double> b) {
+template <class Mass, class Products>
+Values solve_mass(const Mass& mass, std::span<const double> b, const Products& products) {
   constexpr std::int64_t most_iterations = 500;
   constexpr double tolerance = 1e-7;
   Values per_diagonal = mass.diagonal();
   for (double& entry : per_diagonal) entry = entry > 0 ? 1 / entry : 0;
   Values left(b.begin(), b.end());
   Values x;
-  const double size = std::sqrt(weighted_square(per_diagonal, left));
+  const double size = std::sqrt(products.weighted_square(per_diagonal, left));
   ConjugateGradients().solve([&](const Values& p, Values& image) { mass.times(p, image); }, per_diagonal,
-                             tolerance * size, most_iterations, left, x);
+                             tolerance * size, most_iterations, left, x, products);
   return x;
 }
 
@@ -311,10 +338,10 @@ template <int Dim>
 void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                                       Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Volume> V_p, Read<multiplier::Force> lambda,
-                                      Optional<Read<multiplier::OpenShare>> open_share, Write<multiplier::Pressure> p_l,
+                                      Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<SiteExchange>> shared, Write<multiplier::Pressure> p_l,
                                       Write<particle::Pressure> p_p) const {
   with_degree(splines->degree, [&](auto degree) {
-    PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span());
+    PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span(), of_ranks(shared));
     std::vector<double> force(lambda.begin(), lambda.end());
     std::vector<double> known(lambda.size(), 0);
     const PressureOfFewParticles<Dim> of_few(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),
@@ -325,7 +352,8 @@ void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
       mass.know(i);
     }
     mass.take_known(known, force);
-    std::vector<double> p = solve_mass(mass, force);
+    std::vector<double> p =
+        shared ? solve_mass(mass, force, ProductsOnRanks{&*shared}) : solve_mass(mass, force, LocalProducts());
     for (std::size_t i = 0; i < known.size(); ++i) p[i] += known[i];
     std::copy(p.begin(), p.end(), p_l.begin());
     mass.for_each_value(p, [&](std::size_t particle, double value) { p_p[particle] = value; });

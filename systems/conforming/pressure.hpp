@@ -8,6 +8,7 @@
 #include "components/staggered.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -20,7 +21,7 @@ struct RecoverPressure {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Volume> V_p, Read<multiplier::Force> lambda,
-                  Optional<Read<multiplier::OpenShare>> open_share, Write<multiplier::Pressure> p_l,
+                  Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<SiteExchange>> shared, Write<multiplier::Pressure> p_l,
                   Write<particle::Pressure> p_p) const;
 };
 

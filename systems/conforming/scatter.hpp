@@ -7,6 +7,7 @@
 #include "systems/conforming/lanes.hpp"
 #include "systems/conforming/polynomial.hpp"
 #include "systems/conforming/series.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 #include <span>
 
@@ -21,6 +22,7 @@ struct FaceSource {
   const CellSites& sites;
   std::span<const Vec<Dim>> y_p;
   std::span<const double> m_p;
+  const SiteExchange* shared = nullptr;  ///< with the particles of other ranks
 };
 
 namespace detail {
@@ -93,6 +95,9 @@ void scatter_sums(const FaceSource<Dim>& source, std::span<Vec<Dim>> m_f, std::s
     if (!m_f.empty()) add_lanes<Dim, K>(mass, source.sites.of(c), m_f);
     add_lanes<Dim, K>(sum, source.sites.of(c), q_f);
   });
+  if (source.shared == nullptr) return;
+  if (!m_f.empty()) source.shared->add_up(m_f);
+  source.shared->add_up(q_f);
 }
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 
 namespace minamo {
@@ -17,18 +18,44 @@ constexpr double stir_strength = 5;
 /// Fill fraction of all multipliers of a cell from which on it is stirred: not at the surface.
 constexpr double stirred_from = 0.6;
 
+/// Of cells that particles of several ranks fill. The site in the middle of 3^d cells stands for one, for all of them
+/// touch it.
+template <int Dim>
+void add_up_parts(const SiteExchange& shared, const Splines<Dim>& splines, const GridCells<Dim>& cells,
+                  const GhostCells<Dim>& ghosts, const StaggeredIndex<Dim>& index, std::size_t per_cell,
+                  std::span<double> fill) {
+  std::map<std::size_t, double*> of_site;
+  const auto note = [&](const Index<Dim>& cell, std::size_t c) {
+    Index<Dim> middle;
+    middle.fill(1);
+    of_site[*index.find(splines.site(cell, middle))] = &fill[c * per_cell];
+  };
+  for (std::size_t c = 0; c < cells.cells.size(); ++c) note(cells.cells[c].node, c);
+  for (std::size_t g = 0; g < ghosts.cells.size(); ++g) note(ghosts.cells[g].at, cells.cells.size() + g);
+  shared.add_up(per_cell, [&](std::size_t row) {
+    const auto found = of_site.find(row);
+    return found == of_site.end() ? nullptr : found->second;
+  });
+}
+
 }  // namespace
 
 template <int Dim>
 void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                 Read<CellSites> sites, Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
                                 Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
-                                Write<PartFill> parts) const {
+                                Optional<Read<SiteExchange>> shared, Optional<Read<GhostCells<Dim>>> ghosts,
+                                Read<StaggeredIndex<Dim>> index, Write<PartFill> parts) const {
   const auto per_cell = static_cast<std::size_t>(std::pow(stir->parts, Dim));
-  parts->fill.assign(cells->cells.size() * per_cell, 0);
+  const std::size_t own = cells->cells.size();
+  const std::size_t all = own + (ghosts ? ghosts->cells.size() : 0);
+  parts->fill.assign(all * per_cell, 0);
   parts->cell_of_site.assign(neighbour.size(), -1);
-  for (std::size_t c = 0; c < cells->cells.size(); ++c)
-    parts->cell_of_site[sites->of(c)[0]] = static_cast<std::int32_t>(c);
+  for (std::size_t c = 0; c < own; ++c) parts->cell_of_site[sites->of(c)[0]] = static_cast<std::int32_t>(c);
+  for (std::size_t c = own; c < all; ++c) {
+    const std::uint32_t lowest = *index->find(splines->site(ghosts->cells[c - own].at, {}));
+    parts->cell_of_site[lowest] = static_cast<std::int32_t>(c);
+  }
   const double per_volume = std::pow(stir->parts / grid->spacing, Dim);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const CellFrame<Dim> frame(*grid, *splines, cell.node);
@@ -37,6 +64,7 @@ void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines
     for (std::size_t p = cell.begin; p < cell.end; ++p) window.add(frame.local(y_p[p]), V_p[p] * per_volume);
     window.add_to(parts->fill);
   });
+  if (shared) add_up_parts<Dim>(*shared, *splines, *cells, *ghosts, *index, per_cell, parts->fill);
 }
 
 template <int Dim>
@@ -87,24 +115,27 @@ template <int Dim>
 void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                                          Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
                                          Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
-                                         Optional<Read<opening::StepWork>> W_o, Read<particle::Mass> m_p,
+                                         Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared, Read<particle::Mass> m_p,
                                          Read<particle::Velocity<Dim>> v_p, Read<face::Mass<Dim>> m_f,
                                          Read<face::BodyForce<Dim>> b_f, Read<face::Displacement<Dim>> u_f,
                                          Update<particle::Shift<Dim>> d_p, Update<particle::Stir<Dim>> s_p) const {
   Vec<Dim> everywhere = Vec<Dim>::Zero();
   if (!b_p) everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
-  const double lifted = -reduce_rows(
+  double lifted = -reduce_rows(
       m_p.size(), 0.0, [&](std::size_t p) { return m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); },
       std::plus<>());
+  if (shared) lifted = shared->ranks().sum(lifted);
   if (lifted <= 0) return;
+  const auto work_at = [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); };
   const double work = reduce_rows(
-      u_f.size(), 0.0, [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); }, std::plus<>());
+      u_f.size(), 0.0, [&](std::size_t i) { return shared && !shared->owns(i) ? 0 : work_at(i); }, std::plus<>());
   // What bodies have got is not lost: they give it back.
   double given = 0;
   if (W_b)
     given = std::reduce(W_b.span().begin(), W_b.span().end()) - std::reduce(W_old.span().begin(), W_old.span().end());
   if (W_o) given -= W_o->value;
-  const double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
+  double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
+  if (shared) lost = shared->ranks().sum(lost);
   const double share = std::clamp(lost / lifted, 0.0, 1.0);
   if (share == 1) return;
   for_each_row(d_p.size(), [&](std::size_t p) {

@@ -14,6 +14,7 @@
 #include "engine/system.hpp"
 #include "systems/conforming/part_window.hpp"
 #include "systems/openings/opening_set.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -45,7 +46,9 @@ struct FillParts {
   static constexpr std::string_view doc = "(E74) fill fraction of the parts of cells";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p, Write<PartFill> parts) const;
+                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
+                  Optional<Read<SiteExchange>> shared, Optional<Read<GhostCells<Dim>>> ghosts,
+                  Read<StaggeredIndex<Dim>> index, Write<PartFill> parts) const;
 };
 
 /// (E74)  s_p = q_p - mean of q over the particles of the cell, q = -5 dt |D| d^2 grad C, D the rate of strain in the
@@ -80,7 +83,7 @@ struct LimitParticleShift {
   void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
                   Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
-                  Optional<Read<opening::StepWork>> W_o, Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                  Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared, Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                   Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f, Read<face::Displacement<Dim>> u_f,
                   Update<particle::Shift<Dim>> d_p, Update<particle::Stir<Dim>> s_p) const;
 };

@@ -9,7 +9,7 @@ double mass_threshold(std::span<const double> m_i) {
     mass += m;
     count += m > 0;
   }
-  return count == 0 ? 0 : 1e-4 * mass / static_cast<double>(count);
+  return count == 0 ? 0 : share_of_mean_mass * mass / static_cast<double>(count);
 }
 
 namespace {

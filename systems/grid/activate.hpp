@@ -11,6 +11,8 @@
 
 namespace minamo {
 
+/// Of (E7).
+inline constexpr double share_of_mean_mass = 1e-4;
 /// (E7)  1e-4 mean(m_J over nodes with mass): the mass threshold. [kg]
 double mass_threshold(std::span<const double> m_i);
 

@@ -1,6 +1,7 @@
 #include "systems/grid/bin.hpp"
 
 #include "systems/conforming/support.hpp"
+#include "systems/grid/cell_blocks.hpp"
 
 #include <algorithm>
 
@@ -8,90 +9,10 @@ namespace minamo {
 
 namespace {
 
-/// The blocks of cells of a grid, x fastest. The last block of an axis takes what is left, so that no block is narrow.
-template <int Dim>
-class Blocks {
- public:
-  static constexpr int width = OccupiedCells<Dim>::block_width;
-
-  /// \param cells  along every axis
-  Blocks(const Grid<Dim>& grid, const Index<Dim>& cells) : grid_(grid), cells_(cells) {
-    for (std::size_t d = 0; d < Dim; ++d) blocks_[d] = std::max(1, cells[d] / width);
-  }
-
-  std::size_t count() const {
-    std::size_t count = 1;
-    for (const int blocks : blocks_) count *= static_cast<std::size_t>(blocks);
-    return count;
-  }
-  std::uint32_t block_of(const Index<Dim>& cell) const {
-    std::size_t block = 0;
-    for (std::size_t d = Dim; d-- > 0;) {
-      block = block * static_cast<std::size_t>(blocks_[d]) + static_cast<std::size_t>(along(d, cell));
-    }
-    return static_cast<std::uint32_t>(block);
-  }
-  /// Number of a cell among those of its block, x fastest.
-  std::uint32_t within(const Index<Dim>& cell) const {
-    int within = 0;
-    for (std::size_t d = Dim; d-- > 0;) {
-      const int b = along(d, cell);
-      within = within * extent(d, b) + cell[d] - b * width;
-    }
-    return static_cast<std::uint32_t>(within);
-  }
-  std::uint32_t cells_in(std::uint32_t block) const {
-    const Index<Dim> at = place(block);
-    int count = 1;
-    for (std::size_t d = 0; d < Dim; ++d) count *= extent(d, at[d]);
-    return static_cast<std::uint32_t>(count);
-  }
-  /// Calls body(node) for the cells of a block, in the order of their numbers.
-  template <class Body>
-  void for_each_cell_of(std::uint32_t block, const Body& body) const {
-    const Index<Dim> at = place(block);
-    Index<Dim> within{};
-    for (std::uint32_t left = cells_in(block); left > 0; --left) {
-      Index<Dim> node;
-      for (std::size_t d = 0; d < Dim; ++d) node[d] = at[d] * width + within[d];
-      body(node);
-      for (std::size_t d = 0; d < Dim && ++within[d] == extent(d, at[d]) && d + 1 < Dim; ++d) within[d] = 0;
-    }
-  }
-  /// Even and odd places; the last of an odd number around a periodic axis meets an even one and gets a third.
-  std::size_t colour(std::uint32_t block) const {
-    const Index<Dim> at = place(block);
-    std::size_t colour = 0;
-    for (std::size_t d = Dim; d-- > 0;) {
-      const bool meets_first = grid_.periodic[d] && blocks_[d] % 2 == 1 && at[d] + 1 == blocks_[d];
-      colour = 3 * colour + (meets_first ? 2 : static_cast<std::size_t>(at[d] % 2));
-    }
-    return colour;
-  }
-
- private:
-  /// Place along an axis of the block of a cell.
-  int along(std::size_t axis, const Index<Dim>& cell) const { return std::min(cell[axis] / width, blocks_[axis] - 1); }
-  /// Cells of the blocks at place b of an axis.
-  int extent(std::size_t axis, int b) const { return b + 1 < blocks_[axis] ? width : cells_[axis] - b * width; }
-  Index<Dim> place(std::uint32_t block) const {
-    Index<Dim> place;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      place[d] = static_cast<int>(block % static_cast<std::uint32_t>(blocks_[d]));
-      block /= static_cast<std::uint32_t>(blocks_[d]);
-    }
-    return place;
-  }
-
-  const Grid<Dim>& grid_;
-  Index<Dim> cells_;
-  Index<Dim> blocks_;
-};
-
 /// Numbers the cells of the blocks with particles, block by block, and tells every particle that of its cell.
 /// \return how many cells these are
 template <int Dim, class CellOf>
-std::size_t number_cells(const Blocks<Dim>& blocks, std::span<const Vec<Dim>> y_p, const CellOf& cell_of,
+std::size_t number_cells(const CellBlocks<Dim>& blocks, std::span<const Vec<Dim>> y_p, const CellOf& cell_of,
                          BinBuffer& buffer) {
   auto& number = buffer.number;
   number.resize(y_p.size());
@@ -118,7 +39,7 @@ std::size_t number_cells(const Blocks<Dim>& blocks, std::span<const Vec<Dim>> y_
 
 /// Lists the cells and blocks that hold particles.
 template <int Dim>
-void list_occupied(const Blocks<Dim>& blocks, const BinBuffer& buffer, OccupiedCells<Dim>& occupied) {
+void list_occupied(const CellBlocks<Dim>& blocks, const BinBuffer& buffer, OccupiedCells<Dim>& occupied) {
   occupied.cells.clear();
   for (auto& of_colour : occupied.blocks) of_colour.clear();
   std::size_t number = 0;
@@ -137,7 +58,7 @@ template <int Dim, class CellOf>
 void sort_particles(const Grid<Dim>& grid, const Index<Dim>& cell_counts, const CellOf& cell_of,
                     std::span<const Vec<Dim>> y_p, Resize<Particles> particles, OccupiedCells<Dim>& cells,
                     Resize<Cells> rows, BinBuffer& buffer) {
-  const Blocks<Dim> blocks(grid, cell_counts);
+  const CellBlocks<Dim> blocks(grid, cell_counts);
   const std::size_t cell_count = number_cells<Dim>(blocks, y_p, cell_of, buffer);
   auto& [used, first_of_block, number, within, first, place] = buffer;
 

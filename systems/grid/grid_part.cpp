@@ -1,3 +1,4 @@
+#include "engine/communicator.hpp"
 #include "components/grid.hpp"
 #include "systems/assemble/neighbours.hpp"
 #include "systems/grid/activate.hpp"
@@ -37,13 +38,18 @@ void read_box(Input& in, std::size_t dimension, GridScene& grid) {
   if (in.sound("low") && in.sound("high") && in.sound("cells")) check_grid(in, grid);
 }
 
+std::vector<std::string> sort_on_faces() {
+  if (all_ranks() == nullptr) return {"bin_by_cell", "number_sites"};
+  return {"migrate_particles", "bin_by_cell", "find_ghost_cells", "number_sites", "plan_site_exchange"};
+}
+
 Contribution read_grid(Input& input, Scene& scene) {
   const auto dimension = static_cast<std::size_t>(scene.dimension);
   scene.grid.periodic.assign(dimension, false);
   input.object("grid", "the box and its cells", Input::Presence::required,
                [&](Input& in) { read_box(in, dimension, scene.grid); });
   return [](const Scene& of, Recipe& recipe) {
-    add_systems(of, recipe, "sort", {{"bin", "number_nodes", "find_capacity"}, {"bin_by_cell", "number_sites"}});
+    add_systems(of, recipe, "sort", {{"bin", "number_nodes", "find_capacity"}, sort_on_faces()});
     add_systems(of, recipe, "boundaries", {{"activate", "find_neighbours"}, {}});
     with_dimension(of.dimension, [&](auto dim) {
       const auto grid = make_grid<dim()>(of.grid);

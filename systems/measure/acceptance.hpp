@@ -10,6 +10,7 @@
 #include "components/step.hpp"
 #include "engine/linear_solver.hpp"
 #include "engine/system.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -46,7 +47,7 @@ struct AcceptStepOnFaces {
                   Read<SolveReport> solve, Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
                   Read<face::Displacement<Dim>> u_f, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Velocity<Dim>> v_p,
-                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Read<measure::Overlap> overlap,
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<SiteExchange>> shared, Read<measure::Overlap> overlap,
                   Read<StepTotals> so_far) const;
 };
 

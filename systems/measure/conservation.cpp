@@ -61,6 +61,13 @@ Vec<Dim> face_spread(const Grid<Dim>& grid, const Splines<Dim>& splines, const V
   return spread;
 }
 
+double on_all(const Optional<Read<Ranks>>& ranks, double sum) { return ranks ? (*ranks)->sum(sum) : sum; }
+
+template <int Size>
+void add_up_on_all(const Optional<Read<Ranks>>& ranks, Vec<Size>& sum) {
+  if (ranks) (*ranks)->sum(std::span(sum.data(), Size));
+}
+
 template <int Dim>
 struct MassPoint {
   double mass = 0;
@@ -68,8 +75,9 @@ struct MassPoint {
 };
 
 template <int Dim>
-Vec<Dim> centre_of_mass(std::span<const double> m_p, std::span<const Vec<Dim>> x_p) {
-  const auto sum = reduce_rows(
+Vec<Dim> centre_of_mass(std::span<const double> m_p, std::span<const Vec<Dim>> x_p,
+                        const Optional<Read<Ranks>>& ranks) {
+  auto sum = reduce_rows(
       m_p.size(), MassPoint<Dim>{},
       [&](std::size_t p) {
         return MassPoint<Dim>{m_p[p], m_p[p] * x_p[p]};
@@ -77,6 +85,8 @@ Vec<Dim> centre_of_mass(std::span<const double> m_p, std::span<const Vec<Dim>> x
       [](const MassPoint<Dim>& a, const MassPoint<Dim>& b) {
         return MassPoint<Dim>{a.mass + b.mass, a.first_moment + b.first_moment};
       });
+  sum.mass = on_all(ranks, sum.mass);
+  add_up_on_all<Dim>(ranks, sum.first_moment);
   return sum.first_moment / sum.mass;
 }
 
@@ -97,14 +107,16 @@ double kinetic_energy(std::span<const double> m_p, std::span<const Vec<Dim>> v_p
 template <int Dim>
 void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p,
                                     Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                                    Write<measure::Energy> energy) const {
-  energy->kinetic = kinetic_energy<Dim>(m_p.span(), v_p.span());
+                                    Optional<Read<Ranks>> ranks, Write<measure::Energy> energy) const {
+  energy->kinetic = on_all(ranks, kinetic_energy<Dim>(m_p.span(), v_p.span()));
   energy->potential.reset();
   energy->surface.reset();
   const auto force = force_with_potential<Dim>(*grid, *b);
   if (!force) return;
-  energy->potential = reduce_rows(
-      m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force->dot(x_p[p] - grid->low); }, std::plus<>());
+  energy->potential = on_all(
+      ranks, reduce_rows(
+                 m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force->dot(x_p[p] - grid->low); },
+                 std::plus<>()));
 }
 
 template <int Dim>
@@ -112,8 +124,8 @@ void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Optional<Read<Spline
                                       Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
                                       Read<particle::Velocity<Dim>> v_p,
                                       Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                                      Write<measure::Momentum<Dim>> momentum) const {
-  const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span());
+                                      Optional<Read<Ranks>> ranks, Write<measure::Momentum<Dim>> momentum) const {
+  const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span(), ranks);
   const auto gradient = grad_v_p.span();
   const auto spread_at = [&](const Vec<Dim>& x) {
     return splines ? face_spread<Dim>(*grid, *splines, x) : support_spread<Dim>(*grid, x);
@@ -126,13 +138,16 @@ void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Optional<Read<Spline
         return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * spin};
       },
       add<Dim>);
+  add_up_on_all<Dim>(ranks, momentum->linear);
+  add_up_on_all<rotations<Dim>>(ranks, momentum->angular);
 }
 
 template <int Dim>
-void MeasureMaxSpeed<Dim>::operator()(Read<particle::Velocity<Dim>> v_p, Write<measure::MaxSpeed> speed) const {
+void MeasureMaxSpeed<Dim>::operator()(Read<particle::Velocity<Dim>> v_p, Optional<Read<Ranks>> ranks, Write<measure::MaxSpeed> speed) const {
   speed->value = std::sqrt(reduce_rows(
       v_p.size(), 0.0, [&](std::size_t p) { return v_p[p].squaredNorm(); },
       [](double x, double y) { return std::max(x, y); }));
+  if (ranks) speed->value = (*ranks)->largest(speed->value);
 }
 
 template double kinetic_energy<2>(std::span<const double>, std::span<const Vec<2>>);

@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
+#include "engine/communicator.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
 
@@ -22,7 +23,7 @@ template <int Dim>
 struct MeasureEnergy {
   static constexpr std::string_view doc = "(E28) kinetic and potential energy";
   void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Write<measure::Energy> energy) const;
+                  Read<particle::Velocity<Dim>> v_p, Optional<Read<Ranks>> ranks, Write<measure::Energy> energy) const;
 };
 
 /// (E29)  P = sum m_p v_p;  L = sum m_p (x_p - x_c) x v_p.
@@ -34,14 +35,14 @@ struct MeasureMomentum {
   void operator()(Read<Grid<Dim>> grid, Optional<Read<Splines<Dim>>> splines, Read<particle::Mass> m_p,
                   Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                  Write<measure::Momentum<Dim>> momentum) const;
+                  Optional<Read<Ranks>> ranks, Write<measure::Momentum<Dim>> momentum) const;
 };
 
 /// max |v_p|.
 template <int Dim>
 struct MeasureMaxSpeed {
   static constexpr std::string_view doc = "largest particle speed";
-  void operator()(Read<particle::Velocity<Dim>> v_p, Write<measure::MaxSpeed> speed) const;
+  void operator()(Read<particle::Velocity<Dim>> v_p, Optional<Read<Ranks>> ranks, Write<measure::MaxSpeed> speed) const;
 };
 
 }  // namespace minamo

@@ -28,6 +28,26 @@ std::vector<double> row_by_row(std::span<const Mat<Dim>> values) {
   return numbers;
 }
 
+/// A column of all ranks, on the one that writes; what there is where there are no ranks.
+template <class T>
+struct Gathered {
+  Gathered(const Optional<Read<Ranks>>& ranks, std::span<const T> own) : all(own) {
+    if (!ranks) return;
+    for (const auto& bytes : (*ranks)->gather(to_bytes(own))) {
+      const auto of_rank = from_bytes<T>(bytes);
+      gathered_.insert(gathered_.end(), of_rank.begin(), of_rank.end());
+    }
+    all = gathered_;
+  }
+  Gathered(const Gathered&) = delete;
+  Gathered& operator=(const Gathered&) = delete;
+
+  std::span<const T> all;
+
+ private:
+  std::vector<T> gathered_;
+};
+
 std::string group(std::size_t frame) { return fmt::format("/particles/{}", frame); }
 
 constexpr std::string_view whole_numbers = R"(NumberType="Int" Precision="8")";
@@ -110,27 +130,36 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
                                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
                                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                  Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
-                                 Optional<Read<particle::FluidIndex>> k_p, Update<FieldsFile> fields) const {
+                                 Optional<Read<particle::FluidIndex>> k_p, Optional<Read<Ranks>> ranks,
+                                 Update<FieldsFile> fields) const {
+  const Gathered ids(ranks, id.span());
+  const Gathered positions(ranks, x_p.span());
+  const Gathered velocities(ranks, v_p.span());
+  const Gathered pressures(ranks, p_p.span());
+  const Gathered gradients(ranks, grad_v_p.span());
+  const Gathered rates(ranks, g_p.span());
+  const Gathered viscosities(ranks, mu_p.span());
+  const Gathered liquids(ranks, k_p.span());
   if (fields->folder.empty()) return;
   const std::string name = group(fields->frames.size());
-  begin_frame(*fields, clock->time, x_p.size());
+  begin_frame(*fields, clock->time, ids.all.size());
   const bool is_first = fields->frames.size() == 1;
   Hdf5File file(fields->path(), is_first ? Hdf5File::Access::create : Hdf5File::Access::extend);
-  fields->frames.back().extents = {file.write(name + "/position", numbers<Dim>(x_p.span()), Dim),
-                                   file.write(name + "/velocity", numbers<Dim>(v_p.span()), Dim),
-                                   file.write(name + "/pressure", p_p.span()), file.write(name + "/id", id.span())};
+  fields->frames.back().extents = {file.write(name + "/position", numbers<Dim>(positions.all), Dim),
+                                   file.write(name + "/velocity", numbers<Dim>(velocities.all), Dim),
+                                   file.write(name + "/pressure", pressures.all), file.write(name + "/id", ids.all)};
   if (grad_v_p) {
     FieldsFile::Frame& frame = fields->frames.back();
-    frame.extents.push_back(file.write(name + "/velocity_gradient", row_by_row<Dim>(grad_v_p.span()), Dim * Dim));
+    frame.extents.push_back(file.write(name + "/velocity_gradient", row_by_row<Dim>(gradients.all), Dim * Dim));
     frame.extra_fields.emplace_back("velocity_gradient");
   }
   const auto write_scalar = [&](const char* field, const auto& values) {
     fields->frames.back().extents.push_back(file.write(name + "/" + field, values));
     fields->frames.back().extra_fields.emplace_back(field);
   };
-  if (g_p) write_scalar("shear_rate", g_p.span());
-  if (mu_p) write_scalar("viscosity", mu_p.span());
-  if (k_p) write_scalar("fluid", k_p.span());
+  if (g_p) write_scalar("shear_rate", rates.all);
+  if (mu_p) write_scalar("viscosity", viscosities.all);
+  if (k_p) write_scalar("fluid", liquids.all);
   file.set_attribute(name, "time", clock->time);
   file.close();
 }

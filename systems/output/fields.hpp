@@ -10,6 +10,7 @@
 #include "components/rheology.hpp"
 #include "components/sites.hpp"
 #include "engine/clock.hpp"
+#include "engine/communicator.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/outlines.hpp"
 #include "systems/output/fields_file.hpp"
@@ -33,7 +34,7 @@ struct WriteFrame {
                   Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<particle::ShearRate>> g_p,
                   Optional<Read<particle::Viscosity>> mu_p, Optional<Read<particle::FluidIndex>> k_p,
-                  Update<FieldsFile> fields) const;
+                  Optional<Read<Ranks>> ranks, Update<FieldsFile> fields) const;
 };
 
 /// Rewrites fields.xdmf, the index that ParaView opens. With bodies a frame is a collection of particles and bodies.

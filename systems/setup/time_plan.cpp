@@ -3,6 +3,7 @@
 #include "components/fluid.hpp"
 #include "components/instant.hpp"
 #include "components/particle.hpp"
+#include "engine/communicator.hpp"
 #include "systems/pipeline.hpp"
 #include "systems/surface_tension/capillary_step.hpp"
 
@@ -79,7 +80,8 @@ TimePlan make_time_plan(const Scene& scene) {
     const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);
     const auto& force = scene.facts.get<BodyForce>();
     const double b = scene.dimension == 2 ? largest_force<2>(force, world) : largest_force<3>(force, world);
-    return step_of_cfl(scene, v, b);
+    return all_ranks() == nullptr ? step_of_cfl(scene, v, b)
+                                  : step_of_cfl(scene, all_ranks()->largest(v), all_ranks()->largest(b));
   };
   return plan;
 }

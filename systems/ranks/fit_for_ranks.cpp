@@ -1,0 +1,53 @@
+#include "systems/ranks/fit_for_ranks.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace minamo {
+
+namespace {
+
+const std::set<std::string, std::less<>> fit{
+    // between ranks
+    "migrate_particles", "find_ghost_cells", "plan_site_exchange", "solve_multipliers_petsc",
+    // add up at sites that ranks share
+    "p2g_faces_pic", "p2g_faces_tpic", "p2g_face_acceleration_pic", "p2g_face_acceleration_tpic", "p2g_face_force",
+    "p2g_multipliers", "rub_faces", "add_face_inertia", "fill_parts", "recover_pressure",
+    // over all particles or faces
+    "limit_particle_shift", "accept_step_on_faces", "measure_energy", "measure_momentum", "measure_max_speed",
+    "measure_face_divergence", "measure_multiplier_overlap",
+    // the first rank writes
+    "write_history", "flush_history", "write_frame", "write_xdmf",
+    // of own particles, cells, and sites
+    "place_quadrature_at_middle", "place_quadrature_at_start", "place_quadrature_step_ahead", "store_kinetic_energy",
+    "bin_by_cell", "number_sites", "hold_faces", "hold_face_accelerations", "predict_faces_midpoint",
+    "predict_faces_backward_euler", "predict_faces_newmark", "uniform_face_force", "find_fill", "find_cell_viscosity",
+    "find_liquid_cells_by_multipliers", "find_mobility", "find_mobility_mixed", "assemble_multipliers", "face_source",
+    "damp_face_divergence", "face_volume_source", "project_faces", "correct_faces_midpoint", "correct_faces_newmark",
+    "correct_faces_backward_euler", "g2p_faces_pic", "g2p_faces_flip", "g2p_faces_tpic", "g2p_faces_apic",
+    "g2p_face_acceleration_pic", "g2p_face_acceleration_tpic", "g2p_face_acceleration_apic", "limit_gradient",
+    "carry_gradient_by_faces", "g2p_face_force_gradient", "advect_by_faces", "stir_particles", "gather_face_shift",
+    "apply_particle_shift", "note_step"};
+
+}  // namespace
+
+void require_fit_for_ranks(const Pipeline& pipeline, const std::string& scene) {
+  std::set<std::string> others;
+  for (const auto* systems : {&pipeline.start, &pipeline.step, &pipeline.output}) {
+    for (const System& system : *systems) {
+      if (!fit.contains(system.name)) others.insert(system.name);
+    }
+  }
+  std::vector<Problem> problems;
+  for (const std::string& system : others) {
+    problems.push_back({scene,
+                        {},
+                        "a system of this scene does not run on several ranks",
+                        "systems that do, or one process",
+                        shown(Json(system)),
+                        {}});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+}  // namespace minamo

@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// Particles move to the rank that owns the block they are in.
+
+#include "components/grid.hpp"
+#include "components/particle.hpp"
+#include "engine/communicator.hpp"
+#include "engine/packed_rows.hpp"
+#include "systems/ranks/rank_map.hpp"
+
+namespace minamo {
+
+/// Sends particles, with all that outlives a step, to the rank that owns the block of y_p. Where a rank has a fifth more
+/// than the mean, the curve is cut anew before.
+template <int Dim>
+struct MigrateParticles {
+  static constexpr std::string_view doc = "particles to the rank that owns their block";
+  void operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                  Read<particle::QuadraturePosition<Dim>> y_p, MoveRows<Particles> particles,
+                  Update<RankMap> map) const;
+};
+
+/// Of a world that has the particles of all ranks: leaves those of this one.
+void keep_own_particles(int dimension, World& world);
+
+}  // namespace minamo

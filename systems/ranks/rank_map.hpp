@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// Which rank has the particles of which block of cells: blocks in the order of Morton's curve (1966), a piece of it for
+/// every rank, so that what a rank has lies together.
+
+#include "components/types.hpp"
+#include "engine/component.hpp"
+#include "systems/conforming/splines.hpp"
+#include "systems/grid/cell_blocks.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace minamo {
+
+/// Place of a block on the curve: the bits of its coordinates in turn, x lowest. \pre coordinates below 2^21
+template <int Dim>
+std::uint64_t morton_key(const Index<Dim>& place) {
+  std::uint64_t key = 0;
+  for (int bit = 20; bit >= 0; --bit) {
+    for (std::size_t d = Dim; d-- > 0;) key = 2 * key + (static_cast<std::uint64_t>(place[d]) >> bit & 1U);
+  }
+  return key;
+}
+
+/// Where on the curve the piece of every rank begins; rank 0's at its start.
+struct RankMap {
+  std::vector<std::uint64_t> begin;
+  static constexpr ComponentInfo info{"ranks.map", "", "1", Lifetime::cache};
+
+  int owner(std::uint64_t key) const {
+    return static_cast<int>(std::upper_bound(begin.begin(), begin.end(), key) - begin.begin()) - 1;
+  }
+};
+
+/// A block with particles.
+struct BlockLoad {
+  std::uint64_t key;
+  std::uint64_t particles;
+};
+
+/// Cuts the curve so that every rank has about as many particles.
+/// \param loads  in the order of the curve; keys may come several times
+RankMap cut_curve(std::span<const BlockLoad> loads, int ranks);
+
+/// Loads of the blocks around points, in the order of the curve.
+template <int Dim>
+std::vector<BlockLoad> loads_of(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Vec<Dim>> y_p);
+
+}  // namespace minamo

@@ -1,0 +1,29 @@
+#include "systems/parts.hpp"
+#include "systems/ranks/migrate.hpp"
+#include "systems/ranks/site_exchange.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// A run of one process has nothing of it. Its systems stand with those that they come between: grid/, solve/.
+Contribution read_ranks(Input&, Scene&) {
+  if (all_ranks() == nullptr) return {};
+  return [](const Scene&, Recipe& recipe) {
+    recipe.seed([](const Scene& scene, World& world, SeedProblems&) {
+      world.resource<Ranks>().all = all_ranks();
+      keep_own_particles(scene.dimension, world);
+    });
+  };
+}
+
+}  // namespace
+
+void add_ranks(SystemRegistry& registry) {
+  registry.add<MigrateParticles>("migrate_particles");
+  registry.add<FindGhostCells>("find_ghost_cells");
+  registry.add<PlanSiteExchange>("plan_site_exchange");
+  registry.add(Part{"ranks", "a run on several machines; no key", read_ranks});
+}
+
+}  // namespace minamo

@@ -1,0 +1,165 @@
+"""Runs on several ranks against runs of one process. In the environment: PROGRAM (minamo), MPI_PROGRAM (minamo-mpi),
+MPIEXEC, WORK."""
+
+import csv
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WORK = pathlib.Path(os.environ["WORK"])
+SCENES = ROOT / "scenes"
+
+DAM_BREAK = ["--set", "/grid/cells=[24, 24]", "--set", "/time/end=0.3", "--set", "/output/every=0.1", "--set",
+             "/time/step=4e-3", "--set", "/solver={\"tolerance\": 1e-12}"]
+SPACE = ["--set", "/grid/cells=[16, 8, 16]", "--set", "/particles/0/per_cell=2", "--set", "/time/end=0.1", "--set",
+         "/output/every=0.1", "--set", "/time={\"end\": 0.1, \"step\": 5e-3}", "--set", "/solver={\"tolerance\": 1e-12}"]
+
+
+def command(ranks):
+    if ranks == 0:
+        return [os.environ["PROGRAM"]]
+    as_root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
+    # Many times the signal's second, for a step and a checkpoint to end.
+    return [os.environ["MPIEXEC"], "-n", str(ranks), "--oversubscribe", "--mca", "odls_base_sigkill_timeout", "60",
+            *as_root, os.environ["MPI_PROGRAM"]]
+
+
+def run(name, ranks, scene, *options, expect=0):
+    folder = WORK / name
+    if "--resume" not in options:
+        shutil.rmtree(folder, ignore_errors=True)
+    done = subprocess.run([*command(ranks), "run", str(scene), "--out", str(folder), "--threads", "1", "--quiet",
+                           *options], capture_output=True, text=True, timeout=250)
+    if expect is not None and done.returncode != expect:
+        raise AssertionError(f"{name}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+    return folder, done
+
+
+def history(folder):
+    with open(folder / "history.csv") as file:
+        rows = list(csv.DictReader(file))
+    return {key: np.array([float(row[key]) for row in rows if row[key]]) for key in rows[0]}
+
+
+def last_frame(folder):
+    with h5py.File(folder / "fields.h5") as file:
+        frames = file["particles"]
+        frame = frames[str(len(frames) - 1)]
+        order = np.argsort(frame["id"][:])
+        return {name: frame[name][:][order] for name in ("id", "position", "velocity", "pressure")}
+
+
+class Alike(unittest.TestCase):
+    """The same flow on any number of ranks."""
+
+    def assert_alike(self, folder, alone, within=1e-8):
+        ours, theirs = history(folder), history(alone)
+        np.testing.assert_array_equal(ours["time"], theirs["time"])
+        energy = theirs["kinetic_energy"] + theirs["potential_energy"]
+        for column in ("kinetic_energy", "potential_energy"):
+            difference = np.abs(ours[column] - theirs[column]).max() / energy[0]
+            self.assertLess(difference, within, f"{folder}: {column}")
+        frame, expected = last_frame(folder), last_frame(alone)
+        np.testing.assert_array_equal(frame["id"], expected["id"])
+        self.assertLess(np.abs(frame["position"] - expected["position"]).max(), 1e-6)
+        scale = np.abs(expected["pressure"]).max()
+        self.assertLess(np.abs(frame["pressure"] - expected["pressure"]).max() / scale, 1e-4)
+        summaries = [json.loads((place / "summary.json").read_text()) for place in (folder, alone)]
+        self.assertEqual(summaries[0]["particles"], summaries[1]["particles"])
+        self.assertAlmostEqual(summaries[0]["conservation"]["mass"] / summaries[1]["conservation"]["mass"], 1, 12)
+
+    def check(self, name, scene, options, counts, within=1e-8):
+        alone, _ = run(f"{name}_alone", 0, scene, *options)
+        for ranks in counts:
+            with self.subTest(ranks=ranks):
+                self.assert_alike(run(f"{name}_{ranks}", ranks, scene, *options)[0], alone, within)
+
+    def test_dam_break(self):
+        self.check("plane", SCENES / "dam_break.json", DAM_BREAK, [2, 3])
+
+    def test_dam_break_in_space(self):
+        self.check("space", SCENES / "dam_break_3d.json", SPACE, [3])
+
+    def test_degree_3_and_flip(self):
+        scheme = ["--set", "/discretization={\"scheme\": \"conforming\", \"degree\": 3}", "--set",
+                  "/transfer={\"scheme\": \"flip\"}"]
+        self.check("flip", SCENES / "dam_break.json", [*DAM_BREAK, *scheme, "--set", "/time/end=0.2"], [3])
+
+    def test_around_a_periodic_axis(self):
+        options = ["--set", "/walls={\"x\": \"periodic\", \"y\": \"slip\"}", "--set", "/time/end=0.2"]
+        self.check("periodic", SCENES / "dam_break.json", [*DAM_BREAK, *options], [3])
+
+    def test_one_process_of_mpi_is_the_ordinary_program(self):
+        alone, _ = run("ordinary", 0, SCENES / "dam_break.json", *DAM_BREAK)
+        of_mpi, _ = run("of_mpi", 1, SCENES / "dam_break.json", *DAM_BREAK)
+        for name in ("history.csv", "fields.h5"):
+            self.assertEqual((alone / name).read_bytes(), (of_mpi / name).read_bytes())
+
+
+class Continuations(unittest.TestCase):
+    def test_another_number_of_ranks_goes_on(self):
+        alone, _ = run("whole", 0, SCENES / "dam_break.json", *DAM_BREAK)
+        folder, _ = run("parts", 3, SCENES / "dam_break.json", *DAM_BREAK, "--steps", "30")
+        run("parts", 2, SCENES / "dam_break.json", *DAM_BREAK, "--steps", "50", "--resume")
+        run("parts", 0, SCENES / "dam_break.json", *DAM_BREAK, "--resume")
+        Alike.assert_alike(self, folder, alone)
+
+    def test_a_signal_leaves_a_checkpoint(self):
+        folder = WORK / "signal"
+        shutil.rmtree(folder, ignore_errors=True)
+        process = subprocess.Popen([*command(2), "run", str(SCENES / "dam_break.json"), "--out", str(folder), "--quiet",
+                                    *DAM_BREAK, "--set", "/time/end=100"], stderr=subprocess.DEVNULL)
+        for _ in range(600):
+            time.sleep(0.05)
+            if (folder / "history.csv").exists() and (folder / "history.csv").read_text().count("\n") > 5:
+                break
+        process.send_signal(signal.SIGTERM)
+        process.wait(timeout=60)
+        steps = json.loads((folder / "summary.json").read_text())["steps"]
+        run("signal", 2, SCENES / "dam_break.json", *DAM_BREAK, "--set", "/time/end=100", "--steps", str(steps + 2),
+            "--resume")
+        self.assertEqual(len(history(folder)["time"]), steps + 3)
+
+
+class Refusals(unittest.TestCase):
+    def test_a_scene_with_bodies_is_refused_once(self):
+        _, done = run("bodies", 3, SCENES / "obstacle.json", expect=None)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.stderr.count("\"cut_grid\"") + done.stderr.count("does not run on several ranks"),
+                         done.stderr.count("does not run on several ranks"))
+        self.assertIn("does not run on several ranks", done.stderr)
+        self.assertFalse((WORK / "bodies" / "history.csv").exists())
+
+    def test_more_ranks_than_blocks_have_nothing_to_do(self):
+        options = [*DAM_BREAK, "--set", "/grid/cells=[8, 8]", "--set", "/time/end=0.04"]
+        folder, _ = run("few_blocks", 5, SCENES / "dam_break.json", *options)
+        alone, _ = run("few_blocks_alone", 0, SCENES / "dam_break.json", *options)
+        Alike.assert_alike(self, folder, alone)
+
+    def test_what_one_rank_rejects_all_take_back(self):
+        options = [*DAM_BREAK, "--set", "/time/step=0.05", "--set", "/time/end=0.3"]
+        folder, _ = run("rejected", 3, SCENES / "dam_break.json", *options)
+        alone, _ = run("rejected_alone", 0, SCENES / "dam_break.json", *options)
+        rejected = [json.loads((place / "summary.json").read_text())["rejected_steps"] for place in (folder, alone)]
+        self.assertEqual(rejected[0], rejected[1])
+        self.assertGreater(rejected[0], 0)
+
+    def test_the_ordinary_program_is_not_run_several_times(self):
+        done = subprocess.run([*command(2)[:-1], os.environ["PROGRAM"], "run", str(SCENES / "dam_break.json"), "--out",
+                               str(WORK / "ordinary_twice")], capture_output=True, text=True, timeout=60)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("minamo-mpi", done.stderr)
+
+
+if __name__ == "__main__":
+    WORK.mkdir(parents=True, exist_ok=True)
+    unittest.main()

@@ -1,0 +1,16 @@
+# Option MINAMO_MPI and what it needs: a developer has minamo-mpi where it can be built, a user asks for it.
+
+if((MINAMO_DEVELOPER OR MINAMO_MPI) AND NOT MINAMO_SANITIZE)
+  find_package(MPI QUIET COMPONENTS CXX)
+  find_path(minamo_petsc_include petscksp.h PATH_SUFFIXES petsc)
+  mark_as_advanced(minamo_petsc_include)
+endif()
+if(MPI_CXX_FOUND AND minamo_petsc_include)
+  set(minamo_has_mpi ON)
+else()
+  set(minamo_has_mpi OFF)
+endif()
+option(MINAMO_MPI "Build minamo-mpi, which runs on several machines with MPI and PETSc" ${minamo_has_mpi})
+if(MINAMO_MPI AND NOT minamo_has_mpi)
+  message(FATAL_ERROR "MINAMO_MPI needs MPI and PETSc (libopenmpi-dev, libpetsc-real-dev)")
+endif()

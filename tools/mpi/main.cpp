@@ -1,0 +1,10 @@
+#include "tools/minamo.hpp"
+#include "tools/mpi/mpi_communicator.hpp"
+#include "tools/mpi/solve_petsc.hpp"
+
+int main(int argc, char** argv) {
+  const minamo::MpiSession session;
+  return minamo::run(argc, argv, [](minamo::SystemRegistry& registry) {
+    registry.add<minamo::SolveMultipliersPetsc>("solve_multipliers_petsc");
+  });
+}

@@ -1,0 +1,185 @@
+#include "tools/mpi/solve_petsc.hpp"
+
+#include <petscksp.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+
+namespace minamo {
+
+namespace {
+
+constexpr PetscInt most_iterations = 500;
+
+void check(PetscErrorCode code) {
+  if (code != 0) throw std::runtime_error(fmt::format("petsc: error {}", code));
+}
+
+}  // namespace
+
+/// Matrix and vectors of a step. The solver itself stays, for its options.
+struct PetscSolver::Impl {
+  KSP solver = nullptr;
+  ::Mat matrix = nullptr;
+  ::Vec right = nullptr;
+  ::Vec solution = nullptr;
+  MatNullSpace null_space = nullptr;
+
+  Impl() {
+    check(KSPCreate(PETSC_COMM_WORLD, &solver));
+    check(KSPSetType(solver, KSPCG));
+    PC preconditioner = nullptr;
+    check(KSPGetPC(solver, &preconditioner));
+    check(PCSetType(preconditioner, PCHYPRE));
+    check(PCHYPRESetType(preconditioner, "boomeramg"));
+    check(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
+    check(KSPSetOptionsPrefix(solver, "minamo_"));
+    check(KSPSetFromOptions(solver));
+  }
+  ~Impl() {
+    forget();
+    KSPDestroy(&solver);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void forget() {
+    MatDestroy(&matrix);
+    VecDestroy(&right);
+    VecDestroy(&solution);
+    MatNullSpaceDestroy(&null_space);
+  }
+};
+
+namespace {
+
+/// Sets the null space where walls enclose the liquid all around: S n = 0.
+void note_closed_box(PetscSolver::Impl& petsc, const SiteExchange& shared, std::span<const std::uint32_t> of_unknown,
+                     std::span<const double> null_vector, std::span<const double> diagonal) {
+  double* values = nullptr;
+  double largest = 0;
+  check(VecGetArray(petsc.right, &values));
+  for (std::size_t l = 0, k = 0; l < of_unknown.size(); ++l) {
+    if (!shared.owns(of_unknown[l])) continue;
+    values[k++] = null_vector[l];
+    largest = std::max(largest, diagonal[l] * null_vector[l]);
+  }
+  check(VecRestoreArray(petsc.right, &values));
+  check(MatMult(petsc.matrix, petsc.right, petsc.solution));
+  double left = 0;
+  check(VecNorm(petsc.solution, NORM_INFINITY, &left));
+  if (left > 1e-10 * shared.ranks().largest(largest)) return;
+  check(VecNormalize(petsc.right, nullptr));
+  check(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, 1, &petsc.right, &petsc.null_space));
+  check(MatSetNullSpace(petsc.matrix, petsc.null_space));
+  // The space holds on to this vector.
+  check(VecDestroy(&petsc.right));
+  check(MatCreateVecs(petsc.matrix, nullptr, &petsc.right));
+}
+
+/// Numbers of the unknowns among those of all ranks; none of what no rank owns.
+template <int Dim>
+std::vector<PetscInt> number_globally(const SiteExchange& shared, std::span<const std::int32_t> row,
+                                      std::span<const std::uint32_t> of_unknown, PetscInt& own, PetscInt& all) {
+  own = 0;
+  for (const std::uint32_t i : of_unknown) own += shared.owns(i) ? 1 : 0;
+  all = static_cast<PetscInt>(shared.ranks().sum(static_cast<std::int64_t>(own)));
+  auto next = static_cast<double>(shared.ranks().sum_below(own)) + 1;
+  std::vector<double> one_past(row.size(), 0);
+  for (const std::uint32_t i : of_unknown) {
+    if (shared.owns(i)) one_past[i] = next++;
+  }
+  shared.copy_from_owner(std::span(one_past));
+  std::vector<PetscInt> number;
+  for (const std::uint32_t i : of_unknown) number.push_back(static_cast<PetscInt>(one_past[i]) - 1);
+  return number;
+}
+
+}  // namespace
+
+template <int Dim>
+void SolveMultipliersPetsc<Dim>::operator()(
+    Read<SiteExchange> shared, Read<SolverTolerance> tolerance, Read<multiplier::Row> row,
+    Read<unknown::Staggered> of_unknown, Read<unknown::Neighbour<Dim>> neighbour,
+    Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
+    Read<unknown::NullVector> null_vector, Read<unknown::Source> source, Update<PetscSolver> solver,
+    Write<unknown::Solution> solution, Write<SolveReport> report) const {
+  PetscInt own = 0;
+  PetscInt all = 0;
+  const auto number = number_globally<Dim>(*shared, row.span(), of_unknown.span(), own, all);
+  *report = {.unknowns = all, .active = all, .iterations = 0, .residual = 0};
+  for (auto& x : solution) x = {};
+  if (all == 0) return;
+
+  auto& petsc = solver->impl();
+  petsc.forget();
+  check(MatCreateAIJ(PETSC_COMM_WORLD, own, own, all, all, 2 * Dim + 1, nullptr, 2 * Dim, nullptr, &petsc.matrix));
+  check(MatCreateVecs(petsc.matrix, &petsc.solution, &petsc.right));
+  for (std::size_t l = 0; l < number.size(); ++l) {
+    if (!shared->owns(of_unknown[l])) continue;
+    const auto set = [&](PetscInt column, double value) {
+      check(MatSetValues(petsc.matrix, 1, &number[l], 1, &column, &value, INSERT_VALUES));
+    };
+    set(number[l], diagonal[l]);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const std::int32_t below = neighbour[l][2 * d];
+      const std::int32_t above = neighbour[l][2 * d + 1];
+      if (below >= 0 && number[static_cast<std::size_t>(below)] >= 0)
+        set(number[static_cast<std::size_t>(below)], -conductance[static_cast<std::size_t>(below)][d]);
+      if (above >= 0 && number[static_cast<std::size_t>(above)] >= 0)
+        set(number[static_cast<std::size_t>(above)], -conductance[l][d]);
+    }
+  }
+  check(MatAssemblyBegin(petsc.matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(petsc.matrix, MAT_FINAL_ASSEMBLY));
+  check(MatSetOption(petsc.matrix, MAT_SPD, PETSC_TRUE));
+  note_closed_box(petsc, *shared, of_unknown.span(), null_vector.span(), diagonal.span());
+  check(KSPSetOperators(petsc.solver, petsc.matrix, petsc.matrix));
+  check(KSPSetTolerances(petsc.solver, tolerance->relative, 0, PETSC_DEFAULT, most_iterations));
+
+  std::vector<Sources> of_site(row.size(), Sources{});
+  for (std::size_t s = 0; s < most_sources; ++s) {
+    double* values = nullptr;
+    check(VecGetArray(petsc.right, &values));
+    for (std::size_t l = 0, k = 0; l < number.size(); ++l) {
+      if (shared->owns(of_unknown[l])) values[k++] = source[l][s];
+    }
+    check(VecRestoreArray(petsc.right, &values));
+    if (petsc.null_space != nullptr) check(MatNullSpaceRemove(petsc.null_space, petsc.right));
+    double size = 0;
+    check(VecNorm(petsc.right, NORM_2, &size));
+    if (size == 0) continue;
+    check(KSPSolve(petsc.solver, petsc.right, petsc.solution));
+    PetscInt iterations = 0;
+    double residual = 0;
+    check(KSPGetIterationNumber(petsc.solver, &iterations));
+    check(KSPGetResidualNorm(petsc.solver, &residual));
+    report->iterations = std::max<std::int64_t>(report->iterations, iterations);
+    report->residual = std::max(report->residual, residual / size);
+    const double* x = nullptr;
+    check(VecGetArrayRead(petsc.solution, &x));
+    for (std::size_t l = 0, k = 0; l < number.size(); ++l) {
+      if (shared->owns(of_unknown[l])) of_site[of_unknown[l]][s] = x[k++];
+    }
+    check(VecRestoreArrayRead(petsc.solution, &x));
+  }
+  shared->copy_from_owner(std::span(of_site));
+  for (std::size_t l = 0; l < number.size(); ++l) solution[l] = of_site[of_unknown[l]];
+}
+
+PetscSolver::PetscSolver() = default;
+PetscSolver::~PetscSolver() = default;
+PetscSolver::PetscSolver(PetscSolver&&) noexcept = default;
+PetscSolver& PetscSolver::operator=(PetscSolver&&) noexcept = default;
+
+PetscSolver::Impl& PetscSolver::impl() {
+  if (!impl_) impl_ = std::make_unique<Impl>();
+  return *impl_;
+}
+
+template struct SolveMultipliersPetsc<2>;
+template struct SolveMultipliersPetsc<3>;
+
+}  // namespace minamo
+
