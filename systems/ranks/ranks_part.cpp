@@ -1,6 +1,7 @@
 #include "systems/parts.hpp"
 #include "systems/ranks/migrate.hpp"
 #include "systems/ranks/site_exchange.hpp"
+#include "systems/setup/scene.hpp"
 
 namespace minamo {
 

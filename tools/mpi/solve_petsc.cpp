@@ -45,6 +45,7 @@ struct PetscSolver::Impl {
   Impl& operator=(const Impl&) = delete;
 
   void forget() {
+    KSPReset(solver);
     MatDestroy(&matrix);
     VecDestroy(&right);
     VecDestroy(&solution);
