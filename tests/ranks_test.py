@@ -28,9 +28,7 @@ def command(ranks):
     if ranks == 0:
         return [os.environ["PROGRAM"]]
     as_root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
-    # Many times the signal's second, for a step and a checkpoint to end.
-    return [os.environ["MPIEXEC"], "-n", str(ranks), "--oversubscribe", "--mca", "odls_base_sigkill_timeout", "60",
-            *as_root, os.environ["MPI_PROGRAM"]]
+    return [os.environ["MPIEXEC"], "-n", str(ranks), "--oversubscribe", *as_root, os.environ["MPI_PROGRAM"]]
 
 
 def run(name, ranks, scene, *options, expect=0):
@@ -122,7 +120,7 @@ class Continuations(unittest.TestCase):
             time.sleep(0.05)
             if (folder / "history.csv").exists() and (folder / "history.csv").read_text().count("\n") > 5:
                 break
-        process.send_signal(signal.SIGTERM)
+        process.send_signal(signal.SIGUSR1)
         process.wait(timeout=60)
         steps = json.loads((folder / "summary.json").read_text())["steps"]
         run("signal", 2, SCENES / "dam_break.json", *DAM_BREAK, "--set", "/time/end=100", "--steps", str(steps + 2),
@@ -134,9 +132,10 @@ class Refusals(unittest.TestCase):
     def test_a_scene_with_bodies_is_refused_once(self):
         _, done = run("bodies", 3, SCENES / "obstacle.json", expect=None)
         self.assertNotEqual(done.returncode, 0)
-        self.assertEqual(done.stderr.count("\"cut_grid\"") + done.stderr.count("does not run on several ranks"),
-                         done.stderr.count("does not run on several ranks"))
-        self.assertIn("does not run on several ranks", done.stderr)
+        lines = [line for line in done.stderr.splitlines() if "does not run on several ranks" in line]
+        self.assertGreater(len(lines), 0)
+        said = [line for line in done.stderr.splitlines() if line.startswith("  got")]
+        self.assertEqual(len(said), len(set(said)))
         self.assertFalse((WORK / "bodies" / "history.csv").exists())
 
     def test_more_ranks_than_blocks_have_nothing_to_do(self):

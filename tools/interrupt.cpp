@@ -12,6 +12,7 @@ const std::atomic<bool>& stop_on_signal() {
   };
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
+  std::signal(SIGUSR1, request_stop);
   return stop_requested;
 }
 

@@ -14,7 +14,7 @@ namespace minamo {
 
 class SiteExchange {
  public:
-  static constexpr ComponentInfo info{"ranks.sites", "", "1", Lifetime::scratch};
+  static constexpr ComponentInfo info{"ranks.sites", "", "1", Lifetime::cache};  // frames come after the step
   using rows_of = Staggered;
 
   std::size_t rows() const { return owner_.size(); }
