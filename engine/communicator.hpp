@@ -82,8 +82,8 @@ class FailedElsewhere : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// If something has failed on one rank or more, throws on all of them: on the lowest rank that failed its own exception,
-/// elsewhere StepRejected or FailedElsewhere with the same text.
+/// If something has failed on one rank or more, throws on all of them: on the lowest rank that failed its own
+/// exception, elsewhere StepRejected or FailedElsewhere with the same text.
 void agree_on_failure(Communicator& ranks, const std::exception_ptr& failure);
 /// Calls f, and fails on all ranks if it fails on one. f talks to nobody.
 void do_on_all(Communicator* ranks, const std::function<void()>& f);

@@ -257,8 +257,8 @@ void Schedule::Impl::run_list(std::size_t count) {
   for (std::size_t place = 0; place < count; ++place) run_system(place, begin);
 }
 
-/// Whoever talks to other ranks waits until all have come that far, and a rank on which something has failed would never
-/// come. So all ask before.
+/// Whoever talks to other ranks waits until all have come that far, and a rank on which something has failed would
+/// never come. So all ask before.
 void Schedule::Impl::run_on_ranks(std::size_t count) {
   Time begin = now();
   std::exception_ptr failure;

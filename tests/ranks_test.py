@@ -103,6 +103,18 @@ class Alike(unittest.TestCase):
             self.assertEqual((alone / name).read_bytes(), (of_mpi / name).read_bytes())
 
 
+class Messages(unittest.TestCase):
+    def test_a_step_at_rest_sends_what_it_shares(self):
+        still = ["--set", "/particles/0/shape={\"box\": {\"low\": [0, 0], \"high\": [0.584, 0.292]}}"]
+        sent = {}
+        for steps in (5, 6):
+            folder, _ = run(f"still_{steps}", 2, SCENES / "dam_break.json", *still, "--steps", str(steps))
+            sent[steps] = json.loads((folder / "summary.json").read_text())["ranks"]["messages"]
+        # Volume and divergence of multipliers, mass and velocity of faces, bound of friction and friction, inertia, parts,
+        # numbers and solutions of the unknowns; ghost cells, and which sites they touch.
+        self.assertEqual(sent[6] - sent[5], 2 * (10 + 2))
+
+
 class Continuations(unittest.TestCase):
     def test_another_number_of_ranks_goes_on(self):
         alone, _ = run("whole", 0, SCENES / "dam_break.json", *DAM_BREAK)

@@ -1,11 +1,11 @@
 #include "tools/continuation.hpp"
 
-#include "engine/communicator.hpp"
-#include "systems/ranks/rows_of_ranks.hpp"
 #include "engine/checkpoint.hpp"
+#include "engine/communicator.hpp"
 #include "engine/step_control.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
+#include "systems/ranks/rows_of_ranks.hpp"
 
 #include "minamo_version.hpp"
 

@@ -116,7 +116,8 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   const bool in_plane = world.has<Grid<2>>();
   if (Communicator* ranks = all_ranks()) {
     const auto sent = ranks->traffic();
-    summary["ranks"] = {{"count", ranks->size()}, {"messages", ranks->sum(sent.messages)}, {"bytes", ranks->sum(sent.bytes)}};
+    summary["ranks"] = {
+        {"count", ranks->size()}, {"messages", ranks->sum(sent.messages)}, {"bytes", ranks->sum(sent.bytes)}};
   }
   Json conservation{{"mass", mass}};
   conservation.update(conserved(totals.last, in_plane));

@@ -74,8 +74,8 @@ void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
                                    Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p,
                                    Read<face::Mass<Dim>> m_f, Read<face::Held> held,
                                    Optional<Read<SiteExchange>> shared, Write<face::BodyForce<Dim>> b_f) const {
-  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(), b_f.span(),
-                       [&](std::size_t p) { return series::Constant<Dim>{b_p[p]}; });
+  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
+                       b_f.span(), [&](std::size_t p) { return series::Constant<Dim>{b_p[p]}; });
   const Constraints<Dim> walls{held.span()};
   for_each_row(b_f.size(), [&](std::size_t i) { hold_at_rest<Dim>(walls, i, b_f[i]); });
 }
@@ -90,8 +90,8 @@ void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Re
                                      Update<face::Predictor<Dim>> predictor) const {
   const double share = std::min(1.0, step->seconds / clock->step);
   const Vec<Dim> nothing = Vec<Dim>::Zero();
-  scatter_mean_by_cell<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(), c_f.span(),
-                            [&](std::size_t c, const auto&, auto) {
+  scatter_mean_by_cell<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
+                            c_f.span(), [&](std::size_t c, const auto&, auto) {
                               return [&, w = share * w_c[c]](std::size_t p) {
                                 return series::Linear<Dim>{nothing, w * grad_f_p[p]};
                               };

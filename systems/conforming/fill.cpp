@@ -57,7 +57,8 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
                                      Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                                      Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                                     Optional<Read<SiteExchange>> shared, Write<multiplier::Volume> v_l, Write<multiplier::Curvature> curvature) const {
+                                     Optional<Read<SiteExchange>> shared, Write<multiplier::Volume> v_l,
+                                     Write<multiplier::Curvature> curvature) const {
   const auto gradient = grad_v_p.span();
   const double half_step = 0.5 * clock->step;
   const double full_cell = cell_volume<Dim>(*grid);

@@ -45,9 +45,9 @@ void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Re
                                Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
                                Optional<Read<face::Open<Dim>>> open, Optional<Read<FaceExtension<Dim>>> extension,
                                Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest,
-                               Optional<Read<SiteExchange>> shared, Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
-                               Write<face::Friction<Dim>> friction, Write<FrictionOnWalls<Dim>> on_walls,
-                               Update<face::Predictor<Dim>> predictor) const {
+                               Optional<Read<SiteExchange>> shared, Update<cell::Viscosity> mu_c,
+                               Write<face::FrictionBound<Dim>> bound, Write<face::Friction<Dim>> friction,
+                               Write<FrictionOnWalls<Dim>> on_walls, Update<face::Predictor<Dim>> predictor) const {
   const double tau = rates->velocity / rates->acceleration;
   const bool walls_rub = static_cast<bool>(cut);
   FrictionOf<Dim> of{*splines, *matrices, *cells, *sites, mu_c.span()};

@@ -37,9 +37,9 @@ struct RubFaces {
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
                   Optional<Read<face::Open<Dim>>> open, Optional<Read<FaceExtension<Dim>>> extension,
                   Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest,
-                  Optional<Read<SiteExchange>> shared, Update<cell::Viscosity> mu_c, Write<face::FrictionBound<Dim>> bound,
-                  Write<face::Friction<Dim>> friction, Write<FrictionOnWalls<Dim>> on_walls,
-                  Update<face::Predictor<Dim>> predictor) const;
+                  Optional<Read<SiteExchange>> shared, Update<cell::Viscosity> mu_c,
+                  Write<face::FrictionBound<Dim>> bound, Write<face::Friction<Dim>> friction,
+                  Write<FrictionOnWalls<Dim>> on_walls, Update<face::Predictor<Dim>> predictor) const;
 };
 
 }  // namespace minamo

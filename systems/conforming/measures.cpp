@@ -13,7 +13,8 @@ void MeasureFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<D
                                             Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                             Optional<Read<face::Open<Dim>>> open,
                                             Optional<Read<face::WallFlux<Dim>>> wall_flux,
-                                            Optional<Read<SiteExchange>> shared, Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f,
+                                            Optional<Read<SiteExchange>> shared, Read<unknown::Staggered> of_unknown,
+                                            Read<face::BalanceVelocity<Dim>> v_f,
                                             Write<measure::MaxDivergence> largest) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const Passage<Dim> passage{open.span(), wall_flux.span()};

@@ -20,7 +20,8 @@ struct MeasureFaceDivergence {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<face::WallFlux<Dim>>> wall_flux, Optional<Read<SiteExchange>> shared,
-                  Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f, Write<measure::MaxDivergence> largest) const;
+                  Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f,
+                  Write<measure::MaxDivergence> largest) const;
 };
 
 /// (E32)  overlap = sum_l max(0, V~_l - V_l) / sum_p V_p, at y_p.

@@ -60,8 +60,7 @@ template <int Dim, int K>
 void find_site_neighbours(const OccupiedCells<Dim>& cells, const CellSites& sites,
                           std::span<typename staggered::Neighbour<Dim>::value_type> neighbour) {
   for_each_row(neighbour.size(), [&](std::size_t i) { neighbour[i].fill(staggered::none); });
-  for_each_cell_coloured<Dim>(cells,
-                              [&](std::size_t c, const auto&) { join_sites<Dim, K>(sites.of(c), neighbour); });
+  for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto&) { join_sites<Dim, K>(sites.of(c), neighbour); });
 }
 
 }  // namespace
@@ -69,10 +68,10 @@ void find_site_neighbours(const OccupiedCells<Dim>& cells, const CellSites& site
 template <int Dim>
 void NumberSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
                                   Read<GridCells<Dim>> cells, Optional<Read<GhostCells<Dim>>> ghosts,
-                                  Resize<Staggered> table, Write<CellSites> sites,
-                                  Update<StaggeredIndex<Dim>> rows, Update<staggered::Site<Dim>> site,
-                                  Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
-                                  Write<multiplier::Capacity> capacity, Update<NumberingBuffer> buffer) const {
+                                  Resize<Staggered> table, Write<CellSites> sites, Update<StaggeredIndex<Dim>> rows,
+                                  Update<staggered::Site<Dim>> site, Write<staggered::Neighbour<Dim>> neighbour,
+                                  Write<face::Held> held, Write<multiplier::Capacity> capacity,
+                                  Update<NumberingBuffer> buffer) const {
   rows->start(splines->sites());
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
@@ -110,9 +109,8 @@ void NumberSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splin
     if (ghosts) {
       for (const auto& cell : ghosts->cells) {
         std::array<std::uint32_t, cell_sites<Dim, K>> of_cell;
-        for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
-          of_cell[k] = *rows->find(splines->site(cell.at, offset));
-        });
+        for_each_site<Dim, K>(
+            [&](std::size_t k, const Index<Dim>& offset) { of_cell[k] = *rows->find(splines->site(cell.at, offset)); });
         join_sites<Dim, K>(of_cell.data(), neighbour.span());
       }
     }

@@ -17,8 +17,9 @@ template <int Dim>
 struct NumberSites {
   static constexpr std::string_view doc = "number the staggered sites of occupied cells";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls, Read<GridCells<Dim>> cells,
-                  Optional<Read<GhostCells<Dim>>> ghosts, Resize<Staggered> table, Write<CellSites> sites, Update<StaggeredIndex<Dim>> rows,
-                  Update<staggered::Site<Dim>> site, Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
+                  Optional<Read<GhostCells<Dim>>> ghosts, Resize<Staggered> table, Write<CellSites> sites,
+                  Update<StaggeredIndex<Dim>> rows, Update<staggered::Site<Dim>> site,
+                  Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
                   Write<multiplier::Capacity> capacity, Update<NumberingBuffer> buffer) const;
 };
 

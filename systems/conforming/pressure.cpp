@@ -338,10 +338,12 @@ template <int Dim>
 void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                                       Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Volume> V_p, Read<multiplier::Force> lambda,
-                                      Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<SiteExchange>> shared, Write<multiplier::Pressure> p_l,
+                                      Optional<Read<multiplier::OpenShare>> open_share,
+                                      Optional<Read<SiteExchange>> shared, Write<multiplier::Pressure> p_l,
                                       Write<particle::Pressure> p_p) const {
   with_degree(splines->degree, [&](auto degree) {
-    PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span(), of_ranks(shared));
+    PressureMass<Dim, degree()> mass(*grid, *splines, *rows, site.span(), y_p.span(), V_p.span(), lambda.span(),
+                                     of_ranks(shared));
     std::vector<double> force(lambda.begin(), lambda.end());
     std::vector<double> known(lambda.size(), 0);
     const PressureOfFewParticles<Dim> of_few(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),

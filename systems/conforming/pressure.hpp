@@ -21,8 +21,8 @@ struct RecoverPressure {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Volume> V_p, Read<multiplier::Force> lambda,
-                  Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<SiteExchange>> shared, Write<multiplier::Pressure> p_l,
-                  Write<particle::Pressure> p_p) const;
+                  Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::Pressure> p_l, Write<particle::Pressure> p_p) const;
 };
 
 }  // namespace minamo

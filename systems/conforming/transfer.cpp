@@ -15,7 +15,8 @@ template <int Dim>
 void P2GFacesPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                   Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-                                  Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
+                                  Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f,
+                                  Write<face::Velocity<Dim>> v_f) const {
   scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(), v_f.span(),
                     [&](std::size_t p) { return series::Constant<Dim>{v_p[p]}; });
 }
@@ -24,8 +25,8 @@ template <int Dim>
 void P2GFacesTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-                                   Read<particle::VelocityGradient<Dim>> grad_v_p, Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f,
-                                   Write<face::Velocity<Dim>> v_f) const {
+                                   Read<particle::VelocityGradient<Dim>> grad_v_p, Optional<Read<SiteExchange>> shared,
+                                   Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
   scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(), v_f.span(),
                     [&](std::size_t p) {
                       return series::Linear<Dim>{v_p[p], grad_v_p[p]};
@@ -94,9 +95,10 @@ void P2GFaceAccelerationPic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<
                                              Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                              Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                              Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f,
-                                             Optional<Read<SiteExchange>> shared, Write<face::Acceleration<Dim>> a_f) const {
-  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(), a_f.span(),
-                       [&](std::size_t p) { return series::Constant<Dim>{a_p[p]}; });
+                                             Optional<Read<SiteExchange>> shared,
+                                             Write<face::Acceleration<Dim>> a_f) const {
+  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
+                       a_f.span(), [&](std::size_t p) { return series::Constant<Dim>{a_p[p]}; });
 }
 
 template <int Dim>
@@ -105,9 +107,10 @@ void P2GFaceAccelerationTpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines
                                               Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                                               Read<particle::Acceleration<Dim>> a_p,
                                               Read<particle::AccelerationGradient<Dim>> grad_a_p,
-                                              Read<face::Mass<Dim>> m_f, Optional<Read<SiteExchange>> shared, Write<face::Acceleration<Dim>> a_f) const {
-  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(), a_f.span(),
-                       [&](std::size_t p) {
+                                              Read<face::Mass<Dim>> m_f, Optional<Read<SiteExchange>> shared,
+                                              Write<face::Acceleration<Dim>> a_f) const {
+  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
+                       a_f.span(), [&](std::size_t p) {
                          return series::Linear<Dim>{a_p[p], grad_a_p[p]};
                        });
 }

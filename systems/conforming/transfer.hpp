@@ -10,8 +10,8 @@
 #include "engine/input.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
-#include "systems/ranks/site_exchange.hpp"
 #include "systems/openings/opening_set.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -21,7 +21,8 @@ struct P2GFacesPic {
   static constexpr std::string_view doc = "(E3) (E4) m_f and v_f^n, PIC";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Velocity<Dim>> v_p, Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const;
+                  Read<particle::Velocity<Dim>> v_p, Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f,
+                  Write<face::Velocity<Dim>> v_f) const;
 };
 
 /// (E3), (E5) on faces, with the gradient that particles carry.
@@ -31,7 +32,8 @@ struct P2GFacesTpic {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> grad_v_p,
-                  Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const;
+                  Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f,
+                  Write<face::Velocity<Dim>> v_f) const;
 };
 
 /// (E17)  v_p = sum_f N_f v_f^{n+1}.
@@ -84,8 +86,8 @@ struct P2GFaceAccelerationPic {
   static constexpr std::string_view doc = "(E4) a_f^n, newmark";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f,
-                  Optional<Read<SiteExchange>> shared, Write<face::Acceleration<Dim>> a_f) const;
+                  Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f, Optional<Read<SiteExchange>> shared,
+                  Write<face::Acceleration<Dim>> a_f) const;
 };
 
 /// (E5) on faces for the acceleration.
@@ -95,7 +97,8 @@ struct P2GFaceAccelerationTpic {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Acceleration<Dim>> a_p, Read<particle::AccelerationGradient<Dim>> grad_a_p,
-                  Read<face::Mass<Dim>> m_f, Optional<Read<SiteExchange>> shared, Write<face::Acceleration<Dim>> a_f) const;
+                  Read<face::Mass<Dim>> m_f, Optional<Read<SiteExchange>> shared,
+                  Write<face::Acceleration<Dim>> a_f) const;
 };
 
 /// (E17) on faces for the acceleration.

@@ -115,10 +115,11 @@ template <int Dim>
 void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                                          Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
                                          Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
-                                         Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared, Read<particle::Mass> m_p,
-                                         Read<particle::Velocity<Dim>> v_p, Read<face::Mass<Dim>> m_f,
-                                         Read<face::BodyForce<Dim>> b_f, Read<face::Displacement<Dim>> u_f,
-                                         Update<particle::Shift<Dim>> d_p, Update<particle::Stir<Dim>> s_p) const {
+                                         Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared,
+                                         Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                                         Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f,
+                                         Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
+                                         Update<particle::Stir<Dim>> s_p) const {
   Vec<Dim> everywhere = Vec<Dim>::Zero();
   if (!b_p) everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
   double lifted = -reduce_rows(

@@ -83,9 +83,10 @@ struct LimitParticleShift {
   void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
                   Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
-                  Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared, Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-                  Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f, Read<face::Displacement<Dim>> u_f,
-                  Update<particle::Shift<Dim>> d_p, Update<particle::Stir<Dim>> s_p) const;
+                  Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared, Read<particle::Mass> m_p,
+                  Read<particle::Velocity<Dim>> v_p, Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f,
+                  Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
+                  Update<particle::Stir<Dim>> s_p) const;
 };
 
 /// x_p += d_p + s_p, at most 0.1 h. Velocities do not change: with grad v s_p the energy would rise.

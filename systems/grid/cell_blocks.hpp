@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Blocks of 4^d cells: particles are sorted by them, blocks of one colour are worked on side by side, and ranks own them.
+/// Blocks of 4^d cells: particles are sorted by them, blocks of one colour are worked on side by side, and ranks own
+/// them.
 
 #include "components/cells.hpp"
 #include "components/grid.hpp"

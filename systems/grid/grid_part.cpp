@@ -1,5 +1,5 @@
-#include "engine/communicator.hpp"
 #include "components/grid.hpp"
+#include "engine/communicator.hpp"
 #include "systems/assemble/neighbours.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"

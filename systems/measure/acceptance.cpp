@@ -138,16 +138,15 @@ void AcceptStep<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest
 }
 
 template <int Dim>
-void AcceptStepOnFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest,
-                                        Read<SolverTolerance> tolerance, Read<SolveReport> solve,
-                                        Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
-                                        Read<face::Displacement<Dim>> u_f, Read<particle::Id> id,
-                                        Read<particle::Position<Dim>> x_p, Read<particle::QuadraturePosition<Dim>> y_p,
-                                        Read<particle::Velocity<Dim>> v_p,
-                                        Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                                        Optional<Read<SiteExchange>> shared, Read<measure::Overlap> overlap, Read<StepTotals> so_far) const {
+void AcceptStepOnFaces<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance, Read<SolveReport> solve,
+    Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f, Read<face::Displacement<Dim>> u_f,
+    Read<particle::Id> id, Read<particle::Position<Dim>> x_p, Read<particle::QuadraturePosition<Dim>> y_p,
+    Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+    Optional<Read<SiteExchange>> shared, Read<measure::Overlap> overlap, Read<StepTotals> so_far) const {
   require_solved(*solve, *tolerance);
-  const double threshold = shared ? threshold_on_ranks<Dim>(*shared, m_f.span()) : mass_threshold(numbers_of(m_f.span()));
+  const double threshold =
+      shared ? threshold_on_ranks<Dim>(*shared, m_f.span()) : mass_threshold(numbers_of(m_f.span()));
   require_moderate<Dim>(*grid, largest->cells, site.span(), u_f.span(), [&](std::size_t i) {
     if (!u_f[i].allFinite()) return std::numeric_limits<double>::infinity();
     return (m_f[i].array() > threshold).select(u_f[i], Vec<Dim>(Vec<Dim>::Zero())).norm();

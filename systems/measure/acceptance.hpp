@@ -47,8 +47,8 @@ struct AcceptStepOnFaces {
                   Read<SolveReport> solve, Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
                   Read<face::Displacement<Dim>> u_f, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Velocity<Dim>> v_p,
-                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<SiteExchange>> shared, Read<measure::Overlap> overlap,
-                  Read<StepTotals> so_far) const;
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<SiteExchange>> shared,
+                  Read<measure::Overlap> overlap, Read<StepTotals> so_far) const;
 };
 
 /// The start counts.

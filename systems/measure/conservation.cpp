@@ -113,10 +113,10 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
   energy->surface.reset();
   const auto force = force_with_potential<Dim>(*grid, *b);
   if (!force) return;
-  energy->potential = on_all(
-      ranks, reduce_rows(
-                 m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force->dot(x_p[p] - grid->low); },
-                 std::plus<>()));
+  energy->potential =
+      on_all(ranks, reduce_rows(
+                        m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force->dot(x_p[p] - grid->low); },
+                        std::plus<>()));
 }
 
 template <int Dim>
@@ -143,7 +143,8 @@ void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Optional<Read<Spline
 }
 
 template <int Dim>
-void MeasureMaxSpeed<Dim>::operator()(Read<particle::Velocity<Dim>> v_p, Optional<Read<Ranks>> ranks, Write<measure::MaxSpeed> speed) const {
+void MeasureMaxSpeed<Dim>::operator()(Read<particle::Velocity<Dim>> v_p, Optional<Read<Ranks>> ranks,
+                                      Write<measure::MaxSpeed> speed) const {
   speed->value = std::sqrt(reduce_rows(
       v_p.size(), 0.0, [&](std::size_t p) { return v_p[p].squaredNorm(); },
       [](double x, double y) { return std::max(x, y); }));

@@ -34,8 +34,8 @@ struct MeasureMomentum {
   static constexpr std::string_view doc = "(E29) (E30) momentum and angular momentum";
   void operator()(Read<Grid<Dim>> grid, Optional<Read<Splines<Dim>>> splines, Read<particle::Mass> m_p,
                   Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                  Optional<Read<Ranks>> ranks, Write<measure::Momentum<Dim>> momentum) const;
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<Ranks>> ranks,
+                  Write<measure::Momentum<Dim>> momentum) const;
 };
 
 /// max |v_p|.

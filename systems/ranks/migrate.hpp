@@ -10,8 +10,8 @@
 
 namespace minamo {
 
-/// Sends particles, with all that outlives a step, to the rank that owns the block of y_p. Where a rank has a fifth more
-/// than the mean, the curve is cut anew before.
+/// Sends particles, with all that outlives a step, to the rank that owns the block of y_p. Where a rank has a fifth
+/// more than the mean, the curve is cut anew before.
 template <int Dim>
 struct MigrateParticles {
   static constexpr std::string_view doc = "particles to the rank that owns their block";

@@ -28,8 +28,7 @@ std::vector<BlockLoad> loads_of(const Grid<Dim>& grid, const Splines<Dim>& splin
   const CellBlocks<Dim> blocks(grid, grid.cells);
   std::vector<std::uint64_t> keys;
   keys.reserve(y_p.size());
-  for (const Vec<Dim>& y : y_p)
-    keys.push_back(morton_key<Dim>(blocks.place_of(cell_around<Dim>(grid, splines, y))));
+  for (const Vec<Dim>& y : y_p) keys.push_back(morton_key<Dim>(blocks.place_of(cell_around<Dim>(grid, splines, y))));
   std::sort(keys.begin(), keys.end());
   std::vector<BlockLoad> loads;
   for (const std::uint64_t key : keys) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which rank has the particles of which block of cells: blocks in the order of Morton's curve (1966), a piece of it for
-/// every rank, so that what a rank has lies together.
+/// Which rank has the particles of which block of cells: blocks in the order of Morton's curve (1966), a piece of it
+/// for every rank, so that what a rank has lies together.
 
 #include "components/types.hpp"
 #include "engine/component.hpp"

@@ -7,8 +7,8 @@
 
 namespace minamo {
 
-/// While it lives the world of rank 0 has the particles of all ranks, and every row of the staggered table once; then it
-/// is as before, but for scratch.
+/// While it lives the world of rank 0 has the particles of all ranks, and every row of the staggered table once; then
+/// it is as before, but for scratch.
 class RowsOfRanks {
  public:
   RowsOfRanks(Communicator& ranks, World& world);

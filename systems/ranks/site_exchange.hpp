@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Sums at sites that particles of several ranks touch. Every rank adds up those of its own particles; SiteExchange makes
-/// them whole, the same bits on every rank that has the site.
+/// Sums at sites that particles of several ranks touch. Every rank adds up those of its own particles; SiteExchange
+/// makes them whole, the same bits on every rank that has the site.
 
 #include "components/staggered.hpp"
 #include "engine/communicator.hpp"
@@ -30,8 +30,7 @@ class SiteExchange {
   template <class T>
   void add_up(std::span<T> column) const {
     static_assert(sizeof(T) % sizeof(double) == 0);
-    add_up(sizeof(T) / sizeof(double),
-           [&](std::size_t row) { return reinterpret_cast<double*>(column.data() + row); });
+    add_up(sizeof(T) / sizeof(double), [&](std::size_t row) { return reinterpret_cast<double*>(column.data() + row); });
   }
   /// Every row becomes what it is on the rank that owns it.
   template <class T>

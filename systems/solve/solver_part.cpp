@@ -57,7 +57,8 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
   const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
   return [solver, options](const Scene& of, Recipe& recipe) {
     if (is_conforming(of) && of.facts.find<RepeatsBalances>() == nullptr) {
-      add_all(recipe, all_ranks() == nullptr ? solver.solve_on_faces : std::vector<std::string>{"solve_multipliers_petsc"});
+      add_all(recipe,
+              all_ranks() == nullptr ? solver.solve_on_faces : std::vector<std::string>{"solve_multipliers_petsc"});
       if (const auto* completes = of.facts.find<CompletesMultipliers>()) add_all(recipe, completes->systems);
       add_all(recipe, solver.project_on_faces);
       if (friction_of(of) == Friction::in_balances) {

@@ -94,8 +94,7 @@ class MpiCommunicator final : public Communicator {
     is_odd_ = !is_odd_;
     std::vector<MPI_Request> sends(sent.size());
     for (std::size_t k = 0; k < sent.size(); ++k) {
-      MPI_Issend(sent[k].bytes.data(), count_of(sent[k].bytes.size()), MPI_BYTE, sent[k].rank, tag, comm_,
-                 &sends[k]);
+      MPI_Issend(sent[k].bytes.data(), count_of(sent[k].bytes.size()), MPI_BYTE, sent[k].rank, tag, comm_, &sends[k]);
     }
     std::vector<Message> received;
     MPI_Request barrier = MPI_REQUEST_NULL;

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-
 namespace minamo {
 
 namespace {
@@ -100,12 +99,13 @@ std::vector<PetscInt> number_globally(const SiteExchange& shared, std::span<cons
 }  // namespace
 
 template <int Dim>
-void SolveMultipliersPetsc<Dim>::operator()(
-    Read<SiteExchange> shared, Read<SolverTolerance> tolerance, Read<multiplier::Row> row,
-    Read<unknown::Staggered> of_unknown, Read<unknown::Neighbour<Dim>> neighbour,
-    Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
-    Read<unknown::NullVector> null_vector, Read<unknown::Source> source, Update<PetscSolver> solver,
-    Write<unknown::Solution> solution, Write<SolveReport> report) const {
+void SolveMultipliersPetsc<Dim>::operator()(Read<SiteExchange> shared, Read<SolverTolerance> tolerance,
+                                            Read<multiplier::Row> row, Read<unknown::Staggered> of_unknown,
+                                            Read<unknown::Neighbour<Dim>> neighbour,
+                                            Read<unknown::Conductance<Dim>> conductance,
+                                            Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector,
+                                            Read<unknown::Source> source, Update<PetscSolver> solver,
+                                            Write<unknown::Solution> solution, Write<SolveReport> report) const {
   PetscInt own = 0;
   PetscInt all = 0;
   const auto number = number_globally<Dim>(*shared, row.span(), of_unknown.span(), own, all);
@@ -183,4 +183,3 @@ template struct SolveMultipliersPetsc<2>;
 template struct SolveMultipliersPetsc<3>;
 
 }  // namespace minamo
-
