@@ -104,7 +104,7 @@ TEST_CASE("rows go from world to world with all that outlives a step", "[unit]")
   for (World* world : {&from, &to}) {
     world->column<particle::Id>();
     world->column<particle::Position<2>>();
-    world->column<particle::Stir<2>>();  // scratch: stays
+    world->column<particle::BodyForce<2>>();  // scratch: stays
   }
   from.resize<Particles>(4);
   to.resize<Particles>(1);
@@ -118,7 +118,7 @@ TEST_CASE("rows go from world to world with all that outlives a step", "[unit]")
   const auto id = to.column<particle::Id>();
   CHECK(std::vector<std::int64_t>(id.begin(), id.end()) == std::vector<std::int64_t>{7, 13, 11});
   CHECK(to.column<particle::Position<2>>()[1] == Vec<2>(3, -3));
-  CHECK(to.column<particle::Stir<2>>().size() == 3);
+  CHECK(to.column<particle::BodyForce<2>>().size() == 3);
   MoveRows<Particles>(from).keep(std::vector<std::uint32_t>{2});
   REQUIRE(from.rows<Particles>() == 1);
   CHECK(from.column<particle::Id>()[0] == 12);
