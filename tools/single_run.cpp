@@ -162,9 +162,10 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
           },
       .on_any_rank = all_ranks() == nullptr ? std::function<bool(bool)>()
                                             : [](bool is_asked) { return all_ranks()->any(is_asked); }};
-  const double before_loop = stopwatch.wall_seconds();
+  const Stopwatch loop;
   result.outcome = run_simulation(world, start, step, frame, times, observers, stop, plan.beginning);
-  result.loop_seconds = stopwatch.wall_seconds() - before_loop;
+  result.loop_seconds = loop.wall_seconds();
+  result.loop_cpu_seconds = loop.cpu_seconds();
   progress.end();
 
   if (writes_for_all()) close_history(plan.folder, world);
