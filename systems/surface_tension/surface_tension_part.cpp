@@ -26,7 +26,10 @@ SurfaceTension read_tension(Input& in, const Scene& scene) {
                                                    .fallback = 90,
                                                    .at_least = 0,
                                                    .at_most = 180});
-  in.choice("scheme", std::vector<std::string>{"explicit"}, "force of the surface as the step finds it", "explicit");
+  const std::string scheme = in.choice("scheme", std::vector<std::string>{"explicit", "implicit"},
+                                       "force of the surface as the step finds it; implicit is refused", "explicit");
+  if (scheme == "implicit" && !in.describing())
+    in.problem("scheme", "no implicit force was found that pays", R"("explicit", with steps up to (E116))");
   tension.cosine_of_contact_angle = cosine_of(angle);
   if (in.describing()) return tension;
   if (!is_conforming(scene))
