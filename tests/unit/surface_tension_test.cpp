@@ -63,7 +63,11 @@ Vec<Dim> mean_around(const std::vector<typename FreeSurface<Dim>::Element>& elem
                      const Index<Dim>& node, const Velocity& velocity) {
   Vec<Dim> sum = Vec<Dim>::Zero();
   double around = 0;
+  Vec<Dim> place;
+  for (int d = 0; d < Dim; ++d) place[d] = grid.low[d] + (node[static_cast<std::size_t>(d)] - 1.5) * grid.spacing;
   for (const auto& element : elements) {
+    // A spline reaches 1.5 h, an element is within a cell.
+    if ((element[0].x - place).cwiseAbs().maxCoeff() > 2.5 * grid.spacing) continue;
     // Many points of equal weight.
     constexpr int parts = 12;
     for (int i = 0; i < parts; ++i) {
@@ -73,10 +77,7 @@ Vec<Dim> mean_around(const std::vector<typename FreeSurface<Dim>::Element>& elem
         Vec<Dim> x = a * element[0].x + b * element[1].x;
         if constexpr (Dim == 3) x += (1 - a - b) * element[2].x;
         double weight = area_of<Dim>(element);
-        for (int d = 0; d < Dim; ++d) {
-          const double place = grid.low[d] + (node[static_cast<std::size_t>(d)] - 1.5) * grid.spacing;
-          weight *= quadratic_spline((x[d] - place) / grid.spacing);
-        }
+        for (int d = 0; d < Dim; ++d) weight *= quadratic_spline((x[d] - place[d]) / grid.spacing);
         sum += weight * velocity(x);
         around += weight;
       }
