@@ -11,6 +11,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -156,6 +157,19 @@ class Figures(unittest.TestCase):
         panel = panel_of(WORK / "ball/figures/speed_y0.05.png")[5:-5, 5:-5]
         share = close_to(panel, (0.725, 0.745, 0.769), 0.01).sum() / panel.shape[0]**2
         self.assertAlmostEqual(share, np.pi * 0.04**2 / 0.584**2, delta=0.1 * share)  # its line takes 5 %
+
+    def test_several_liquids_are_told_apart_first_of_all(self):
+        settings = {"/grid/cells": [48, 8], "/time/end": 0.04, "/output/every": 0.02}
+        self.assertEqual(run_scene("lock_exchange", "lock", settings), 0)
+        done = figures("lock", "--times", "0", "--no-movie")
+        self.expect_files(done, *(f"lock/figures/{name}.png" for name in ("fluid", "speed", "pressure", "history",
+                                                                          "systems")))
+        panel = panel_of(WORK / "lock/figures/fluid.png")
+        left, right = np.split(panel, [panel.shape[1] // 2], axis=1)
+        # Names are counted in alphabetical order: fresh water on the right, salt water on the left.
+        for half, own, other in ((right, "#0072b2", "#d55e00"), (left, "#d55e00", "#0072b2")):
+            self.assertGreater(close_to(half, to_rgb(own)).mean(), 0.5)
+            self.assertLess(close_to(half, to_rgb(other)).mean(), 0.1)
 
     def test_a_slice_shows_nothing_where_there_is_no_liquid(self):
         self.assertEqual(figures("space", "--slice", "x=0.5", "--times", "0", "--no-movie", "--out", "dry").stderr, "")

@@ -38,6 +38,26 @@ def volume_of(points, triangles):
     return np.sum(a * np.cross(b, c)) / 6
 
 
+def directed(triangles):
+    """Edges in the direction in which their triangles run through them, as numbers; and those of the opposite one."""
+    edges = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]).astype(np.int64)
+    count = triangles.max() + 1
+    return np.sort(edges[:, 0] * count + edges[:, 1]), np.sort(edges[:, 1] * count + edges[:, 0])
+
+
+def parts_of(triangles):
+    """How many surfaces there are that hang together."""
+    part = np.arange(triangles.max() + 1)
+    while True:
+        lowest = part.copy()
+        for k in range(3):
+            np.minimum.at(lowest, triangles[:, k], part[triangles].min(axis=1))
+        lowest = lowest[lowest]
+        if np.array_equal(lowest, part):
+            return len(np.unique(part[triangles]))
+        part = lowest
+
+
 def drop(middle):
     """What minamo writes for a particle alone: 12 points and 20 triangles, here of no particular shape."""
     turn = np.arange(20)
@@ -126,6 +146,26 @@ class Surfaces(unittest.TestCase):
         # Smoothing takes the edges of the column along: 3 of its 12, each a rounding of half a particle.
         smoothed = smooth(found[0], *run.box)
         self.assertAlmostEqual(volume_of(smoothed.points, smoothed.elements) / liquid, 1, delta=0.03)
+
+    def test_every_frame_of_a_splash_is_closed_and_has_the_volume_of_the_liquid(self):
+        settings = {"/grid/cells": [16, 8, 16], "/time/end": 0.4, "/time/step": 0.004, "/output/every": 0.1}
+        self.assertEqual(run_scene("dam_break_3d", "splash", settings | {"/output/surface": "ply"}), 0)
+        run = Run(WORK / "splash")
+        box = run.scene["particles"][0]["shape"]["box"]
+        liquid = np.prod(np.subtract(box["high"], box["low"]))
+        self.assertEqual(len(run.times), 5)
+        for frame in range(5):
+            with self.subTest(frame=frame):
+                surface = surface_of(run, frame)
+                there, back = directed(surface.elements)
+                self.assertEqual(len(np.unique(there)), len(there))  # no edge has two triangles on the same side
+                np.testing.assert_array_equal(there, back)  # and each has one on either side
+                # Euler's number: 2 for every part, less 2 for every handle.
+                number = len(np.unique(surface.elements)) - len(there) // 2 + len(surface.elements)
+                self.assertEqual(number % 2, 0)
+                self.assertLessEqual(number, 2 * parts_of(surface.elements))
+                # 0.4 % measured.
+                self.assertAlmostEqual(volume_of(surface.points, surface.elements) / liquid, 1, delta=0.01)
 
     def test_what_cannot_be_rendered_is_told(self):
         self.assertEqual(run_scene("dam_break", "plane", SHORT | {"/time/end": 0.01}), 0)

@@ -3,11 +3,13 @@
 
   tools/compare_interfoam.py out/dam_break out/dam_break_pic
   tools/compare_interfoam.py --from out/dam_break out/tilted_dam_break
+  tools/compare_interfoam.py --mean 0.6 out/dam_break
 
 Prints the area that is water in one of the two and not in the other, over the area of the column at the start. Water is
 where the volume fraction exceeds 1/2, on a raster of 0.5 mm. That of interFoam (160 x 160 cells) is interpolated between
 the middles of cells. That of a run is sum_p V_p N((x - x_p)/h) N((y - y_p)/h) / h^2, N the quadratic B-spline,
 mirrored at the walls, h = 14.6 mm whatever the grid of the run, so that runs can be compared.
+With --mean the mean over all times of the reference up to that one, a single number, as studies want it.
 For scenes with the tank and the column of scenes/dam_break.json; the tank may be a body, turned by an angle, that the
 grid is cut by.
 """
@@ -130,16 +132,30 @@ def distances(run: Run, reference_water: dict[float, np.ndarray]) -> dict[float,
             for time, water in water_of_run(run, reference_water).items()}
 
 
+def mean_distance(run: Run, water: dict[float, np.ndarray]) -> float:
+    """Mean of distances() over all of these times."""
+    found = distances(run, water)
+    missing = ", ".join(f"{time:g}" for time in water if time not in found)
+    if missing:
+        raise NoResults(f"{run.folder}: frames are missing at t = {missing} s; expected: a frame every 0.1 s, or 0.05 s")
+    return sum(found.values()) / len(found)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(prog="tools/compare_interfoam.py", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", metavar="DIR", help="what `minamo run --out DIR` wrote")
+    parser.add_argument("--mean", type=float, metavar="UNTIL", help="print the mean up to this time [s], a line per DIR")
     parser.add_argument("--from", dest="other", metavar="DIR", help="another run, to compare with in place of interFoam")
-    arguments = parser.parse_args()
-    runs = [Run(folder) for folder in arguments.folders]
+    options = parser.parse_args()
+    runs = [Run(folder) for folder in options.folders]
     water = reference()
-    if arguments.other:
-        water = water_of_run(Run(arguments.other), water)
+    if options.other:
+        water = water_of_run(Run(options.other), water)
+    if options.mean is not None:
+        for run in runs:
+            print(mean_distance(run, {time: w for time, w in water.items() if time < options.mean + TOLERANCE}))
+        return
     width = max(5, *(len(run.name) for run in runs))
     print(f"{'t [s]':{width}}", *(f"{time:6.1f}" for time in water))
     for run in runs:

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Draws study.csv of `minamo study` as study.png: error against wall time, one line per method.
+"""Draws study.csv of `minamo study` as study.png: error against wall time or processor time, one line per method.
 
 The parameter with the most values is shown by colours, the next by dashes, a third by markers.
 
-plot_study.py study.csv [--out study.png] [--title TITLE] [--error LABEL]
+plot_study.py study.csv [--out study.png] [--title TITLE] [--error LABEL] [--cost COLUMN] [--others TABLE]
 """
 
 import argparse
@@ -16,20 +16,30 @@ import textwrap
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#F0E442", "#000000"]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 DASHES = ["-", "--", ":", "-."]
+COSTS = {"wall_s": "wall time of the time loop [s]", "cpu_per_s": "processor time of a simulated second [s]"}
 
 
-def read(path):
+def read(path, cost):
     """The parameters' names and the rows that have an error, numbers as numbers."""
     with open(path, newline="", encoding="utf-8") as file:
         reader = csv.DictReader(file)
         names = list(reader.fieldnames or [])
-        if "error" not in names or "wall_s" not in names:
-            sys.exit(f"{path}: not a study: columns error and wall_s are missing")
+        if "error" not in names or cost not in names:
+            sys.exit(f"{path}: not a study: columns error and {cost} are missing")
         parameters = names[: names.index("error")]
-        rows = [row for row in reader if row["error"] and float(row["error"]) > 0 and float(row["wall_s"]) > 0]
+        rows = [row for row in reader if row["error"] and float(row["error"]) > 0 and float(row[cost]) > 0]
     for row in rows:
-        row["x"], row["y"] = float(row["wall_s"]), float(row["error"])
+        row["x"], row["y"] = float(row[cost]), float(row["error"])
     return parameters, rows
+
+
+def read_others(path):
+    """Points of others by code: lists of cost, error."""
+    codes = {}
+    with open(path, newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            codes.setdefault(row["code"], []).append((float(row["cost"]), float(row["error"])))
+    return codes
 
 
 def different(rows, name):
@@ -132,6 +142,13 @@ def draw_frontier(axes, parameters, rows):
                       va="top", fontsize=8, color="0.2")
 
 
+def draw_others(axes, codes):
+    """Grey marks, a shape per code: who is compared with stays behind what is compared."""
+    for marker, (code, points) in zip(["x", "+", "1", "2", "3", "4", "|", "_"] * len(codes), codes.items()):
+        axes.plot(*zip(*points), linestyle="none", marker=marker, markersize=8, markeredgewidth=1.8, color="0.35",
+                  label=code)
+
+
 def label_axis(axis, values):
     """Labels at 1, 2 and 5 where powers of ten alone would be too few."""
     from matplotlib import ticker
@@ -142,7 +159,7 @@ def label_axis(axis, values):
         axis.set_minor_formatter(ticker.NullFormatter())
 
 
-def draw(parameters, rows, title, error, out):
+def draw(parameters, rows, title, error, out, cost, others):
     import matplotlib
 
     matplotlib.use("Agg")
@@ -151,13 +168,15 @@ def draw(parameters, rows, title, error, out):
     figure, axes = pyplot.subplots(figsize=(9.5, 5.5), layout="constrained")
     draw_lines(axes, parameters, rows)
     draw_frontier(axes, parameters, rows)
+    draw_others(axes, others)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(0.08)
-    label_axis(axes.xaxis, [row["x"] for row in rows])
-    label_axis(axes.yaxis, [row["y"] for row in rows])
+    beside = [point for points in others.values() for point in points]
+    label_axis(axes.xaxis, [row["x"] for row in rows] + [x for x, _ in beside])
+    label_axis(axes.yaxis, [row["y"] for row in rows] + [y for _, y in beside])
     machine = f"{rows[0].get('cpu_model', '')}, threads: {rows[0].get('threads', '?')}"
-    axes.set_xlabel(f"wall time of the time loop [s]\n({machine})")
+    axes.set_xlabel(f"{COSTS[cost]}\n({machine})")
     axes.set_ylabel(textwrap.fill(f"{error} [1]", 60))
     axes.set_title(title)
     axes.grid(which="major", color="0.85")
@@ -165,7 +184,7 @@ def draw(parameters, rows, title, error, out):
     axes.set_axisbelow(True)
     along = resolution(parameters, rows)
     note = f"\nnumbers at rings: {head(along)}" + (" along x" if along == "cells" else "") if along else ""
-    frontier = axes.get_legend_handles_labels()[0]  # the lines have no label of their own
+    frontier = axes.get_legend_handles_labels()[0]  # and others; the lines have no label of their own
     axes.legend(handles=keys(parameters, rows) + frontier, loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, fontsize=9, title=note.strip() or None,
                 title_fontsize=9, alignment="left")
     figure.savefig(out, dpi=150)
@@ -177,13 +196,16 @@ def main():
     options.add_argument("--out", type=pathlib.Path, help="by default study.png beside it")
     options.add_argument("--title", default="")
     options.add_argument("--error", default="error", help="label of the axis, without unit")
+    options.add_argument("--cost", choices=list(COSTS), default="wall_s", help="column of the axis")
+    options.add_argument("--others", type=pathlib.Path, help="points of others: columns code, cost, error")
     chosen = options.parse_args()
-    parameters, rows = read(chosen.csv)
+    parameters, rows = read(chosen.csv, chosen.cost)
     if not rows:
         sys.exit(f"{chosen.csv}: no variant has an error > 0 to draw")
     try:
         title = chosen.title or chosen.csv.resolve().parent.name
-        draw(parameters, rows, title, chosen.error, chosen.out or chosen.csv.with_name("study.png"))
+        draw(parameters, rows, title, chosen.error, chosen.out or chosen.csv.with_name("study.png"), chosen.cost,
+             read_others(chosen.others) if chosen.others else {})
     except ModuleNotFoundError as missing:
         sys.exit(f"{missing.name} is not installed: sudo apt-get install python3-matplotlib")
 

@@ -65,10 +65,22 @@ std::vector<Problem> with_overrides_named(std::vector<Problem> problems, const s
   return problems;
 }
 
+void drop_replaced_step(Json& scene, const std::set<std::string>& overridden) {
+  if (!scene.is_object() || !scene.contains("time") || !scene["time"].is_object()) return;
+  const auto drop = [&](const char* key) {
+    if (!overridden.contains(std::string("/time/") + key)) scene["time"].erase(key);
+  };
+  if (overridden.contains("/time/cfl")) drop("step");
+  if (!overridden.contains("/time/step")) return;
+  drop("cfl");
+  drop("max_step");
+}
+
 }  // namespace
 
 void drop_keys_of_replaced_schemes(Json& scene, const std::set<std::string>& overridden,
                                    const SystemRegistry& registry) {
+  drop_replaced_step(scene, overridden);
   const auto is_scheme = [](const std::string& pointer) { return pointer.ends_with("/scheme"); };
   if (std::none_of(overridden.begin(), overridden.end(), is_scheme)) return;
   Input::Document document(scene, {});

@@ -17,7 +17,8 @@ struct SceneFile {
 };
 
 /// Takes out of a block like `transfer`, whose `scheme` is among the overridden pointers, what the file has there for
-/// another scheme: with "/transfer/scheme" set to "flip" the "inertia" of "tpic". What is overridden itself stays.
+/// another scheme: with "/transfer/scheme" set to "flip" the "inertia" of "tpic"; and the step that a CFL number
+/// replaces, or the other way round. What is overridden itself stays.
 void drop_keys_of_replaced_schemes(Json& scene, const std::set<std::string>& overridden,
                                    const SystemRegistry& registry);
 

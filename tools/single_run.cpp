@@ -149,9 +149,10 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
             write_run_checkpoint(plan.folder, file, world);
             reserve.take();
           }};
-  const double before_loop = stopwatch.wall_seconds();
+  const Stopwatch loop;
   result.outcome = run_simulation(world, start, step, frame, times, observers, stop, plan.beginning);
-  result.loop_seconds = stopwatch.wall_seconds() - before_loop;
+  result.loop_seconds = loop.wall_seconds();
+  result.loop_cpu_seconds = loop.cpu_seconds();
   progress.end();
 
   close_history(plan.folder, world);

@@ -27,9 +27,10 @@ struct RunPlan {
 struct RunResult {
   Outcome outcome;
   Clock clock;
-  Json summary;             ///< as in summary.json
-  double loop_seconds = 0;  ///< wall time of the time loop [s]
-  bool was_over = false;    ///< the checkpoint is that of the end; nothing was run or written
+  Json summary;                 ///< as in summary.json
+  double loop_seconds = 0;      ///< wall time of the time loop [s]
+  double loop_cpu_seconds = 0;  ///< processor time of the time loop, all threads [s]
+  bool was_over = false;        ///< the checkpoint is that of the end; nothing was run or written
 };
 
 /// Runs the scene and writes all that a run leaves but the trace.

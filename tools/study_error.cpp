@@ -5,12 +5,17 @@
 #include "systems/measure/probes_part.hpp"
 #include "systems/output/history.hpp"
 #include "tools/history_reader.hpp"
+#include "tools/shell.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
+
+#include <unistd.h>
 
 namespace minamo {
 
@@ -29,6 +34,39 @@ ErrorOfHistory read_history(Input& in) {
   if (in.sound("from") && in.sound("to") && !(error.from < error.to) && !in.describing())
     in.problem("to", "no time in between", fmt::format("a time after from = {} s", error.from));
   return error;
+}
+
+ErrorOfProgram read_program(Input& in) {
+  ErrorOfProgram error;
+  error.program = in.path("program", "prints the error of the run whose folder is its last argument").string();
+  const Json list =
+      in.raw("arguments", {{"type", "array"}, {"description", "of the program, before the folder"}}, Json::array());
+  const bool are_words =
+      list.is_array() && std::all_of(list.begin(), list.end(), [](const Json& word) { return word.is_string(); });
+  if (are_words)
+    list.get_to(error.arguments);
+  else
+    in.problem("arguments", "wrong type", "a list of strings");
+  error.label = in.text("label", {.doc = "what it measures, for the axis of the picture", .fallback = "error"});
+  return error;
+}
+
+/// What the program prints about the folder. \throws std::runtime_error
+double printed_number(const ErrorOfProgram& error, const std::filesystem::path& folder) {
+  std::string command = in_quotes(error.program);
+  for (const std::string& word : error.arguments) command += ' ' + in_quotes(word);
+  command += ' ' + in_quotes(folder.string());
+  const ProgramText printed = text_of_program(command);
+  if (printed.code != 0) throw std::runtime_error(fmt::format("{} ended with code {}", command, printed.code));
+  std::istringstream in(printed.text);
+  std::string word;
+  std::string rest;
+  in >> word;
+  double number = 0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (problem != std::errc() || end != word.data() + word.size() || in >> rest)
+    throw std::runtime_error(fmt::format("{} printed no number\n  got       \"{}\"", command, printed.text));
+  return number;
 }
 
 /// The columns that the history of a scene has; those of its extra systems are known when it runs.
@@ -75,6 +113,16 @@ std::vector<Problem> missing_exact(const std::string& field, const Scene& scene,
   return {{file, "/error", "the scene has no exact " + field, "a scene with /exact/" + field, shown(Json(field)), {}}};
 }
 
+std::vector<Problem> missing_program(const ErrorOfProgram& error, const std::string& file) {
+  if (access(error.program.c_str(), X_OK) == 0 && !std::filesystem::is_directory(error.program)) return {};
+  return {{file,
+           "/error/program",
+           "cannot be run",
+           "a program or a script that may be executed",
+           shown(Json(error.program)),
+           {}}};
+}
+
 template <int Dim>
 double farthest_distance(World& world) {
   const auto m_p = world.column<particle::Mass>();
@@ -100,12 +148,14 @@ ErrorMeasure read_error_measure(Input& input) {
   ErrorMeasure measure;
   input.object("error", doc, Input::Presence::required, [&](Input& error) {
     error.one_of(doc, {{"history", [&](Input& in) { measure = read_history(in); }},
-                       {"farthest", [&](Input& in) {
+                       {"farthest",
+                        [&](Input& in) {
                           measure = ErrorOfFarthest{in.number(
                               "farthest", {.unit = "m",
                                            .doc = "largest distance of a particle from the centre of mass at the end",
                                            .above = 0})};
-                        }}});
+                        }},
+                       {"program", [&](Input& in) { measure = read_program(in); }}});
   });
   return measure;
 }
@@ -113,6 +163,7 @@ ErrorMeasure read_error_measure(Input& input) {
 std::vector<Problem> missing_for(const ErrorMeasure& measure, const Scene& scene, const std::string& file) {
   if (const auto* of_summary = std::get_if<ErrorOfSummary>(&measure))
     return missing_exact(of_summary->name, scene, file);
+  if (const auto* of_program = std::get_if<ErrorOfProgram>(&measure)) return missing_program(*of_program, file);
   if (const auto* of_history = std::get_if<ErrorOfHistory>(&measure)) return missing_columns(*of_history, scene, file);
   return {};
 }
@@ -125,21 +176,24 @@ std::string error_label(const ErrorMeasure& measure) {
     return fmt::format("relative error of the mean of {}, {} to {} s", of_history->expression, of_history->from,
                        of_history->to);
   }
+  if (const auto* of_program = std::get_if<ErrorOfProgram>(&measure)) return of_program->label;
   return "relative error of the farthest particle's distance";
 }
 
-std::optional<double> error_of(const ErrorMeasure& measure, const Json& summary, const std::string& history_file,
-                               double farthest) {
+std::optional<double> error_of(const ErrorMeasure& measure, const FinishedRun& run) {
   double error = 0;
   if (const auto* of_summary = std::get_if<ErrorOfSummary>(&measure)) {
-    const bool is_overlap = of_summary->name == "overlap";
-    error = (is_overlap ? summary.at("conservation").at("overlap_max") : summary.at("errors").at(of_summary->name))
+    const Json& summary = run.summary;
+    error = (of_summary->name == "overlap" ? summary.at("conservation").at("overlap_max")
+                                           : summary.at("errors").at(of_summary->name))
                 .get<double>();
   } else if (const auto* of_history = std::get_if<ErrorOfHistory>(&measure)) {
-    const History history(history_file);
+    const History history((run.folder / "history.csv").string());
     error = relative(history.mean(of_history->expression, of_history->from, of_history->to), of_history->target);
+  } else if (const auto* of_program = std::get_if<ErrorOfProgram>(&measure)) {
+    error = printed_number(*of_program, run.folder);
   } else {
-    error = relative(farthest, std::get<ErrorOfFarthest>(measure).exact);
+    error = relative(run.farthest, std::get<ErrorOfFarthest>(measure).exact);
   }
   return std::isfinite(error) ? std::optional(error) : std::nullopt;
 }

@@ -6,9 +6,11 @@
 #include "engine/world.hpp"
 #include "systems/setup/scene.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace minamo {
 
@@ -30,7 +32,14 @@ struct ErrorOfFarthest {
   double exact = 0;  ///< [m]
 };
 
-using ErrorMeasure = std::variant<ErrorOfSummary, ErrorOfHistory, ErrorOfFarthest>;
+/// What a program finds in the folder of a run: the one number that it prints.
+struct ErrorOfProgram {
+  std::string program;  ///< path
+  std::vector<std::string> arguments;
+  std::string label;  ///< of the axis
+};
+
+using ErrorMeasure = std::variant<ErrorOfSummary, ErrorOfHistory, ErrorOfFarthest, ErrorOfProgram>;
 
 /// Reads the key `error`; problems are noted.
 ErrorMeasure read_error_measure(Input& input);
@@ -41,10 +50,16 @@ std::vector<Problem> missing_for(const ErrorMeasure& measure, const Scene& scene
 /// As the axis of the picture shows it.
 std::string error_label(const ErrorMeasure& measure);
 
+/// What a run that is done has left to measure.
+struct FinishedRun {
+  std::filesystem::path folder;
+  Json summary;
+  double farthest = 0;  ///< see farthest_distance() [m]
+};
+
 /// The error of a run that is done; none where it is not finite.
-/// \param farthest  see farthest_distance() [m]
-std::optional<double> error_of(const ErrorMeasure& measure, const Json& summary, const std::string& history_file,
-                               double farthest);
+/// \throws std::runtime_error if a program fails or prints no number.
+std::optional<double> error_of(const ErrorMeasure& measure, const FinishedRun& run);
 
 /// Largest distance of a particle from the centre of mass. [m]
 double farthest_distance(World& world, int dimension);

@@ -128,6 +128,14 @@ Study read(Input& input) {
                                               {.unit = "s", .doc = "length of a step", .above = 0});
   study.end = input.optional_number("end", {.unit = "s", .doc = "end of the runs", .above = 0});
   study.error = read_error_measure(input);
+  const std::vector<std::string> costs{"wall", "cpu"};
+  study.cost = input.choice("cost", costs, "wall time, or processor time per simulated second", "wall") == "wall"
+                   ? Cost::wall
+                   : Cost::cpu;
+  study.repeats = static_cast<int>(input.integer(
+      "repeat",
+      {.doc = "runs of a variant, of which the cheapest counts", .fallback = 1, .at_least = 1, .at_most = 100}));
+  if (input.has("others")) study.others = input.path("others", "table of points of others, for the picture").string();
   check_use(input, study);
   check_count(input, study);
   return study;

@@ -4,6 +4,7 @@
 
 #include "engine/input.hpp"
 #include "tools/study_error.hpp"
+#include "tools/study_table.hpp"
 
 #include <optional>
 #include <string>
@@ -27,6 +28,9 @@ struct Study {
   std::optional<Expression> time_step;                 ///< in variables_of(parameters) [s]
   std::optional<double> end;                           ///< [s]
   ErrorMeasure error;
+  Cost cost = Cost::wall;
+  int repeats = 1;     ///< runs of a variant, of which the cheapest counts
+  std::string others;  ///< path of the table of their points; may be empty
 };
 
 /// The key of `vary` that is the resolution: N cells along x or a list of counts.

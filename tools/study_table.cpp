@@ -1,7 +1,8 @@
 #include "tools/study_table.hpp"
 
+#include "tools/text_table.hpp"
+
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 namespace minamo {
 
 namespace {
-
-using RowCells = std::vector<std::string>;
 
 /// Whether two rows differ in nothing but the resolution.
 bool same_line(const StudyTable& table, const StudyRow& a, const StudyRow& b) {
@@ -39,16 +38,17 @@ std::optional<double> order(const StudyTable& table, const StudyRow& row) {
 
 bool on_frontier(const StudyTable& table, const StudyRow& row) {
   return row.error && std::none_of(table.rows.begin(), table.rows.end(), [&](const StudyRow& other) {
-           return other.error && other.wall_seconds < row.wall_seconds && *other.error < *row.error;
+           return other.error && cost_of(table, other) < cost_of(table, row) && *other.error < *row.error;
          });
 }
 
-double cost(const StudyRow& row) { return row.wall_seconds * row.error.value_or(0); }
+double product(const StudyTable& table, const StudyRow& row) { return cost_of(table, row) * row.error.value_or(0); }
 
 std::optional<int> rank(const StudyTable& table, const StudyRow& row) {
   if (!row.error) return {};
-  const auto better = std::count_if(table.rows.begin(), table.rows.end(),
-                                    [&](const StudyRow& other) { return other.error && cost(other) < cost(row); });
+  const auto better = std::count_if(table.rows.begin(), table.rows.end(), [&](const StudyRow& other) {
+    return other.error && product(table, other) < product(table, row);
+  });
   return static_cast<int>(better) + 1;
 }
 
@@ -58,47 +58,11 @@ std::string shown(const std::optional<T>& value, std::string_view format, std::s
   return value ? fmt::format(fmt::runtime(format), *value) : std::string(none);
 }
 
-/// Quoted where the format asks for it (RFC 4180).
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-std::string csv_line(const RowCells& cells) {
-  RowCells fields;
-  for (const std::string& cell : cells) fields.push_back(csv_field(cell));
-  return fmt::format("{}\n", fmt::join(fields, ","));
-}
-
-/// Characters, not bytes.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-/// Rows with the columns aligned: words to the left, numbers to the right.
-std::string aligned(const std::vector<RowCells>& rows, std::size_t words) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const RowCells& cells : rows) {
-    for (std::size_t k = 0; k < cells.size(); ++k) widths[k] = std::max(widths[k], width_of(cells[k]));
-  }
-  std::string text;
-  for (const RowCells& cells : rows) {
-    std::string line;
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-      const std::string fill(widths[k] - width_of(cells[k]), ' ');
-      if (k > 0) line.append("  ");
-      line.append(k < words ? cells[k] : fill).append(k < words ? fill : cells[k]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text.append(line).append("\n");
-  }
-  return text;
-}
-
 }  // namespace
+
+double cost_of(const StudyTable& table, const StudyRow& row) {
+  return table.cost == Cost::wall ? row.wall_seconds : row.cpu_seconds;
+}
 
 std::vector<Standing> standings(const StudyTable& table) {
   std::vector<Standing> standings;
@@ -109,7 +73,8 @@ std::vector<Standing> standings(const StudyTable& table) {
 
 std::string as_text(const StudyTable& table) {
   std::vector<RowCells> rows{table.heads};
-  for (const char* head : {"error [1]", "order", "wall [s]", "steps", "time x error rank", "frontier", "status"})
+  for (const char* head : {"error [1]", "order", table.cost == Cost::wall ? "wall [s]" : "cpu [s/s]", "steps",
+                           "time x error rank", "frontier", "status"})
     rows.front().emplace_back(head);
   const auto all = standings(table);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -117,7 +82,7 @@ std::string as_text(const StudyTable& table) {
     RowCells cells = row.values;
     for (std::string& cell :
          std::vector<std::string>{shown(row.error, "{:.3e}", "-"), shown(all[i].order, "{:.2f}", "-"),
-                                  fmt::format("{:.3g}", row.wall_seconds), std::to_string(row.steps),
+                                  fmt::format("{:.3g}", cost_of(table, row)), std::to_string(row.steps),
                                   shown(all[i].rank, "{}", "-"), all[i].on_frontier ? "*" : "", row.status})
       cells.push_back(std::move(cell));
     rows.push_back(std::move(cells));
@@ -127,8 +92,8 @@ std::string as_text(const StudyTable& table) {
 
 std::string as_csv(const StudyTable& table) {
   RowCells heads = table.keys;
-  for (const char* head : {"error", "order", "wall_s", "time_step", "steps", "particles", "unknowns_max", "cpu_model",
-                           "threads", "status", "rank", "frontier"})
+  for (const char* head : {"error", "order", "wall_s", "cpu_per_s", "time_step", "steps", "particles", "unknowns_max",
+                           "cpu_model", "threads", "status", "rank", "frontier"})
     heads.emplace_back(head);
   std::string csv = csv_line(heads);
   const auto all = standings(table);
@@ -137,9 +102,9 @@ std::string as_csv(const StudyTable& table) {
     RowCells cells = row.values;
     for (std::string& cell : std::vector<std::string>{
              shown(row.error, "{}", ""), shown(all[i].order, "{:.4f}", ""), fmt::format("{:.6g}", row.wall_seconds),
-             fmt::format("{}", row.time_step), std::to_string(row.steps), std::to_string(row.particles),
-             std::to_string(row.unknowns_max), table.cpu_model, std::to_string(table.threads), row.status,
-             shown(all[i].rank, "{}", ""), all[i].on_frontier ? "1" : "0"})
+             fmt::format("{:.4g}", row.cpu_seconds), fmt::format("{}", row.time_step), std::to_string(row.steps),
+             std::to_string(row.particles), std::to_string(row.unknowns_max), table.cpu_model,
+             std::to_string(table.threads), row.status, shown(all[i].rank, "{}", ""), all[i].on_frontier ? "1" : "0"})
       cells.push_back(std::move(cell));
     csv += csv_line(cells);
   }

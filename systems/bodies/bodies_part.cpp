@@ -129,6 +129,13 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
   input.object("shape", "where the body is at the start", Input::Presence::required,
                [&](Input& shape) { body.shape = read_shape<Dim>(shape, scene, ShapePlace::anywhere); });
   body.wall = read_body_wall(input, scene);
+  body.contact_angle = input.optional_number(
+      "contact_angle",
+      {.unit = "degrees",
+       .doc = "with surface_tension: in the liquid, between the body and the free surface at rest; else "
+              "that of surface_tension",
+       .at_least = 0,
+       .at_most = 180});
   body.pivot = middle_of<Dim>(body.shape);
   read_motion<Dim>(input, scene, body);
   if (input.describing() || !body.shape) return;

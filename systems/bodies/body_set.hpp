@@ -9,6 +9,7 @@
 #include "systems/shapes/shape.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -67,6 +68,7 @@ struct BodyScene {
   Vec<Dim> pivot = Vec<Dim>::Zero();  ///< the point that it turns about, at the start [m]
   std::variant<Fixed, Prescribed<Dim>, Tabulated<Dim>, Free<Dim>> motion;
   BodyWall wall;
+  std::optional<double> contact_angle;  ///< of a free surface with surface tension; else that of the scene [degrees]
   std::vector<Vec<Dim>> surface;  ///< points of the surface at the start, where bodies touch; of finite shapes [m]
 
   bool moves() const { return !std::holds_alternative<Fixed>(motion); }

@@ -256,9 +256,10 @@ void CoupleFreeBodies<Dim>::operator()(
     Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::Conductance<Dim>> conductance,
     Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
     Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Optional<Read<FrictionOnWalls<Dim>>> friction,
-    Update<MultiplierSolver<Dim>> solver, Update<unknown::Solution> solution, Update<SolveReport> report,
-    Update<body::MeanVelocity<Dim>> V_mean, Update<body::MeanSpin<Dim>> omega_mean, Update<body::Work> W_b,
-    Write<body::EndVelocity<Dim>> V_end, Write<body::EndSpin<Dim>> omega_end) const {
+    Optional<Read<surface::ForceOnBodies<Dim>>> lines, Update<MultiplierSolver<Dim>> solver,
+    Update<unknown::Solution> solution, Update<SolveReport> report, Update<body::MeanVelocity<Dim>> V_mean,
+    Update<body::MeanSpin<Dim>> omega_mean, Update<body::Work> W_b, Write<body::EndVelocity<Dim>> V_end,
+    Write<body::EndSpin<Dim>> omega_end) const {
   const FreeMotions<Dim> motions(*set);
   const std::vector<Vec<Dim>> V(V_mean.begin(), V_mean.end());
   const std::vector<Vec<rotations<Dim>>> omega(omega_mean.begin(), omega_mean.end());
@@ -332,6 +333,8 @@ void CoupleFreeBodies<Dim>::operator()(
                          });
   for (std::size_t b = 0; set->rubs && b < set->bodies.size(); ++b)
     motions.for_each_of(b, [&](Eigen::Index k, int c) { balances.impulse[k] += tau * friction->of[b][c]; });
+  for (std::size_t b = 0; lines && b < set->bodies.size(); ++b)
+    motions.for_each_of(b, [&](Eigen::Index k, int c) { balances.impulse[k] += tau * lines->of[b][c]; });
   // G = M + U^T S^-1 U: the mass of the bodies, and of the liquid that they carry along.
   Eigen::MatrixXd G = balances.mass;
   for (Eigen::Index k = 0; k < motions.count(); ++k)

@@ -6,6 +6,7 @@
 #include "components/instant.hpp"
 #include "components/staggered.hpp"
 #include "components/step.hpp"
+#include "components/surface_tension.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
@@ -33,7 +34,8 @@ struct CoupleFreeBodies {
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
                   Read<unknown::NullVector> null_vector, Read<unknown::Source> source, Read<multiplier::Volume> v_l,
                   Read<multiplier::Capacity> capacity, Optional<Read<FrictionOnWalls<Dim>>> friction,
-                  Update<MultiplierSolver<Dim>> solver, Update<unknown::Solution> solution, Update<SolveReport> report,
+                  Optional<Read<surface::ForceOnBodies<Dim>>> lines, Update<MultiplierSolver<Dim>> solver,
+                  Update<unknown::Solution> solution, Update<SolveReport> report,
                   Update<body::MeanVelocity<Dim>> V_mean, Update<body::MeanSpin<Dim>> omega_mean,
                   Update<body::Work> W_b, Write<body::EndVelocity<Dim>> V_end,
                   Write<body::EndSpin<Dim>> omega_end) const;

@@ -3,6 +3,7 @@
 #include "systems/bodies/cut.hpp"
 #include "systems/conforming/friction_matrices.hpp"
 #include "systems/conforming/sites_around.hpp"
+#include "systems/conforming/support.hpp"
 
 #include <Eigen/Dense>
 
@@ -19,6 +20,9 @@ constexpr int across = 2 * rings + 1;
 /// a face that almost lies in the wall would slip: annular Couette flow of 10 cells is 22 % off with 0, 0.7 % with
 /// 0.75. [h]
 constexpr double held_by_wall = 0.75;
+
+/// Liquid that a face has at least, as far as it counts beside others. [1]
+constexpr double some = 1e-6;
 
 /// Open faces around a closed one.
 template <int Dim>
@@ -93,7 +97,6 @@ template <int Dim>
 std::vector<Vec<Dim>> filled_around_faces(const Grid<Dim>& grid, const Splines<Dim>& splines,
                                           const OccupiedCells<Dim>& cells, const CellSites& sites,
                                           std::span<const double> V_p, std::span<const std::uint8_t> is_wanted) {
-  constexpr double some = 1e-6;
   std::vector<Vec<Dim>> filled(is_wanted.size(), Vec<Dim>::Constant(some));
   with_degree(splines.degree, [&](auto degree) {
     constexpr int K = degree();
@@ -105,6 +108,38 @@ std::vector<Vec<Dim>> filled_around_faces(const Grid<Dim>& grid, const Splines<D
       for (std::size_t p = cell.begin; p < cell.end; ++p) volume += V_p[p];
       for_each_cell_face<Dim, K>(
           [&](std::size_t, std::size_t k, Eigen::Index d) { filled[rows[k]][d] += per_volume * volume; });
+    });
+  });
+  return filled;
+}
+
+/// Fill fraction of faces, by row and direction. [1]
+template <int Dim>
+std::vector<Vec<Dim>> liquid_around_faces(const Grid<Dim>& grid, const Splines<Dim>& splines,
+                                          const OccupiedCells<Dim>& cells, const CellSites& sites,
+                                          std::span<const double> V_p, std::span<const Vec<Dim>> y_p,
+                                          std::span<const Index<Dim>> site) {
+  std::vector<Vec<Dim>> filled(site.size(), Vec<Dim>::Constant(some));
+  const double per_volume = std::pow(grid.spacing, -Dim);
+  with_degree(splines.degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto& cell) {
+      const CellFrame<Dim> frame(grid, splines, cell.node);
+      std::array<Vec<Dim>, cell_sites<Dim, K>> volume;
+      volume.fill(Vec<Dim>::Zero());
+      for (std::size_t p = cell.begin; p < cell.end; ++p) {
+        const SplineWeights<Dim, K> weights(frame, frame.local(y_p[p]));
+        for_each_direction<Dim>([&](auto direction) {
+          constexpr int D = direction();
+          for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
+            volume[k][D] += V_p[p] * weights.template face<D>(offset);
+          });
+        });
+      }
+      for_each_cell_face<Dim, K>([&](std::size_t, std::size_t k, Eigen::Index d) {
+        const std::uint32_t i = sites.of(c)[k];
+        filled[i][d] += per_volume * volume[k][d] / splines.face_integral(site[i], static_cast<std::size_t>(d));
+      });
     });
   });
   return filled;
@@ -132,7 +167,8 @@ template <int Dim>
 void FindFaceExtension<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<BodySet<Dim>> set,
     Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells,
-    Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<staggered::Site<Dim>> site, Read<face::Held> held,
+    Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
+    Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site, Read<face::Held> held,
     Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume, Write<FaceExtension<Dim>> extension) const {
   constexpr std::size_t most = power(across, Dim);
   const SitePlaces<Dim> places(*grid, *splines);
@@ -167,8 +203,12 @@ void FindFaceExtension<Dim>::operator()(
       if (const auto row = rows->find(at)) is_near_target[*row] = 1;
     });
   }
-  const std::vector<Vec<Dim>> filled =
-      filled_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), is_near_target);
+  std::vector<Vec<Dim>> filled;
+  if (tension) {
+    filled = liquid_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), y_p.span(), site.span());
+  } else {
+    filled = filled_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), is_near_target);
+  }
   extension->source.resize(extension->targets.size() * most);
   extension->weight.resize(extension->targets.size() * most);
   for_each_row(extension->targets.size(), [&](std::size_t t) {

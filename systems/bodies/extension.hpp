@@ -8,12 +8,14 @@
 /// stays near those that it is made of.
 ///
 /// (E110) Beside a body that the liquid sticks to the function has the velocity of the body at the nearest point of its
-/// surface, and faces close to it count as closed.
+/// surface, and faces close to it count as closed. With surface tension an open face counts as much as it has liquid:
+/// where there is next to none its force makes a face fast.
 
 #include "components/body.hpp"
 #include "components/cells.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
+#include "components/surface_tension.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
@@ -32,6 +34,7 @@ struct FindFaceExtension {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
                   Read<GridCells<Dim>> cells, Read<CellSites> cell_sites, Read<particle::Volume> V_p,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Optional<Read<SurfaceTension>> tension,
                   Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Open<Dim>> open,
                   Read<face::OpenVolume<Dim>> open_volume, Write<FaceExtension<Dim>> extension) const;
 };

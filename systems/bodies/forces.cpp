@@ -58,7 +58,8 @@ void PushBodies<Dim>::operator()(
     Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
     Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
     Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
-    Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
+    Optional<Read<surface::ForceOnBodies<Dim>>> lines, Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
+    Update<body::Work> W_b) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
@@ -100,6 +101,10 @@ void PushBodies<Dim>::operator()(
     }
   }
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    if (lines) {
+      F_b[b] += lines->of[b].template head<Dim>();
+      T_b[b] += lines->of[b].template tail<rotations<Dim>>();
+    }
     W_b[b] += clock->step * (F_b[b].dot(V_b[b]) + T_b[b].dot(omega_b[b]));
     if (set->rubs) W_b[b] += clock->step * friction->of[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
   }

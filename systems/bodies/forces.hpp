@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/step.hpp"
+#include "components/surface_tension.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
@@ -15,7 +16,7 @@
 namespace minamo {
 
 /// (E90)  F_b = sum_f c_fb (B^T lambda)_f e_f and its moment: the force that does the work of the wall velocities in
-/// the balance of mass. Friction (E110) does work, too.
+/// the balance of mass. Friction (E110) and contact lines (E121) do work, too.
 template <int Dim>
 struct PushBodies {
   static constexpr std::string_view doc = "(E90) force, torque and work of the pressure on bodies";
@@ -27,7 +28,8 @@ struct PushBodies {
                   Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
                   Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
-                  Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
+                  Optional<Read<surface::ForceOnBodies<Dim>>> lines, Write<body::Force<Dim>> F_b,
+                  Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
 };
 
 /// Columns of the history: NAME_force_x, ..., NAME_torque, NAME_position_x, ..., NAME_velocity_x, ..., NAME_angle,

@@ -57,8 +57,8 @@ void CoarseStreams::prepare(double spacing, const FrictionOf<2>& friction, std::
   start_matrix(friction);
   with_degree(splines.degree, [&](auto degree) { add_friction<degree()>(friction); });
   add_masses(mass);
-  // At a surface more functions than corners may be left, one of them a sum of others.
-  constexpr double apart = 1e-9;
+  // At a surface more functions than corners may be left, one of them a sum of others; along bodies many are.
+  const double apart = friction.cut == nullptr ? 1e-9 : 1e-5;
   for (std::size_t k = 0; k < functions_; ++k) factors_.at(k, k) *= 1 + apart;
   is_there_ = factors_.factorize();
   x_.resize(factors_.padded_rows());

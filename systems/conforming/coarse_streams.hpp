@@ -17,7 +17,7 @@ namespace minamo {
 class CoarseStreams {
  public:
   /// Finds the functions Z that no wall holds, and the factors of Z^T (m + K) Z.
-  /// \param mass  of faces, 0 at those that walls hold [kg/s]
+  /// \param mass  of faces, 0 at those that walls hold or bodies cut [kg/s]
   void prepare(double spacing, const FrictionOf<2>& friction, std::span<const Index<2>> site,
                std::span<const double> mass);
   /// z += Z (Z^T (m + K) Z)^-1 Z^T r; nothing where there are no functions.

@@ -207,8 +207,12 @@ void SolveFriction<Dim>::operator()(
                             {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span()},
                             work->through);
   if constexpr (Dim == 2) {
-    if (!open && system.is_stiff()) {
-      work->streams.prepare(grid->spacing, system.friction, site.span(), work->mass);
+    if (system.is_stiff()) {
+      // Of faces that bodies cut the streams take no part.
+      for_each_row(work->z.size(), [&](std::size_t f) {
+        work->z[f] = system.passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) < 1 ? 0 : work->mass[f];
+      });
+      work->streams.prepare(grid->spacing, system.friction, site.span(), work->z);
       system.has_streams = true;
     }
   }

@@ -28,7 +28,7 @@ namespace minamo {
 template <int Dim>
 struct FrictionWork {
   MultiplierMatrix<Dim> multipliers;
-  CoarseStreams streams;  ///< in the plane, without bodies
+  CoarseStreams streams;  ///< in the plane
   Values mass, per_g;     ///< m/tau, 0 at faces that walls hold; G^-1
   Values through;         ///< a_f^2 G^-1
   Values tie;             ///< of closed faces where bodies rub, else empty [kg/s]

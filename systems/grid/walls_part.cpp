@@ -143,10 +143,15 @@ bool any_separates(const Sides& sides, const WallWords& words) {
   });
 }
 
-WallFriction friction_of(const Sides& sides) {
+WallFriction friction_of(const Sides& sides, const SystemRegistry& registry) {
   WallFriction friction;
+  const auto dimension = static_cast<int>(sides.size());
   for (const auto& axis : sides) {
     for (const WallOfScene& side : axis) {
+      if (side.condition == periodic) continue;
+      const auto& condition = registry.choices<WallCondition>().at(side.condition);
+      const auto sticks = static_cast<std::uint8_t>((1U << dimension) - 1);
+      friction.any_side_slips = friction.any_side_slips || condition.held(dimension, 0) != sticks;
       if (side.length > 0) friction.largest_per_length = std::max(friction.largest_per_length, 1 / side.length);
     }
   }
@@ -158,7 +163,7 @@ Contribution read_walls(Input& input, Scene& scene) {
   const WallWords words = words_of(scene);
   const Sides sides = read_sides(input, scene.grid.cells, words);
   for (std::size_t d = 0; d < sides.size(); ++d) scene.grid.periodic[d] = sides[d][0].condition == periodic;
-  scene.facts.set(friction_of(sides));
+  scene.facts.set(friction_of(sides, registry_of(scene)));
   const bool separates = any_separates(sides, words);
   if (separates) scene.facts.set(RepeatsBalances{.at_sides = true});
   return [sides, separates](const Scene& of, Recipe& recipe) {

@@ -74,6 +74,7 @@ struct FlowRules {
   std::map<std::string, double> constants;
   std::optional<Vertical> vertical;
   GridScene grid;
+  int per_cell = 3;  ///< of the first region of particles, whose lattice what comes in goes on with
 };
 
 Flow read_inflow(Input& input, const FlowRules& rules) {
@@ -110,7 +111,10 @@ Flow read_inflow(Input& input, const FlowRules& rules) {
   }
   input.one_of("what comes in: by velocity, by flow rate, or by the level outside", variants);
   flow.per_cell = static_cast<int>(input.integer(
-      "per_cell", {.doc = "particles per cell and direction", .fallback = 2, .at_least = 1, .at_most = 16}));
+      "per_cell", {.doc = "particles per cell and direction; by default those of the first region of particles",
+                   .fallback = rules.per_cell,
+                   .at_least = 1,
+                   .at_most = 16}));
   return flow;
 }
 
@@ -132,7 +136,10 @@ Flow read_pressure_outside(Input& input, const FlowRules& rules) {
                  }}});
   flow.per_cell = static_cast<int>(input.integer(
       "per_cell",
-      {.doc = "particles per cell and direction, of what flows back", .fallback = 2, .at_least = 1, .at_most = 16}));
+      {.doc = "particles per cell and direction, of what flows back; by default those of the first region of particles",
+       .fallback = rules.per_cell,
+       .at_least = 1,
+       .at_most = 16}));
   return flow;
 }
 
@@ -293,7 +300,8 @@ Contribution read_openings(Input& input, Scene& scene) {
   OpeningsOfScene openings;
   std::vector<std::optional<Expression>> where;
   const bool is_there = input.elements("openings").value_or(0) > 0;
-  FlowRules rules{scene.dimension, scene.constants, {}, scene.grid};
+  FlowRules rules{.dimension = scene.dimension, .constants = scene.constants, .vertical = {}, .grid = scene.grid};
+  if (!scene.particles.empty() && !input.describing()) rules.per_cell = scene.particles.front().per_cell;
   if (const auto* force = scene.facts.find<BodyForce>()) rules.vertical = vertical_of(*force);
   input.list("openings", "where liquid comes in through sides of the box, or leaves", 0, [&](Input& in, std::size_t) {
     with_dimension(scene.dimension,

@@ -65,7 +65,7 @@ ParticleScene read_particles(Input& input, const Scene& scene, CutRegions& cut) 
   input.object("shape", "the region that is filled", Input::Presence::required,
                [&](Input& shape) { particles.shape = read_region(shape, scene); });
   particles.per_cell = static_cast<int>(input.integer(
-      "per_cell", {.doc = "particles per cell and direction", .fallback = 2, .at_least = 1, .at_most = 16}));
+      "per_cell", {.doc = "particles per cell and direction", .fallback = 3, .at_least = 1, .at_most = 16}));
   if (input.sound("shape") && input.sound("per_cell")) check_particle_count(input, particles, scene.grid);
   bool is_cut = false;
   input.variant("arrangement", "where in a cell the particles start", "lattice",

@@ -31,6 +31,7 @@ struct WallCondition {
 /// What the walls of a scene tell other parts.
 struct WallFriction {
   double largest_per_length = 0;  ///< 1/b of the shortest slip length b [1/m]
+  bool any_side_slips = false;    ///< whether the liquid slips along a side of the box
 };
 
 /// A linear solver is three lists of systems.

@@ -8,17 +8,31 @@ namespace minamo {
 
 namespace {
 
+/// Least error for the time, whatever the grid: below it steps cost more than they gain, above it less is gained than a
+/// coarser grid would (scenes/RESULTS.md, frontier).
+constexpr double recommended_cfl = 1;
+
+void read_step(Input& input, TimeScene& time) {
+  time.step = input.optional_number("step", {.unit = "s", .doc = "length of a step (instead of cfl)", .above = 0});
+}
+
+void read_cfl(Input& input, TimeScene& time) {
+  time.cfl = input.number("cfl", {.doc = "cells that the fastest particle crosses in a step (instead of step)",
+                                  .fallback = recommended_cfl,
+                                  .above = 0});
+  time.max_step = input.optional_number("max_step", {.unit = "s", .doc = "longest step (with cfl)", .above = 0});
+}
+
 TimeScene read_time(Input& input) {
   TimeScene time;
   time.end = input.number("end", {.unit = "s", .doc = "end of the run", .above = 0});
-  input.one_of(
-      "a fixed step, or one from the CFL number",
-      {{"step",
-        [&](Input& in) { time.step = in.number("step", {.unit = "s", .doc = "length of a step", .above = 0}); }},
-       {"cfl", [&](Input& in) {
-          time.cfl = in.number("cfl", {.doc = "cells that the fastest particle crosses in a step", .above = 0});
-          time.max_step = in.optional_number("max_step", {.unit = "s", .doc = "longest step", .above = 0});
-        }}});
+  if (input.has("step") && !input.describing()) {
+    input.one_of("a fixed step, or one from the CFL number",
+                 {{"step", [&](Input& in) { read_step(in, time); }}, {"cfl", [&](Input& in) { read_cfl(in, time); }}});
+    return time;
+  }
+  read_step(input, time);
+  read_cfl(input, time);
   return time;
 }
 

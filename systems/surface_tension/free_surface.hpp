@@ -3,10 +3,12 @@
 /// (E112) The free surface as a step computes with it, from how full of liquid quadratic splines are. The surface of
 /// frames (systems/surface) is another: finer, closed at walls, around the liquid's volume.
 
+#include "components/body.hpp"
 #include "components/cells.hpp"
 #include "components/particle.hpp"
 #include "components/surface_tension.hpp"
 #include "engine/system.hpp"
+#include "systems/bodies/body_set.hpp"
 #include "systems/conforming/splines.hpp"
 
 namespace minamo {
@@ -24,18 +26,16 @@ struct FindSurfaceDistance {
                   Read<particle::Volume> V_p, Read<staggered::Site<Dim>> site, Write<surface::Distance> psi) const;
 };
 
-/// (E112)  Where psi, linear in triangles or tetrahedra, is zero.
+/// (E112)  Where psi, linear in triangles or tetrahedra, is zero; (E121) outside of bodies.
 template <int Dim>
 struct FindFreeSurface {
   static constexpr std::string_view doc = "(E112) segments or triangles of the free surface, contact lines";
-  void operator()(Read<Grid<Dim>> grid, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                  Read<surface::Distance> psi, Write<FreeSurface<Dim>> surface) const;
+  void operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid, Read<StaggeredIndex<Dim>> rows,
+                  Read<staggered::Site<Dim>> site, Read<surface::Distance> psi, Read<Splines<Dim>> splines,
+                  Optional<Read<surface::SolidDistance>> solid, Optional<Read<surface::OpenShare>> open,
+                  Optional<Read<surface::OpenCentroid<Dim>>> centroid, Optional<Read<surface::OpenDistance>> open_psi,
+                  Optional<Read<BodySet<Dim>>> set, Optional<Read<body::MiddlePosition<Dim>>> c_b,
+                  Optional<Read<body::MiddleRotation<Dim>>> R_b, Write<FreeSurface<Dim>> surface) const;
 };
-
-/// Length of a segment, area of a triangle. [m^(d-1)]
-template <int Dim>
-double area_of(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim)>& x);
-template <int Dim>
-double area_of(const typename FreeSurface<Dim>::Element& element);
 
 }  // namespace minamo

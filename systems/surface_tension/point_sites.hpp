@@ -40,6 +40,8 @@ class PointSites {
     const CellFrame<Dim> frame(grid_, splines_, cell);
     return {frame, frame.local(x)};
   }
+  /// That of the last point.
+  const Index<Dim>& cell() const { return cell_; }
   /// Row of site k of the cell of the last point, or none.
   std::int32_t row(std::size_t k) const { return row_[k]; }
 

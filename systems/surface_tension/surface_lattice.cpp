@@ -58,9 +58,7 @@ Vec<Dim> SurfaceLattice<Dim>::place(const Index<Dim>& node) const {
 
 template <int Dim>
 std::optional<std::uint32_t> SurfaceLattice<Dim>::row(const Index<Dim>& node) const {
-  Index<Dim> site;
-  for (std::size_t d = 0; d < Dim; ++d) site[d] = axis_[d].site_of(node[d]);
-  return rows_.find(site);
+  return rows_.find(site_of(node));
 }
 
 template class SurfaceLattice<2>;

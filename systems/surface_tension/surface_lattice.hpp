@@ -52,18 +52,33 @@ class SurfaceLattice {
   Vec<Dim> place(const Index<Dim>& node) const;
   /// The row of a node that is a site, if the liquid touches it.
   std::optional<std::uint32_t> row(const Index<Dim>& node) const;
+  std::optional<std::uint32_t> row_of_site(const Index<Dim>& site) const { return rows_.find(site); }
   /// Calls use(row or none, weight) for the sites from which the value at a node comes: itself, or those beside a wall,
   /// by linear extrapolation. The weights are 1 in sum.
   template <class Use>
   void for_each_source(const Index<Dim>& node, const Use& use) const {
-    from_axis(node, Dim - 1, 1, use);
+    from_axis(node, Dim - 1, 1, [&](const Index<Dim>& at, double weight) { use(row(at), weight); });
+  }
+  /// The same with the sites themselves.
+  template <class Use>
+  void for_each_source_site(const Index<Dim>& node, const Use& use) const {
+    from_axis(node, Dim - 1, 1, [&](const Index<Dim>& at, double weight) { use(site_of(at), weight); });
+  }
+  /// \pre the node is a site
+  Index<Dim> site_of(Index<Dim> node) const {
+    for (std::size_t d = 0; d < Dim; ++d) node[d] = axis_[d].site_of(node[d]);
+    return node;
+  }
+  Vec<Dim> place_of_site(Index<Dim> site) const {
+    for (std::size_t d = 0; d < Dim; ++d) site[d] = axis_[d].node_of(site[d]);
+    return place(site);
   }
 
  private:
   template <class Use>
   void from_axis(Index<Dim> node, int d, double weight, const Use& use) const {
     if (d < 0) {
-      use(row(node), weight);
+      use(node, weight);
       return;
     }
     const auto k = static_cast<std::size_t>(d);

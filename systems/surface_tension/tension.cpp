@@ -1,15 +1,12 @@
 #include "systems/surface_tension/tension.hpp"
 
-#include "engine/parallel.hpp"
-#include "systems/conforming/incidence.hpp"
-#include "systems/surface_tension/free_surface.hpp"
-#include "systems/surface_tension/point_sites.hpp"
+#include "systems/surface_tension/piece_sums.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"
+#include "systems/surface_tension/surface_points.hpp"
 
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <functional>
 
 namespace minamo {
 
@@ -29,211 +26,170 @@ std::array<Vec<Dim>, static_cast<std::size_t>(Dim)> area_gradient(const typename
 
 namespace {
 
-/// Calls use(point, its area) for three points of an element: with fewer, constant curvature does not balance constant
-/// pressure and currents double.
-template <int Dim, class Use>
-void for_each_point(const typename FreeSurface<Dim>::Element& element, const Use& use) {
-  const double area = area_of<Dim>(element);
-  if constexpr (Dim == 2) {
-    // Gauss's points, of degree 5.
-    const Vec<2> middle = 0.5 * (element[0].x + element[1].x);
-    const Vec<2> step = std::sqrt(0.15) * (element[1].x - element[0].x);
-    use(Vec<2>(middle - step), 5.0 / 18 * area);
-    use(middle, 8.0 / 18 * area);
-    use(Vec<2>(middle + step), 5.0 / 18 * area);
-  } else {
-    // Of degree 2.
-    const Vec<3> sixth = (element[0].x + element[1].x + element[2].x) / 6;
-    for (const auto& corner : element) use(Vec<3>(sixth + 0.5 * corner.x), area / 3);
-  }
-}
-
-template <int Dim, class Use>
-void for_each_point_of_surface(const FreeSurface<Dim>& surface, const Use& use) {
-  for (const auto& piece : surface.pieces) {
-    for (const auto& element : piece.elements) for_each_point<Dim>(element, use);
-  }
-}
-
-/// Hands forces at corners on to the sites from which their place comes.
+/// Hands forces at the corners of a piece on: what acts along walls to the sites from which the places of the corners
+/// come, the rest to the walls.
 template <int Dim>
-class SiteForces {
+class CornerForces {
  public:
-  SiteForces(const SurfaceLattice<Dim>& lattice, double least_around, std::span<const double> around,
-             std::span<Vec<Dim>> force)
-      : lattice_(lattice), least_around_(least_around), around_(around), force_(force) {}
+  using Corner = typename FreeSurface<Dim>::Corner;
+  using OnBody = typename FreeSurface<Dim>::OnBody;
 
-  void add(const typename FreeSurface<Dim>::Corner& corner, Vec<Dim> force) {
-    // What pulls across a wall at a corner on it, the wall takes.
+  CornerForces(const SurfaceLattice<Dim>& lattice, const Walls<Dim>& walls,
+               const std::vector<SurfaceTension::Wall>& bodies, std::span<const double> around, double least_around)
+      : lattice_(lattice), walls_(walls), bodies_(bodies), around_(around), least_around_(least_around) {}
+
+  /// Calls use(row of a site, force) for what the liquid gets. \return what a body gets
+  template <class Use>
+  Vec<Dim> hand_on(const Corner& corner, const OnBody* on, const Vec<Dim>& force, const Use& use) const {
+    Vec<Dim> along = along_sides(corner, force);
+    Vec<Dim> of_body = Vec<Dim>::Zero();
+    if (on != nullptr) {
+      const bool sticks = bodies_[static_cast<std::size_t>(on->body)].sticks;
+      of_body = sticks ? along : Vec<Dim>(along.dot(on->normal) * on->normal);
+      along -= of_body;
+    }
+    double taken = 0;
+    for_each_taker(corner, on, [&](std::size_t, double weight) { taken += weight; });
+    constexpr double least = 0.1;  // a corner far from all sites: a drop of a particle or two, which has no surface
+    if (taken < least) return of_body;
+    for_each_taker(corner, on, [&](std::size_t i, double weight) { use(i, Vec<Dim>(weight / taken * along)); });
+    return of_body;
+  }
+
+ private:
+  /// What pulls across a side of the box at a corner on it, the side takes, and all where the liquid does not slip
+  /// along it: there the contact line does not move.
+  Vec<Dim> along_sides(const Corner& corner, Vec<Dim> force) const {
+    constexpr auto all = static_cast<std::uint8_t>((1U << Dim) - 1);
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto& ax = lattice_.axis(d);
       const bool is_low = ax.is_low_wall(corner.in[d]) && ax.is_low_wall(corner.out[d]);
       const bool is_high = ax.is_high_wall(corner.in[d]) && ax.is_high_wall(corner.out[d]);
-      if (is_low || is_high) force[static_cast<Eigen::Index>(d)] = 0;
+      if (!is_low && !is_high) continue;
+      force[static_cast<Eigen::Index>(d)] = 0;
+      if (walls_.held[d][is_low ? 0 : 1] == all) return Vec<Dim>::Zero();
     }
-    double taken = 0;
-    for_each_taker(corner, [&](std::size_t, double weight) { taken += weight; });
-    constexpr double least = 0.1;  // a corner far from all sites: a drop of a particle or two, which has no surface
-    if (taken < least) return;
-    for_each_taker(corner, [&](std::size_t i, double weight) { force_[i] += weight / taken * force; });
+    return force;
   }
 
- private:
   template <class Use>
-  void for_each_taker(const typename FreeSurface<Dim>::Corner& corner, const Use& use) const {
+  void for_each_taker(const Corner& corner, const OnBody* on, const Use& use) const {
     const auto from = [&](const Index<Dim>& node, double share) {
       lattice_.for_each_source(node, [&](const auto& row, double weight) {
         if (row && around_[*row] > least_around_) use(*row, share * weight);
       });
     };
-    from(corner.in, 1 - corner.share);
-    from(corner.out, corner.share);
+    const double part = on == nullptr ? 0 : on->part;
+    from(corner.in, (1 - part) * (1 - corner.share));
+    from(corner.out, (1 - part) * corner.share);
+    if (on == nullptr) return;
+    from(on->in, part * (1 - on->share));
+    from(on->out, part * on->share);
   }
 
   const SurfaceLattice<Dim>& lattice_;
-  double least_around_;
+  const Walls<Dim>& walls_;
+  const std::vector<SurfaceTension::Wall>& bodies_;
   std::span<const double> around_;
-  std::span<Vec<Dim>> force_;
+  double least_around_;
 };
 
-/// Directions in which the face of a row takes forces: beside a multiplier that is an unknown, for others nothing holds
-/// against it, and where walls hold, from which the walls take it.
-template <int Dim>
-std::uint8_t takers_of(const Incidence<Dim>& incidence, std::size_t i, unsigned held,
-                       std::span<const std::int32_t> row) {
-  unsigned takes = held;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    incidence.for_each_multiplier(i, d, [&](std::size_t l, double) {
-      if (row[l] != staggered::none) takes |= 1U << d;
-    });
+/// Calls use(corner, force on it) for the corners of a piece: (E113), then (E114) of its contact lines.
+template <int Dim, class Use>
+void for_each_corner_force(const typename FreeSurface<Dim>::Piece& piece, const SurfaceTension& tension,
+                           const Use& use) {
+  for (const auto& element : piece.elements) {
+    const auto gradient = area_gradient<Dim>(element);
+    for (std::size_t k = 0; k < element.size(); ++k)
+      use(element[k], Vec<Dim>(-tension.coefficient * gradient[k]), staggered::none);
   }
-  return static_cast<std::uint8_t>(takes);
-}
-
-/// Hands a force at a point on to the faces around it.
-template <int Dim, int K>
-void add_to_faces(const PointSites<Dim, K>& sites, const SplineWeights<Dim, K>& weights,
-                  std::span<const std::uint8_t> takes, const Vec<Dim>& force, std::span<Vec<Dim>> F_f) {
-  for_each_direction<Dim>([&](auto direction) {
-    constexpr int D = direction();
-    double taken = 0;
-    std::array<bool, cell_sites<Dim, K>> is_taker{};
-    for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
-      const std::int32_t i = sites.row(k);
-      is_taker[k] = i != staggered::none && (takes[static_cast<std::size_t>(i)] & (1U << D)) != 0;
-      if (is_taker[k]) taken += weights.template face<D>(offset);
-    });
-    constexpr double least = 0.05;  // a point far out: the faces there have next to no mass
-    if (taken < least) return;
-    for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
-      if (is_taker[k])
-        F_f[static_cast<std::size_t>(sites.row(k))][D] += force[D] * weights.template face<D>(offset) / taken;
-    });
-  });
-}
-
-template <int Dim>
-double energy_of(const SurfaceTension& tension, const FreeSurface<Dim>& surface) {
-  return tension.coefficient * (surface.area - tension.cosine_of_contact_angle * surface.wetted);
-}
-
-void set_energy(double joule, measure::Energy& energy, measure::Columns& columns) {
-  energy.surface = joule;
-  columns.set("surface_energy", joule);
+  for (const auto& contact : piece.contacts) {
+    double pull =
+        tension.coefficient * (contact.body == staggered::none
+                                   ? tension.cosine_of_contact_angle
+                                   : tension.bodies[static_cast<std::size_t>(contact.body)].cosine_of_contact_angle);
+    if (pull == 0) continue;
+    if constexpr (Dim == 3) pull *= 0.5 * (contact.corner[1].x - contact.corner[0].x).norm();
+    for (const auto& corner : contact.corner) use(corner, Vec<Dim>(pull * contact.outward), contact.body);
+  }
 }
 
 }  // namespace
 
-// The surface has far fewer points than the liquid has particles: the loops over it run one after the other.
-
 template <int Dim>
 void MeasureSurfaceAround<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                            Read<StaggeredIndex<Dim>> rows, Read<FreeSurface<Dim>> surface,
-                                           Write<surface::Around> A_i) const {
+                                           Update<PieceSums<Dim>> sums, Write<surface::Around> A_i) const {
   for_each_row(A_i.size(), [&](std::size_t i) { A_i[i] = 0; });
+  sums->areas.resize(surface->pieces.size());
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
-    PointSites<Dim, K> sites(*grid, *splines, *rows);
-    for_each_point_of_surface<Dim>(*surface, [&](const Vec<Dim>& x, double area) {
-      const auto weights = sites.weights_at(x);
-      for_each_quadratic<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
-        if (sites.row(k) == staggered::none) return;
-        A_i[static_cast<std::size_t>(sites.row(k))] += area * quadratic_weight<Dim, K>(weights, offset);
-      });
-    });
+    for_each_row(
+        surface->pieces.size(),
+        [&](std::size_t piece) {
+          PointSites<Dim, K> sites(*grid, *splines, *rows);
+          SumsOfCells<Dim, K, double> of_cells(sums->areas[piece]);
+          for_each_point_of_piece<Dim>(surface->pieces[piece], [&](const Vec<Dim>& x, double area) {
+            const auto weights = sites.weights_at(x);
+            const auto A_k = of_cells.around(sites, 0);
+            for_each_quadratic<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+              A_k[k] += area * quadratic_weight<Dim, K>(weights, offset);
+            });
+          });
+        },
+        1);
   });
+  add_pieces(sums->areas, A_i.span());
 }
 
 template <int Dim>
-void FindSurfaceTraction<Dim>::operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid,
+void FindSurfaceTraction<Dim>::operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid, Read<Walls<Dim>> walls,
                                           Read<StaggeredIndex<Dim>> rows, Read<FreeSurface<Dim>> surface,
-                                          Read<surface::Around> A_i, Write<surface::Traction<Dim>> t_i) const {
-  for_each_row(t_i.size(), [&](std::size_t i) { t_i[i].setZero(); });
+                                          Read<surface::Around> A_i, Optional<Read<body::MiddlePosition<Dim>>> c_b,
+                                          Update<PieceSums<Dim>> sums, Write<surface::Traction<Dim>> t_i,
+                                          Write<surface::ForceOnBodies<Dim>> F_b) const {
   // What hardly reaches the surface would put its force on a point.
   const double least_around = 1e-3 * std::pow(grid->spacing, Dim - 1);
   const SurfaceLattice<Dim> lattice(*grid, *rows);
-  SiteForces<Dim> forces(lattice, least_around, A_i.span(), t_i.span());
-  const double sigma = tension->coefficient;
-  const double along_wall = sigma * tension->cosine_of_contact_angle;
-  for (const auto& piece : surface->pieces) {
-    for (const auto& element : piece.elements) {
-      const auto gradient = area_gradient<Dim>(element);
-      for (std::size_t k = 0; k < element.size(); ++k) forces.add(element[k], Vec<Dim>(-sigma * gradient[k]));
-    }
-    if (along_wall == 0) continue;
-    for (const auto& contact : piece.contacts) {
-      double share = along_wall;
-      if constexpr (Dim == 3) share *= 0.5 * (contact.corner[1].x - contact.corner[0].x).norm();
-      for (const auto& corner : contact.corner) forces.add(corner, Vec<Dim>(share * contact.outward));
-    }
+  const CornerForces<Dim> forces(lattice, *walls, tension->bodies, A_i.span(), least_around);
+  sums->at_corners.resize(surface->pieces.size());
+  sums->on_bodies.resize(surface->pieces.size());
+  for_each_row(
+      surface->pieces.size(),
+      [&](std::size_t k) {
+        const auto& piece = surface->pieces[k];
+        auto& at_corners = sums->at_corners[k];
+        auto& on_bodies = sums->on_bodies[k];
+        at_corners.clear();
+        on_bodies.clear();
+        for_each_corner_force<Dim>(
+            piece, *tension, [&](const auto& corner, const Vec<Dim>& force, std::int32_t pulled) {
+              const auto* on = corner.on_body == staggered::none
+                                   ? nullptr
+                                   : &piece.on_bodies[static_cast<std::size_t>(corner.on_body)];
+              Vec<Dim> of_body = forces.hand_on(corner, on, force, [&](std::size_t i, const Vec<Dim>& share) {
+                at_corners.emplace_back(static_cast<std::uint32_t>(i), share);
+              });
+              if (on == nullptr) return;
+              // The wall is pulled against the liquid that spreads on it.
+              if (pulled != staggered::none) of_body -= force;
+              const auto b = static_cast<std::size_t>(on->body);
+              on_bodies.emplace_back(static_cast<std::uint32_t>(b),
+                                     rigid_vector<Dim>(of_body, moment_of(Vec<Dim>(corner.x - c_b[b]), of_body)));
+            });
+      },
+      1);
+  for_each_row(t_i.size(), [&](std::size_t i) { t_i[i].setZero(); });
+  for (const auto& of_piece : sums->at_corners) {
+    for (const auto& [i, force] : of_piece) t_i[i] += force;
+  }
+  F_b->of.assign(tension->bodies.size(), RigidVector<Dim>::Zero());
+  for (const auto& of_piece : sums->on_bodies) {
+    for (const auto& [b, force] : of_piece) F_b->of[b] += force;
   }
   for_each_row(t_i.size(), [&](std::size_t i) {
     if (A_i[i] > least_around) t_i[i] /= A_i[i];
   });
-}
-
-template <int Dim>
-void AddSurfaceTension<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                        Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                        Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-                                        Read<multiplier::Row> row, Read<FreeSurface<Dim>> surface,
-                                        Read<surface::Traction<Dim>> t_i, Read<face::Mobility<Dim>> mobility,
-                                        Write<face::TakesSurfaceForce> takes, Write<face::SurfaceForce<Dim>> F_f,
-                                        Update<face::Predictor<Dim>> predictor) const {
-  for_each_row(F_f.size(), [&](std::size_t i) { F_f[i].setZero(); });
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-  for_each_row(takes.size(), [&](std::size_t i) { takes[i] = takers_of<Dim>(incidence, i, held[i], row.span()); });
-  with_degree(splines->degree, [&](auto degree) {
-    constexpr int K = degree();
-    PointSites<Dim, K> sites(*grid, *splines, *rows);
-    for_each_point_of_surface<Dim>(*surface, [&](const Vec<Dim>& x, double area) {
-      const auto weights = sites.weights_at(x);
-      Vec<Dim> traction = Vec<Dim>::Zero();
-      for_each_quadratic<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
-        if (sites.row(k) == staggered::none) return;
-        traction += quadratic_weight<Dim, K>(weights, offset) * t_i[static_cast<std::size_t>(sites.row(k))];
-      });
-      add_to_faces<Dim, K>(sites, weights, takes.span(), Vec<Dim>(area * traction), F_f.span());
-    });
-  });
-  const double tau = rates->velocity / rates->acceleration;
-  for_each_row(F_f.size(), [&](std::size_t i) { predictor[i] += tau * mobility[i].cwiseProduct(F_f[i]); });
-}
-
-template <int Dim>
-void MeasureSurfaceEnergy<Dim>::operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface,
-                                           Read<face::SurfaceForce<Dim>> F_f, Read<face::Displacement<Dim>> u_f,
-                                           Update<measure::Energy> energy, Update<measure::Columns> columns) const {
-  const double work = reduce_rows(
-      F_f.size(), 0.0, [&](std::size_t i) { return F_f[i].dot(u_f[i]); }, std::plus<>());
-  set_energy(energy_of<Dim>(*tension, *surface) - 0.5 * work, *energy, *columns);
-}
-
-template <int Dim>
-void MeasureSurfaceEnergyAtStart<Dim>::operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface,
-                                                  Update<measure::Energy> energy,
-                                                  Update<measure::Columns> columns) const {
-  set_energy(energy_of<Dim>(*tension, *surface), *energy, *columns);
 }
 
 template std::array<Vec<2>, 2> area_gradient<2>(const FreeSurface<2>::Element&);
@@ -242,11 +198,5 @@ template struct MeasureSurfaceAround<2>;
 template struct MeasureSurfaceAround<3>;
 template struct FindSurfaceTraction<2>;
 template struct FindSurfaceTraction<3>;
-template struct AddSurfaceTension<2>;
-template struct AddSurfaceTension<3>;
-template struct MeasureSurfaceEnergy<2>;
-template struct MeasureSurfaceEnergy<3>;
-template struct MeasureSurfaceEnergyAtStart<2>;
-template struct MeasureSurfaceEnergyAtStart<3>;
 
 }  // namespace minamo

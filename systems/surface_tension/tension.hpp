@@ -3,10 +3,13 @@
 /// (E113) (E114) What the tension of the free surface does to the faces, and (E115) its energy. The force is the
 /// virtual work of the surface, whose corners move by means of the velocity over the surface around them.
 
+#include "components/body.hpp"
+#include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/step.hpp"
 #include "components/surface_tension.hpp"
 #include "engine/system.hpp"
+#include "systems/conforming/face_extension.hpp"
 #include "systems/conforming/splines.hpp"
 
 namespace minamo {
@@ -20,26 +23,31 @@ template <int Dim>
 struct MeasureSurfaceAround {
   static constexpr std::string_view doc = "(E113) A_i, surface around quadratic splines";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                  Read<FreeSurface<Dim>> surface, Write<surface::Around> A_i) const;
+                  Read<FreeSurface<Dim>> surface, Update<PieceSums<Dim>> sums, Write<surface::Around> A_i) const;
 };
 
-/// (E113) (E114)  t_i = sum_v R_vi (-sigma dA/dx_v + sigma cos theta dW/dx_v)/A_i.
+/// (E113) (E114)  t_i = sum_v R_vi (-sigma dA/dx_v + sigma cos theta dW/dx_v)/A_i; what walls take of it, of bodies
+/// the forces (E121).
 template <int Dim>
 struct FindSurfaceTraction {
-  static constexpr std::string_view doc = "(E113) (E114) t_i of surface and contact lines";
-  void operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid, Read<StaggeredIndex<Dim>> rows,
-                  Read<FreeSurface<Dim>> surface, Read<surface::Around> A_i, Write<surface::Traction<Dim>> t_i) const;
+  static constexpr std::string_view doc = "(E113) (E114) (E121) t_i of surface and contact lines";
+  void operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid, Read<Walls<Dim>> walls,
+                  Read<StaggeredIndex<Dim>> rows, Read<FreeSurface<Dim>> surface, Read<surface::Around> A_i,
+                  Optional<Read<body::MiddlePosition<Dim>>> c_b, Update<PieceSums<Dim>> sums,
+                  Write<surface::Traction<Dim>> t_i, Write<surface::ForceOnBodies<Dim>> F_b) const;
 };
 
-/// (E113)  F_f = integral of N_f sum_i N_i t_i over the surface; v*_f gets tau F_f/m_f.
+/// (E113)  F_f = integral of N_f sum_i N_i t_i over the surface; v*_f gets tau F_f/m_f. (E121) Beside bodies E^T F_f.
 template <int Dim>
 struct AddSurfaceTension {
   static constexpr std::string_view doc = "(E113) F_f of surface tension";
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
                   Read<multiplier::Row> row, Read<FreeSurface<Dim>> surface, Read<surface::Traction<Dim>> t_i,
-                  Read<face::Mobility<Dim>> mobility, Write<face::TakesSurfaceForce> takes,
-                  Write<face::SurfaceForce<Dim>> F_f, Update<face::Predictor<Dim>> predictor) const;
+                  Read<face::Mobility<Dim>> mobility, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<FaceExtension<Dim>>> extension, Update<PieceSums<Dim>> sums,
+                  Write<face::TakesSurfaceForce> takes, Write<face::SurfaceForce<Dim>> F_f,
+                  Update<face::Predictor<Dim>> predictor) const;
 };
 
 /// (E115)  sigma (A - cos theta W), taken from the middle of the step to its end by the work of the forces.

@@ -170,3 +170,38 @@ TEST_CASE("a scene in the place of a study is one problem, as is a study in the 
   CHECK(scene.err == "a.json: is a study, not a scene\n  expected  a scene; studies are run by `minamo study`\n");
   CHECK_FALSE(fs::exists(folder / "out"));
 }
+
+TEST_CASE("a program that measures the error must be there, and may be executed", "[error]") {
+  const StudyFolder folder(R"({"scene": "scene.json", "vary": {"cells": [8]}, "error": {"program": "measure.py"}})");
+  const ProgramOutput run = output_of_program(folder / "", {"study", "a.json"});
+  CHECK(run.err == "a.json: /error/program: cannot be run\n"
+                   "  expected  a program or a script that may be executed\n"
+                   "  got       \"" +
+                       (folder / "measure.py") + "\" (string)\n");
+  CHECK(run.code == 2);
+}
+
+TEST_CASE("a table of others that lacks columns or numbers is refused before the first run", "[error]") {
+  const auto [others, text] = GENERATE(values<Case>({
+      {"code,setting,costs,error\n", ": no column \"cost\"\n"
+                                     "  expected  a table with the columns code, setting, cost and error\n"
+                                     "  got       code,setting,costs,error\n"
+                                     "  closest   \"costs\"\n"},
+      {"code,setting,cost,error\nAbc,40 x 40,fast,-1\n", ": line 2: not a number\n"
+                                                         "  expected  a number > 0\n"
+                                                         "  got       \"fast\"\n" +
+                                                             std::string("OTHERS: line 2: not a number\n"
+                                                                         "  expected  a number > 0\n"
+                                                                         "  got       \"-1\"\n")},
+  }));
+  const StudyFolder folder(
+      R"({"scene": "scene.json", "vary": {"cells": [8]}, "error": "velocity", "others": "others.csv"})");
+  std::ofstream(folder / "others.csv") << others;
+  const ProgramOutput run = output_of_program(folder / "", {"study", "a.json"});
+  std::string expected = "OTHERS" + text;
+  for (auto at = expected.find("OTHERS"); at != std::string::npos; at = expected.find("OTHERS"))
+    expected.replace(at, 6, folder / "others.csv");
+  CHECK(run.err == expected);
+  CHECK(run.code == 2);
+  CHECK_FALSE(fs::exists(folder / "out"));
+}

@@ -159,6 +159,6 @@ TEST_CASE("a scene with a byte order mark or with line ends of Windows is read",
   const std::string text = GENERATE("\xef\xbb\xbf" + small_scene, with(small_scene, ",\n", ",\r\n"));
   const ProgramOutput check = check_text(text);
   CHECK(check.err.empty());
-  CHECK(check.out == "a.json: valid, 64 particles\n");
+  CHECK(check.out == "a.json: valid, 144 particles\n");
   CHECK(check.code == 0);
 }

@@ -46,8 +46,8 @@ double difference(const Values& a, const Values& b) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("products with the rows of (E55) are those of the matrix", "[property]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("products with the rows of (E55) are those of the matrix", "[property][long]", ((int Dim), Dim),
+                       2, 3) {
   const std::string quadrature = GENERATE("mixed", "particles");
   CAPTURE(quadrature);
   SceneRun run(with(water<Dim>(), {R"(/quadrature={"scheme": ")" + quadrature + "\"}"}));

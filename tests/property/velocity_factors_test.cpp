@@ -18,8 +18,8 @@ Json lump_and_wet_wall(double viscosity) {
   Json scene = Json::parse(R"json({
     "dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [10, 10]},
     "fluid": {"density": 1000}, "body_force": [0, -9.81],
-    "particles": [{"shape": {"box": {"low": [0.2, 0], "high": [0.8, 0.5]}}},
-                  {"shape": {"box": {"low": [0, 0.75], "high": [0.05, 0.8]}}}],
+    "particles": [{"shape": {"box": {"low": [0.2, 0], "high": [0.8, 0.5]}}, "per_cell": 2},
+                  {"shape": {"box": {"low": [0, 0.75], "high": [0.05, 0.8]}}, "per_cell": 2}],
     "transfer": {"scheme": "tpic"}, "integrator": {"scheme": "midpoint"}, "volume": {"scheme": "none"},
     "solver": {"scheme": "umfpack"},
     "time": {"end": 1, "step": 0.01}})json");

@@ -85,16 +85,16 @@ class Tool(unittest.TestCase):
 
     def test_a_run_writes_curves_picture_and_page(self):
         out = WORK / "out"
-        done = validate("--experiments", stand_ins(WORK / "data"), "--out", out, "collapsing_column")
+        done = validate("--experiments", stand_ins(WORK / "data"), "--out", out, "dam_break")
         self.assertEqual(done.returncode, 0, done.stderr)
-        stored = json.loads((out / "results.json").read_text())["cases"]["collapsing_column"]
-        self.assertEqual(list(stored), ["a/10", "a/20"])
-        self.assertEqual(stored["a/10"]["particles"], 800)
-        self.assertTrue((out / "collapsing_column.png").read_bytes().startswith(b"\x89PNG"))
-        rows = (out / "collapsing_column.csv").read_text().splitlines()
+        stored = json.loads((out / "results.json").read_text())["cases"]["dam_break"]
+        self.assertEqual(list(stored), ["L/20", "L/40"])
+        self.assertEqual(stored["L/20"]["particles"], 7200)
+        self.assertTrue((out / "dam_break.png").read_bytes().startswith(b"\x89PNG"))
+        rows = (out / "dam_break.csv").read_text().splitlines()
         self.assertEqual(len(rows), 201)
         self.assertTrue(rows[1].startswith("0,1,1"), rows[1])  # the front at the start, over a
-        self.assertIn("## Collapsing column on a dry floor", (out / "README.md").read_text())
+        self.assertIn("## Dam break", (out / "README.md").read_text())
 
     def test_wrong_input_is_told_at_once(self):
         data = stand_ins(WORK / "some")

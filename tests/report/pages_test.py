@@ -99,6 +99,43 @@ class WithBodies(PageTest):
             self.assertGreater(with_ball, without + 2000)
 
 
+class WithLiquids(PageTest):
+    """Salt water under fresh water, two steps."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        cls.folder = RESULTS.run("lock_exchange", "lock", "/grid/cells=[48, 8]", "/time/end=0.04", "/output/every=0.02")
+        cls.page = RESULTS.page(cls.folder)
+
+    def test_liquids_have_a_colour_each_and_the_bar_their_names(self) -> None:
+        self.open(self.page)
+        self.assertEqual(self.js("app.field"), "fluid")
+        self.assertEqual(self.js("[...document.querySelectorAll('#colour-bar .ticks span')].map((s) => s.textContent)"),
+                         ["fresh", "salt"])
+        # Pixels of either colour, in the left half and in the right one.
+        fresh, salt = self.js("""((panel, colours) => {
+          const {width, height} = panel.canvas;
+          const data = panel.canvas.getContext('2d').getImageData(0, 0, width, height).data;
+          return colours.map(([r, g, b]) => {
+            const found = [0, 0];
+            for (let k = 0; k < data.length; k += 4)
+              if (data[k] === r && data[k + 1] === g && data[k + 2] === b) ++found[(k / 4) % width < width / 2 ? 0 : 1];
+            return found;
+          });
+        })(app.panels[0], ['#0072b2', '#d55e00'].map(rgbOf))""")
+        self.assertGreater(min(fresh[1], salt[0]), 1000)
+        self.assertLess(max(fresh[0], salt[1]), 200)  # discs on the boundary are half beyond it
+
+    def test_another_field_has_its_range_again(self) -> None:
+        self.open(self.page)
+        hidden = "document.getElementById('range-low').hidden"
+        self.assertTrue(self.js(hidden))
+        self.choose("field", "speed")
+        self.browser.wait("app.field === 'speed'")
+        self.assertFalse(self.js(hidden))
+
+
 class SideBySide(PageTest):
     """TPIC and FLIP."""
 

@@ -129,6 +129,21 @@ TEST_CASE("a scheme can be overridden alone: keys of the one in the file go with
   CHECK((transfer["scheme"] == "flip" || transfer["inertia"] == "lumped"));
 }
 
+TEST_CASE("a CFL number can be overridden alone: the step in the file goes, and the other way round", "[scene]") {
+  const Folder folder;
+  const auto time_with = [&](const std::string& scene, const CommandLine& overrides) {
+    CommandLine line{"run", scene_path(scene), "--out", folder / "out", "--steps", "1", "--quiet"};
+    for (const std::string& assignment : overrides) line.insert(line.end(), {"--set", assignment});
+    REQUIRE(run_program(line).code == 0);
+    return json_of(folder / "out/scene.json")["time"];
+  };
+  CHECK(time_with("paper/dam_break_tpic.json", {"/time/cfl=0.5"}) == Json({{"end", 5.0}, {"cfl", 0.5}}));
+  CHECK(time_with("tap.json", {"/time/step=0.001"}) == Json({{"end", 3.0}, {"step", 0.001}}));  // had a max_step, too
+  const ProgramEnd both =
+      run_program({"check", scene_path("tap.json"), "--set", "/time/step=0.001", "--set", "/time/cfl=1"});
+  CHECK(both.code == 2);
+}
+
 TEST_CASE("an override that the new scheme does not know is an error", "[scene]") {
   const Folder folder;
   const ProgramEnd wrong =

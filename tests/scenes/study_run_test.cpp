@@ -82,6 +82,27 @@ TEST_CASE("the table of a study has a line per variant", "[scene]") {
   CHECK(std::count(study.output.out.begin(), study.output.out.end(), '\n') == 8);
 }
 
+TEST_CASE("repeated runs leave the errors, and points of others stand beside", "[scene]") {
+  const Folder folder;
+  std::ofstream(folder / "others.csv") << "code,setting,cost,error\nAbc,coarse,1000,0.9\n";
+  std::ofstream(folder / "small.json") << small_study("", R"(, "cost": "cpu", "repeat": 2, "others": "others.csv")");
+  const ProgramOutput run = output_of_program(folder / "", {"study", "small.json", "--out", "out", "--threads", "1"});
+  CHECK(run.code == 0);
+  CHECK_THAT(run.err, Catch::Contains("run 2 of 2 of every variant"));
+  CHECK_THAT(run.out, Catch::Contains("cpu [s/s]") && Catch::Contains("At equal error"));
+  CHECK_THAT(text_of(folder / "out/others.csv"),
+             Catch::StartsWith("code,setting,transfer,cells,their error,our error,their cost,our cost,ratio\n"
+                               "Abc,coarse,"));
+  const StudyRun once(small_study());
+  std::istringstream again(text_of(folder / "out/study.csv"));
+  const auto csv = once.csv();
+  for (std::size_t k = 0; k < csv.size(); ++k) {
+    std::string line;
+    std::getline(again, line);
+    CHECK_THAT(line, Catch::StartsWith(csv[k][0] + ',' + csv[k][1] + ',' + csv[k][2] + ','));
+  }
+}
+
 TEST_CASE("a study draws its picture", "[scene]") {
   if (!has_matplotlib()) {
     WARN("not tested: python3 has no matplotlib (python3-matplotlib)");

@@ -10,7 +10,12 @@
 
 namespace minamo::scene_run {
 
-Json scene_of_file(const std::string& name) { return read_json(std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name); }
+Json scene_of_file(const std::string& name) {
+  Json scene = read_json(std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name);
+  Json& time = scene["time"];
+  if (!time.contains("step") && !time.contains("cfl")) time["step"] = 2e-3;
+  return scene;
+}
 
 Json with(Json scene, const std::vector<std::string>& overrides) {
   for (const std::string& assignment : overrides) set_value(scene, assignment);

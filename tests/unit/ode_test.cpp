@@ -140,7 +140,7 @@ TEST_CASE("a body force in space may use ode variables", "[unit]") {
 TEST_CASE("an initial velocity and a shape see the start of the ode variables", "[unit]") {
   SceneRun run(
       scene_run::with(accelerated, {R"(/particles/0/shape={"where": "abs(x - g) < g/4 && abs(y - g) < g/4"})"}));
-  CHECK(run.world().rows<Particles>() == 64);
+  CHECK(run.world().rows<Particles>() == 144);
   CHECK(run.world().column<particle::Velocity<2>>()[0] == Vec<2>(3, 0));
 }
 

@@ -332,6 +332,14 @@ TEST_CASE("a run that ended between two steps goes on to the next of them", "[un
   CHECK(run.log().steps[5] == Approx(0.3).epsilon(2e-15));  // up to the end
 }
 
+TEST_CASE("a scene without step or CFL number has one", "[unit]") {
+  const Json scene = scene_run::with(scene_run::scene_of_file("dam_break.json"), {R"(/time={"end": 5})"});
+  Input::Document document(scene, "scene.json");
+  CHECK(read_scene(document.root(), scene_run::registry()).time.cfl == 1);
+  CHECK(document.echo()["time"] == Json({{"end", 5}, {"cfl", 1}}));
+  CHECK(scene_run::read(scene_run::with(scene, {"/time/max_step=0.01"})).time.max_step == 0.01);
+}
+
 TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {
   const auto [v, b] = GENERATE(std::pair{"0", "-9.81"}, std::pair{"2", "-9.81"}, std::pair{"2", "0"});
   CAPTURE(v, b);

@@ -1,6 +1,7 @@
 #include "support/folder.hpp"
 #include "support/scene_run.hpp"
 #include "tools/history_reader.hpp"
+#include "tools/study_others.hpp"
 #include "tools/study_table.hpp"
 #include "tools/study_variant.hpp"
 
@@ -83,10 +84,10 @@ TEST_CASE("study.csv has parameters first, empty fields where nothing is known, 
   for (std::string line; std::getline(csv, line);) lines.push_back(line);
   REQUIRE(lines.size() == 6);
   CHECK(lines[0] ==
-        "/transfer/scheme,cells,error,order,wall_s,time_step,steps,particles,unknowns_max,cpu_model,threads,"
+        "/transfer/scheme,cells,error,order,wall_s,cpu_per_s,time_step,steps,particles,unknowns_max,cpu_model,threads,"
         "status,rank,frontier");
-  CHECK(lines[1] == "pic,64,0.01,2.0000,8,0,0,0,0,\"Abacus, 2 wires\",3,done,2,1");
-  CHECK(lines[3] == "pic,32,,,2,0,0,0,0,\"Abacus, 2 wires\",3,failed,,0");
+  CHECK(lines[1] == "pic,64,0.01,2.0000,8,0,0,0,0,0,\"Abacus, 2 wires\",3,done,2,1");
+  CHECK(lines[3] == "pic,32,,,2,0,0,0,0,0,\"Abacus, 2 wires\",3,failed,,0");
 }
 
 TEST_CASE("the table has a line per variant, numbers under each other", "[unit]") {
@@ -165,12 +166,58 @@ TEST_CASE("errors are relative to what they should be", "[unit]") {
   std::ofstream(folder / "history.csv") << "step,time,potential_energy\n0,0,10\n1,1,10\n";
   const Json summary = {{"errors", {{"velocity", 0.25}}}, {"conservation", {{"overlap_max", 0.5}}}};
   const auto error = [&](const ErrorMeasure& measure) {
-    return error_of(measure, summary, folder / "history.csv", 3.0).value();
+    return error_of(measure, {folder / "", summary, 3.0}).value();
   };
   CHECK(error(ErrorOfSummary{"velocity"}) == 0.25);
   CHECK(error(ErrorOfSummary{"overlap"}) == 0.5);
   CHECK(error(ErrorOfHistory{"potential_energy", 8, 0, 1}) == Approx(0.25).epsilon(1e-15));
   CHECK(error(ErrorOfFarthest{4}) == Approx(0.25).epsilon(1e-15));
+}
+
+TEST_CASE("an error may be what a program prints of the folder", "[unit]") {
+  const Folder folder;
+  const auto error = [&](const std::string& script) {
+    std::ofstream(folder / "it's.sh") << "#!/bin/sh\n" << script << '\n';
+    std::filesystem::permissions(folder / "it's.sh", std::filesystem::perms::owner_all);
+    return error_of(ErrorOfProgram{folder / "it's.sh", {"0.5", "a b"}, ""}, {folder / "run 1", {}, 0});
+  };
+  CHECK(error(R"([ "$2" = "a b" ] && [ "${3##*/}" = "run 1" ] && echo "$1")").value() == 0.5);
+  CHECK_FALSE(error("echo nan").has_value());
+  CHECK_THROWS_WITH(error("echo 1 2"), Catch::Contains("printed no number"));
+  CHECK_THROWS_WITH(error("true"), Catch::Contains("printed no number"));
+  CHECK_THROWS_WITH(error("echo 1; exit 3"), Catch::Contains("ended with code 3"));
+}
+
+TEST_CASE("by processor time frontier and rank are those of the other column", "[unit]") {
+  StudyTable cheap = table();
+  cheap.cost = Cost::cpu;
+  for (StudyRow& row : cheap.rows) row.cpu_seconds = 10 - row.wall_seconds;
+  const auto all = standings(cheap);
+  CHECK(all[4].on_frontier);        // the least error is now the least cost
+  CHECK_FALSE(all[0].on_frontier);  // which nothing else beats
+  CHECK(all[4].rank == 1);
+}
+
+TEST_CASE("beside a point of others stands the cheapest variant that is at least as accurate", "[unit]") {
+  const StudyTable ours = table();
+  const auto pairs = at_equal_error(ours, {{"Abc", "fine", 20, 0.05}, {"Abc", "too fine", 20, 0.001}});
+  REQUIRE(pairs.size() == 2);
+  REQUIRE(pairs[0].ours == &ours.rows[3]);  // 2 s; both of the others within 0.05 take longer
+  CHECK(pairs[1].ours == nullptr);
+  CHECK(as_csv(ours, pairs) == "code,setting,transfer,cells,their error,our error,their cost,our cost,ratio\n"
+                               "Abc,fine,tpic,16,0.05,0.05,20,2,10\n"
+                               "Abc,too fine,-,-,0.001,-,20,-,-\n");
+}
+
+TEST_CASE("points of others are read by the names of their columns", "[unit]") {
+  const Folder folder;
+  std::ofstream(folder / "others.csv") << "error,particles,code,setting,cost\n0.1,800,Abc,40 x 40,2.5\n\n";
+  const std::vector<OtherPoint> others = read_others(folder / "others.csv");
+  REQUIRE(others.size() == 1);
+  CHECK(others[0].code == "Abc");
+  CHECK(others[0].setting == "40 x 40");
+  CHECK(others[0].cost == 2.5);
+  CHECK(others[0].error == 0.1);
 }
 
 TEST_CASE("the farthest particle is measured from the centre of mass", "[unit]") {

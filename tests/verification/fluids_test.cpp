@@ -70,7 +70,7 @@ Json two_halves(const Json& fluids, int dimension) {
 
 }  // namespace
 
-TEST_CASE("two liquids of unlike viscosity flow through a channel side by side", "[verification]") {
+TEST_CASE("two liquids of unlike viscosity flow through a channel side by side", "[verification][long]") {
   CHECK(error_of(channel(16, 0.5), "error_velocity", 300) < 1.5e-2);  // 9.7e-3 measured
   CHECK(error_of(channel(32, 0.5), "error_velocity", 300) < 4e-3);    // 2.4e-3
   Json scene = channel(16, 0.53125);                                  // the boundary in the middle of a cell

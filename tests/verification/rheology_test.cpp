@@ -107,7 +107,7 @@ double fastest(World& world) {
 
 }  // namespace
 
-TEST_CASE("grains flow down a slope with Bagnold's profile", "[verification]") {
+TEST_CASE("grains flow down a slope with Bagnold's profile", "[verification][long]") {
   // 6.2e-4 and 1.64e-4 measured, second order: the shear rate falls to zero at the surface only.
   CHECK(error_on_slope(slope(16), "error_velocity", 1000) < 1e-3);
   CHECK(error_on_slope(slope(32), "error_velocity", 600) < 2.5e-4);

@@ -52,3 +52,23 @@ minamo_import(suitesparse umfpack.h LIBRARIES umfpack cholmod suitesparseconfig 
 # CHOLMOD runs on the compiler's OpenMP, which is told to keep to one thread.
 target_link_libraries(minamo::suitesparse INTERFACE minamo::blas gomp)
 minamo_import(hdf5 hdf5.h LIBRARIES hdf5 SUFFIXES hdf5/serial)
+
+# Debian's HDF5 can also read from the web. Its shared library brings curl, TLS and Kerberos along, 30 libraries, whose
+# loading takes a quarter of the processor time of a run of one step. So programs take their part of the static library
+# where there is one. What is loaded into others, such as the Python module, cannot: its code has fixed places.
+set(minamo_hdf5_parts "")
+find_library(minamo_hdf5_static NAMES libhdf5.a PATH_SUFFIXES hdf5/serial)
+foreach(part sz aec z)
+  find_library(minamo_${part}_static NAMES lib${part}.a)
+  list(APPEND minamo_hdf5_parts ${minamo_${part}_static})
+  mark_as_advanced(minamo_${part}_static)
+endforeach()
+mark_as_advanced(minamo_hdf5_static)
+if(minamo_hdf5_static AND NOT "${minamo_hdf5_parts}" MATCHES "NOTFOUND")
+  set(minamo_is_program $<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>)
+  set(minamo_hdf5_libraries "$<$<NOT:${minamo_is_program}>:${minamo_hdf5_library}>")
+  foreach(library ${minamo_hdf5_static} ${minamo_hdf5_parts} dl)
+    list(APPEND minamo_hdf5_libraries "$<${minamo_is_program}:${library}>")
+  endforeach()
+  set_property(TARGET minamo::hdf5 PROPERTY INTERFACE_LINK_LIBRARIES ${minamo_hdf5_libraries})
+endif()

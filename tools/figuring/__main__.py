@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from figuring.documents import DOCUMENTS, ROOT, write_pictures
-from figuring.fields import find_field
+from figuring.fields import find_field, usual_fields
 from figuring.layout import WIDTH, png
 from figuring.movies import check_ffmpeg, write_movie
 from figuring.plots import draw_history, draw_systems
@@ -79,9 +79,9 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--out", type=Path, metavar="DIR", help="default: `figures` in the first DIR")
     parser.add_argument("--times", type=numbers, metavar="T,T,...",
                         help="output times to show [s]; default: 6, between which the liquid moves equally far")
-    parser.add_argument("--field", type=words, default=["speed", "pressure"], metavar="NAME,NAME,...",
-                        help="a strip for each; the movie shows the first; default: speed,pressure; what is no finite "
-                             "number is magenta")
+    parser.add_argument("--field", type=words, metavar="NAME,NAME,...",
+                        help="a strip for each; the movie shows the first; default: speed,pressure, and fluid "
+                             "before them where there are several liquids; what is no finite number is magenta")
     parser.add_argument("--slice", type=slice_, metavar="AXIS=PLACE",
                         help="of a run in space: particles within half a cell of a plane [m], like z=0.1")
     parser.add_argument("--reference", type=Path, metavar="DIR",
@@ -133,7 +133,7 @@ def figures(options: argparse.Namespace) -> None:
         check_slice(run, options.slice)
     if not options.no_movie:
         check_ffmpeg()
-    fields = [find_field(runs, name) for name in options.field]
+    fields = [find_field(runs, name) for name in options.field or usual_fields(runs)]
     references = read_references(options.reference) if options.reference else []
     for run in runs if references else []:
         if run.dimension == 3:

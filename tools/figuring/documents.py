@@ -6,14 +6,14 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from figuring.fields import find_field
+from figuring.frontier import draw_frontier
 from figuring.layout import WIDTH, png
 from figuring.strips import Strip, draw_strip
-from figuring.studies import draw_studies
 from reporting.references import read_references
 from reporting.runs import NoResults, Run
 
@@ -41,14 +41,12 @@ class Pictures:
     about: str
     folder: Path
     figures: tuple[Figure, ...]
-    studies: dict[str, Path] = field(default_factory=dict)  # by title; none of them is run
+    studies: Path | None = None  # their tables, for frontier.png; none of them is run
 
 
 DOCUMENTS = {
     "readme": Pictures("the pictures of the README", ROOT / "scenes", (
-        Figure("dam_break", ("dam_break",), (0.2, 0.4, 0.6, 0.8), INTERFOAM),), {
-            "Disc stretched to an ellipse": ROOT / "scenes/studies/elliptical_drop.csv",
-            "Taylor-Green vortices": ROOT / "scenes/studies/taylor_green.csv"}),
+        Figure("dam_break", ("dam_break",), (0.2, 0.4, 0.6, 0.8), INTERFOAM),), ROOT / "scenes/studies"),
     "paper": Pictures("the figures of the paper that scenes/paper reproduces", ROOT / "scenes/paper", (
         Figure("dam_break", ("dam_break_pic", "dam_break_flip", "dam_break_tpic"), (0.3, 0.6, 5.0), INTERFOAM),
         Figure("rotating_square", ("rotating_square_flip", "rotating_square_tpic"), (1.0, 2.0, 4.0), corners=True))),
@@ -59,8 +57,8 @@ def write_pictures(pictures: Pictures, scenes: Path, results: Path, out: Path) -
     """Runs the scenes whose results are not there, and draws."""
     written = [_write_figure(figure, scenes, results, out) for figure in pictures.figures]
     if pictures.studies:
-        written.append(out / "error_against_time.png")
-        written[-1].write_bytes(png(draw_studies(pictures.studies, WIDTH)))
+        written.append(out / "frontier.png")
+        written[-1].write_bytes(png(draw_frontier(pictures.studies, WIDTH)))
     return written
 
 

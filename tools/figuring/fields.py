@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import colormaps
-from matplotlib.colors import Colormap
+from matplotlib.colors import Colormap, ListedColormap
 
+from figuring.plots import COLOURS
 from reporting.runs import NoResults, Run
 
 AXES = "xyz"
@@ -25,9 +26,12 @@ class Field:
     unit: str
     values: Callable[[dict[str, np.ndarray]], np.ndarray]  # from the columns of a frame
     colours: str = SEQUENTIAL
+    classes: tuple[str, ...] = ()  # what 0, 1, ... stand for, where a number is no size
 
     @property
     def colour_map(self) -> Colormap:
+        if self.classes:
+            return ListedColormap(COLOURS[:len(self.classes)])
         return colormaps[self.colours].with_extremes(bad=NOT_FINITE)
 
     @property
@@ -45,8 +49,10 @@ def fields_of(run: Run) -> dict[str, Field]:
         found.append(Field("vorticity", "1/s", _vorticity, SIGNED if dimension == 2 else SEQUENTIAL))
         pairs = [(i, j) for i in range(dimension) for j in range(dimension)]
         found += [_part("velocity_gradient", "1/s", k, AXES[i] + AXES[j]) for k, (i, j) in enumerate(pairs)]
+    if "fluid" in columns:
+        found.append(Field("fluid", "", lambda columns: columns["fluid"].astype(float), classes=run.fluids))
     for name, values in columns.items():
-        if name not in ("position", "velocity", "pressure", "velocity_gradient"):
+        if name not in ("fluid", "position", "velocity", "pressure", "velocity_gradient"):
             parts = range(values[0].size) if values.ndim > 1 else ()
             found += [_part(name, "", k, str(k)) for k in parts] or [_whole(name)]
     return {field.name: field for field in found}
@@ -66,6 +72,11 @@ def _vorticity(columns: dict[str, np.ndarray]) -> np.ndarray:
     gradient = columns["velocity_gradient"].reshape(-1, dimension, dimension)
     turning = gradient - gradient.transpose(0, 2, 1)
     return turning[:, 1, 0] if dimension == 2 else np.sqrt(0.5) * np.linalg.norm(turning, axis=(1, 2))
+
+
+def usual_fields(runs: list[Run]) -> list[str]:
+    """What is drawn if nothing is asked for: which liquid, where there are several, and what the flow is."""
+    return (["fluid"] if all(run.fluids for run in runs) else []) + ["speed", "pressure"]
 
 
 def find_field(runs: list[Run], name: str) -> Field:

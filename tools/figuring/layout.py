@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import MaxNLocator, NullLocator
 
 from figuring.fields import Field
 from figuring.views import View
@@ -68,9 +68,13 @@ def colour_bar(figure: Figure, shown: Field, norm: Normalize, extend: str) -> No
     x, y, width, height = figure.bar_place
     used = min(height, 3.0 / figure.get_figheight())
     axes = figure.add_axes([x, y + 0.5 * (height - used), width, used])
-    bar = figure.colorbar(ScalarMappable(norm, shown.colours), cax=axes, extend=extend, extendfrac=0.03)
-    bar.set_label(shown.label, fontsize=9)
-    bar.ax.yaxis.set_major_locator(MaxNLocator(6))
+    bar = figure.colorbar(ScalarMappable(norm, shown.colour_map), cax=axes, extend=extend, extendfrac=0.03)
+    if shown.classes:
+        bar.set_ticks(range(len(shown.classes)), labels=shown.classes)
+        bar.ax.yaxis.set_minor_locator(NullLocator())
+    else:
+        bar.set_label(shown.label, fontsize=9)
+        bar.ax.yaxis.set_major_locator(MaxNLocator(6))
     bar.ax.tick_params(labelsize=8, length=2.5, width=0.6)
     bar.outline.set_linewidth(0.5)
 

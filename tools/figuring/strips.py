@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.colors import Normalize
+from matplotlib.colors import BoundaryNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
@@ -101,6 +101,9 @@ def scale(shown: Field, frames: list[tuple[Run, int]], cut: Slice | None) -> tup
 
     From 0 on; of what has a sign the same on both sides of 0.
     """
+    if shown.classes:
+        count = len(shown.classes)
+        return BoundaryNorm(np.arange(count + 1) - 0.5, count), "neither"
     values = np.concatenate([_values(shown, run, run.columns(index), cut) for run, index in frames])
     values = values[np.isfinite(values)]
     if len(values) == 0:  # nothing near the slice, or nothing that is a number

@@ -21,6 +21,7 @@ def worst(of_run: Callable[[Run], float]) -> Callable[[Runs], float]:
 
 def non_finite(run: Run) -> float:
     unknown_at_start = [f"{body['name']}_{what}" for body in run.scene.get("bodies", []) for what in ("force", "torque")]
+    unknown_at_start += [f"{opening['name']}_rate" for opening in run.scene.get("openings", [])]
     columns = [values[1:] if name.removesuffix("_" + name[-1]) in unknown_at_start or name in unknown_at_start else values
                for name, values in run.history.items() if name != "potential_energy"]
     fields = [values for frame in run.frames for values in (frame.position, frame.velocity, frame.pressure)]

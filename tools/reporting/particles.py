@@ -23,6 +23,7 @@ class Quantity:
     name: str
     unit: str
     signed: bool = False  # zero is the middle of its colours
+    classes: tuple[str, ...] = ()  # what 0, 1, ... stand for, where a number is no size
     low: float = np.inf  # over all particles and frames
     high: float = -np.inf
     shown: list[np.ndarray] = field(default_factory=list)  # by frame, of the particles in the page
@@ -42,6 +43,8 @@ class Quantity:
         low, high = self._coded_range(*usual)
         described = {"name": self.name, "unit": self.unit, "signed": self.signed, "low": low, "high": high,
                      "bits": bits, "usual": usual, "least": _finite(self.low), "most": _finite(self.high)}
+        if self.classes:
+            described["classes"] = list(self.classes)
         return described, pack_frames(values, low, high, bits, 1)
 
     def _coded_range(self, low: float, high: float) -> tuple[float, float]:
@@ -66,7 +69,7 @@ def quantities(columns: dict[str, np.ndarray], dimension: int) -> dict[str, tupl
             found |= {f"{words} {AXES[d]}": (values[:, d], unit, True) for d in range(dimension)}
         elif name == "velocity_gradient":
             found |= _of_gradient(values.reshape(-1, dimension, dimension), unit)
-    first = [name for name in ("speed", "pressure") if name in found]
+    first = [name for name in ("fluid", "speed", "pressure") if name in found]
     return {name: found[name] for name in first + [name for name in found if name not in first]}
 
 
@@ -104,7 +107,8 @@ class Particles:
                                 f"{count}, as in frame 0")
             position.append(columns["position"][chosen])
             for name, (values, unit, signed) in quantities(columns, run.dimension).items():
-                found.setdefault(name, Quantity(name, unit, signed)).add(values, chosen)
+                classes = run.fluids if name == "fluid" else ()
+                found.setdefault(name, Quantity(name, unit, signed, classes)).add(values, chosen)
         return cls(count, chosen, np.array(position), list(found.values()))
 
     @property

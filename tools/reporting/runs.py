@@ -132,6 +132,11 @@ class Run:
         return self.scene.get("title") or self.name
 
     @property
+    def fluids(self) -> tuple[str, ...]:
+        """Names of the liquids, as the column fluid of fields.h5 counts them; none where there is one without a name."""
+        return tuple(self.scene.get("fluids", {}))
+
+    @property
     def scheme(self) -> str:
         """Transfer scheme, as it is written in papers."""
         return self.scene.get("transfer", {}).get("scheme", "tpic2").upper()

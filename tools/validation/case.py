@@ -25,7 +25,7 @@ class Points:
 
 @dataclass(frozen=True)
 class Curve:
-    """One measured quantity. Ours is `scale * (quantity + offset)` against `time_scale * t`."""
+    """One measured quantity. Ours is `scale * (quantity + offset)` against `time_scale * (t - begin)`, from begin on."""
 
     name: str
     label: str
@@ -36,6 +36,7 @@ class Curve:
     offset: float = 0
     time_column: str = "t"
     time_scale: float = 1
+    begin: float = 0  # our time when the clock of the experiment begins [s]
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ class Case:
     figures: tuple[Figure, ...]
     # What a picture calls a resolution, and what it sets in the scene.
     resolutions: tuple[tuple[str, dict[str, Any]], ...]
+    scene: str = ""  # whose file it is; that of its own name unless given
 
 
 @dataclass

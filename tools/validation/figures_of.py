@@ -68,6 +68,12 @@ def peak(low: float, high: float) -> Of:
                                          / float(np.max(measured.between(low, high).y)) - 1)
 
 
+def swing(low: float, high: float) -> Of:
+    """Largest less smallest value over that of the measured curve, less 1. [%]"""
+    return lambda ours, measured: 100 * (float(np.ptp(ours.between(low, high).y))
+                                         / float(np.ptp(measured.between(low, high).y)) - 1)
+
+
 def crests(low: float, high: float, least: float) -> Of:
     """Mean height of the crests above `least` over that of the measured curve, less 1. [%]"""
 

@@ -18,7 +18,8 @@ SCENES = ROOT / "scenes/validation"
 
 def scene_file(case: Case) -> str:
     """Relative to the page."""
-    return f"{case.name}.json" if (SCENES / f"{case.name}.json").exists() else f"../{case.name}.json"
+    name = case.scene or case.name
+    return f"{name}.json" if (SCENES / f"{name}.json").exists() else f"../{name}.json"
 
 
 def scene_of(case: Case, changes: dict[str, Any]) -> dict[str, Any]:
@@ -72,9 +73,8 @@ def run(case: Case, resolution: str, changes: dict[str, Any], threads: int) -> R
     cpu_s = time.process_time() - before
     curves = {}
     for curve in case.curves:
-        t = times if callable(curve.ours) else sim.history["time"]
-        value = values[curve.name] if callable(curve.ours) else sim.history[curve.ours]
-        known = np.isfinite(value)  # at the start a body has no force
-        curves[curve.name] = smoothed(Points(curve.time_scale * np.asarray(t)[known],
-                                             curve.scale * (np.asarray(value)[known] + curve.offset)))
+        t = np.asarray(times if callable(curve.ours) else sim.history["time"]) - curve.begin
+        value = np.asarray(values[curve.name] if callable(curve.ours) else sim.history[curve.ours])
+        known = np.isfinite(value) & (t >= 0)  # at the start a body has no force
+        curves[curve.name] = smoothed(Points(curve.time_scale * t[known], curve.scale * (value[known] + curve.offset)))
     return Result(resolution, curves, particles, sim.steps, cpu_s)

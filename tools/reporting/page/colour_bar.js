@@ -46,22 +46,28 @@ class ColourBar {
   async chooseField(name) {
     await this.app.loadField(name);
     this.app.field = this.fieldChoice.value = name;
-    this.chooseMap(this.field.signed ? "blue-red" : name === "pressure" ? "cividis" : "viridis");
+    // Names have no range.
+    for (const control of [...this.ends, ...this.element.querySelectorAll("button")])
+      control.hidden = Boolean(this.field.classes);
+    this.chooseMap(this.field.classes ? "distinct" : this.field.signed ? "blue-red" : name === "pressure" ? "cividis" : "viridis");
     this.setRange(this.usualRange());
   }
 
   chooseMap(name) {
     this.mapChoice.value = name;
-    this.app.painter.setColours(colourTable(name));
-    this.element.querySelector(".bar").style.background = gradientOf(name);
+    const classes = this.field.classes?.length;
+    this.app.painter.setColours(colourTable(name, classes));
+    this.element.querySelector(".bar").style.background = classes ? stepsOf(name, classes) : gradientOf(name);
     this.app.recoloured();
   }
 
   usualRange() {
+    if (this.field.classes) return [-0.5, this.field.classes.length - 0.5];
     return roundRange(...this.field.usual, this.field.signed);
   }
 
   fullRange() {
+    if (this.field.classes) return this.usualRange();
     return this.field.most > this.field.least ? [this.field.least, this.field.most] : this.usualRange();
   }
 
@@ -76,12 +82,12 @@ class ColourBar {
   }
 
   showTicks(low, high) {
-    const { name, unit, least, most, step } = this.field;
+    const { name, unit, least, most, step, classes } = this.field;
     this.element.querySelector(".title").textContent = `${name}${unit ? ` [${unit}]` : ""}`;
-    const marks = ticks(low, high, 6).map((value) => {
+    const marks = (classes ? classes.map((_, k) => k) : ticks(low, high, 6)).map((value) => {
       const mark = document.createElement("span");
       mark.style.left = `${(100 * (value - low)) / (high - low)}%`;
-      mark.textContent = shown(value);
+      mark.textContent = classes ? classes[value] : shown(value);
       return mark;
     });
     this.element.querySelector(".ticks").replaceChildren(...marks);
@@ -89,7 +95,7 @@ class ColourBar {
     this.element.classList.toggle("beyond-low", least < low - margin);
     this.element.classList.toggle("beyond-high", most > high + margin);
     const [mostText, stepText] = [shown(most), shown(step, 2)].map((text) => withUnit(text, unit));
-    this.element.querySelector(".true-range span").textContent =
+    this.element.querySelector(".true-range span").textContent = classes ? "" :
       `all particles and times: ${shown(least)} … ${mostText} · stored to ${stepText}`;
   }
 }

@@ -1,7 +1,8 @@
 // Colours of numbers, round numbers for scales, numbers as text.
 "use strict";
 
-/** 17 colours from low to high, from matplotlib: perceptually uniform ones, then those with a middle. */
+/** 17 colours from low to high, from matplotlib: perceptually uniform ones, then those with a middle; colours that
+ *  stand for names. */
 const colourMaps = {
   viridis:
     `440154 48186a 472d7b 424086 3b528b 33638d 2c728e 26828e 21918c
@@ -21,14 +22,15 @@ const colourMaps = {
   "purple-orange":
     `2d004b 451871 5f3a91 7b6aa8 9990bf b7b1d5 cfcfe5 e4e5f0 f7f7f6
     fce8cd fed59f fdbc6b ee9b39 d97b12 bd6109 9e4c07 7f3b08`,
+  distinct: `0072b2 d55e00 009e73 cc79a7 e69f00 56b4e9`,
 };
 
-/** 256 colours, red, green, blue and alpha of each. */
-function colourTable(name) {
+/** 256 colours, red, green, blue and alpha of each; of `classes` alike parts, if there are classes. */
+function colourTable(name, classes) {
   const stops = colourMaps[name].split(/\s+/).map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));
   const table = new Uint8Array(4 * 256);
   for (let k = 0; k < 256; ++k) {
-    const at = (k / 255) * (stops.length - 1);
+    const at = classes ? Math.floor((k / 256) * classes) % stops.length : (k / 255) * (stops.length - 1);
     const below = Math.min(Math.floor(at), stops.length - 2);
     for (let c = 0; c < 3; ++c)
       table[4 * k + c] = stops[below][c] + (at - below) * (stops[below + 1][c] - stops[below][c]);
@@ -36,6 +38,13 @@ function colourTable(name) {
   }
   return table;
 }
+
+/** The colours of so many classes, with sharp edges. */
+const stepsOf = (name, classes) =>
+  `linear-gradient(to right, ${Array.from({ length: classes }, (_, k) => {
+    const stops = colourMaps[name].split(/\s+/);
+    return `#${stops[k % stops.length]} ${(100 * k) / classes}% ${(100 * (k + 1)) / classes}%`;
+  }).join(", ")})`;
 
 const gradientOf = (name) =>
   `linear-gradient(to right, ${colourMaps[name]

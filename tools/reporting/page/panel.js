@@ -137,7 +137,8 @@ class Panel {
     const lines = [`particle ${this.particles.id(found)}`, `at (${place}) m`];
     for (const field of this.particles.fields.values()) {
       const value = this.particles.value(field.name, frame, found);
-      if (value !== undefined) lines.push(`${field.name} ${withUnit(shown(value), field.unit)}`);
+      const text = field.classes?.[Math.round(value)] ?? withUnit(shown(value), field.unit);
+      if (value !== undefined) lines.push(`${field.name} ${text}`);
     }
     this.tip.textContent = lines.join("\n");
     this.tip.style.left = `${Math.min(at[0] + 14, this.width - this.tip.offsetWidth - 4)}px`;

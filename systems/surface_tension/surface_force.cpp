@@ -1,0 +1,140 @@
+#include "engine/parallel.hpp"
+#include "systems/bodies/cut.hpp"
+#include "systems/conforming/incidence.hpp"
+#include "systems/surface_tension/piece_sums.hpp"
+#include "systems/surface_tension/surface_points.hpp"
+#include "systems/surface_tension/tension.hpp"
+
+#include <functional>
+
+namespace minamo {
+
+namespace {
+
+/// Directions in which the face of a row takes forces: beside a multiplier that is an unknown, for others nothing holds
+/// against it, and where walls hold, from which the walls take it.
+template <int Dim>
+std::uint8_t takers_of(const Incidence<Dim>& incidence, std::size_t i, unsigned held,
+                       std::span<const std::int32_t> row) {
+  unsigned takes = held;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    incidence.for_each_multiplier(i, d, [&](std::size_t l, double) {
+      if (row[l] != staggered::none) takes |= 1U << d;
+    });
+  }
+  return static_cast<std::uint8_t>(takes);
+}
+
+/// Hands a force at a point on to the faces around it, those of its cell.
+template <int Dim, int K>
+void add_to_faces(const PointSites<Dim, K>& sites, const SplineWeights<Dim, K>& weights,
+                  std::span<const std::uint8_t> takes, const Vec<Dim>& force, std::span<Vec<Dim>> F_k) {
+  for_each_direction<Dim>([&](auto direction) {
+    constexpr int D = direction();
+    double taken = 0;
+    std::array<bool, cell_sites<Dim, K>> is_taker{};
+    for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
+      const std::int32_t i = sites.row(k);
+      is_taker[k] = i != staggered::none && (takes[static_cast<std::size_t>(i)] & (1U << D)) != 0;
+      if (is_taker[k]) taken += weights.template face<D>(offset);
+    });
+    constexpr double least = 0.05;  // a point far out: the faces there have next to no mass
+    if (taken < least) return;
+    for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
+      if (is_taker[k]) F_k[k][D] += force[D] * weights.template face<D>(offset) / taken;
+    });
+  });
+}
+
+/// E^T F: what acts on closed faces acts on the open ones that their velocities are made of.
+template <int Dim>
+void move_to_open_faces(const FaceExtension<Dim>& extension, std::span<Vec<Dim>> F_f) {
+  for (const auto& at : extension.targets) {
+    if (at.own) continue;
+    double& pull = F_f[at.row][at.direction];
+    for (std::size_t j = at.begin; j < at.begin + at.count; ++j)
+      F_f[extension.source[j]][at.direction] += extension.weight[j] * pull;
+    pull = 0;
+  }
+}
+
+template <int Dim>
+double energy_of(const SurfaceTension& tension, const FreeSurface<Dim>& surface) {
+  return tension.coefficient * (surface.areas.free - surface.areas.gained);
+}
+
+void set_energy(double joule, measure::Energy& energy, measure::Columns& columns) {
+  energy.surface = joule;
+  columns.set("surface_energy", joule);
+}
+
+}  // namespace
+
+template <int Dim>
+void AddSurfaceTension<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                        Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                        Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+                                        Read<multiplier::Row> row, Read<FreeSurface<Dim>> surface,
+                                        Read<surface::Traction<Dim>> t_i, Read<face::Mobility<Dim>> mobility,
+                                        Optional<Read<face::Open<Dim>>> open,
+                                        Optional<Read<FaceExtension<Dim>>> extension, Update<PieceSums<Dim>> sums,
+                                        Write<face::TakesSurfaceForce> takes, Write<face::SurfaceForce<Dim>> F_f,
+                                        Update<face::Predictor<Dim>> predictor) const {
+  for_each_row(F_f.size(), [&](std::size_t i) { F_f[i].setZero(); });
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  for_each_row(takes.size(), [&](std::size_t i) { takes[i] = takers_of<Dim>(incidence, i, held[i], row.span()); });
+  sums->forces.resize(surface->pieces.size());
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_row(
+        surface->pieces.size(),
+        [&](std::size_t piece) {
+          PointSites<Dim, K> sites(*grid, *splines, *rows);
+          SumsOfCells<Dim, K, Vec<Dim>> of_cells(sums->forces[piece]);
+          for_each_point_of_piece<Dim>(surface->pieces[piece], [&](const Vec<Dim>& x, double area) {
+            const auto weights = sites.weights_at(x);
+            Vec<Dim> traction = Vec<Dim>::Zero();
+            for_each_quadratic<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+              if (sites.row(k) == staggered::none) return;
+              traction += quadratic_weight<Dim, K>(weights, offset) * t_i[static_cast<std::size_t>(sites.row(k))];
+            });
+            const auto F_k = of_cells.around(sites, Vec<Dim>::Zero());
+            add_to_faces<Dim, K>(sites, weights, takes.span(), Vec<Dim>(area * traction), F_k);
+          });
+        },
+        1);
+  });
+  add_pieces(sums->forces, F_f.span());
+  if (extension) move_to_open_faces<Dim>(*extension, F_f.span());
+  const double tau = rates->velocity / rates->acceleration;
+  for_each_row(F_f.size(), [&](std::size_t i) {
+    Vec<Dim> change = tau * mobility[i].cwiseProduct(F_f[i]);
+    if (open) change = change.cwiseQuotient(open[i].cwiseMax(sliver));  // mobility is a_f/m_f there
+    predictor[i] += change;
+  });
+}
+
+template <int Dim>
+void MeasureSurfaceEnergy<Dim>::operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface,
+                                           Read<face::SurfaceForce<Dim>> F_f, Read<face::Displacement<Dim>> u_f,
+                                           Update<measure::Energy> energy, Update<measure::Columns> columns) const {
+  const double work = reduce_rows(
+      F_f.size(), 0.0, [&](std::size_t i) { return F_f[i].dot(u_f[i]); }, std::plus<>());
+  set_energy(energy_of<Dim>(*tension, *surface) - 0.5 * work, *energy, *columns);
+}
+
+template <int Dim>
+void MeasureSurfaceEnergyAtStart<Dim>::operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface,
+                                                  Update<measure::Energy> energy,
+                                                  Update<measure::Columns> columns) const {
+  set_energy(energy_of<Dim>(*tension, *surface), *energy, *columns);
+}
+
+template struct AddSurfaceTension<2>;
+template struct AddSurfaceTension<3>;
+template struct MeasureSurfaceEnergy<2>;
+template struct MeasureSurfaceEnergy<3>;
+template struct MeasureSurfaceEnergyAtStart<2>;
+template struct MeasureSurfaceEnergyAtStart<3>;
+
+}  // namespace minamo
