@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""How far the water of a dam break is from that of OpenFOAM's interFoam.
+"""How far the water of a dam break is from that of OpenFOAM's interFoam, or of another run.
 
   tools/compare_interfoam.py out/dam_break out/dam_break_pic
+  tools/compare_interfoam.py --from out/dam_break out/tilted_dam_break
   tools/compare_interfoam.py --mean 0.6 out/dam_break
 
 Prints the area that is water in one of the two and not in the other, over the area of the column at the start. Water is
@@ -9,18 +10,22 @@ where the volume fraction exceeds 1/2, on a raster of 0.5 mm. That of interFoam 
 the middles of cells. That of a run is sum_p V_p N((x - x_p)/h) N((y - y_p)/h) / h^2, N the quadratic B-spline,
 mirrored at the walls, h = 14.6 mm whatever the grid of the run, so that runs can be compared.
 With --mean the mean over all times of the reference up to that one, a single number, as studies want it.
-For scenes with the tank and the column of scenes/dam_break.json.
+For scenes with the tank and the column of scenes/dam_break.json; the tank may be a body, turned by an angle, that the
+grid is cut by.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 sys.dont_write_bytecode = True
 
 try:
+    import h5py
     import numpy as np
 
     from reporting.runs import NoResults, Run
@@ -49,12 +54,24 @@ def spread(place: np.ndarray) -> np.ndarray:
     return sum(b_spline((CENTRES - image[:, None]) / WIDTH) for image in images)
 
 
-def water_of_particles(position: np.ndarray) -> np.ndarray:
-    """Pixels [y, x] that are water. The particles share the area of the column equally."""
+def water_of_particles(position: np.ndarray, share: np.ndarray) -> np.ndarray:
+    """Pixels [y, x] that are water, from the places of particles and their shares of the area of the column."""
     fraction = np.zeros((len(CENTRES), len(CENTRES)))
-    for part in np.array_split(position, -(-len(position) // 1000)):
-        fraction += spread(part[:, 1]).T @ spread(part[:, 0])
-    return fraction * COLUMN / len(position) / WIDTH**2 > 0.5
+    for part in np.array_split(np.arange(len(position)), -(-len(position) // 1000)):
+        x, y = position[part].T
+        fraction += (spread(y) * share[part, None]).T @ spread(x)
+    return fraction * COLUMN / WIDTH**2 > 0.5
+
+
+def shares(run: Run, count: int) -> np.ndarray:
+    """Of particles of the water, in the order of their ids. All the same where no checkpoint has their masses."""
+    path = run.folder / "checkpoint.h5"
+    if not path.is_file():
+        return np.full(count, 1 / count)
+    with h5py.File(path, "r") as file:
+        order = np.argsort(np.frombuffer(file["state/particle.id"][:].tobytes(), dtype=np.int64))
+        mass = file["state/particle.mass"][:][order]
+    return mass / mass.sum()
 
 
 def water_of_cells(fraction: np.ndarray) -> np.ndarray:
@@ -76,11 +93,43 @@ def reference() -> dict[float, np.ndarray]:
         return {round(float(time), 6): water_of_cells(alpha / 255.0) for time, alpha in frames}
 
 
-def distances(run: Run, water: dict[float, np.ndarray]) -> dict[float, float]:
-    """Area of the symmetric difference over that of the column, at the times that the run has written."""
-    frames = {time: run.frame_at(time, TOLERANCE) for time in water}
-    return {time: float(np.count_nonzero(water_of_particles(frame.position) != water[time])) * PIXEL**2 / COLUMN
+@dataclass(frozen=True)
+class Tank:
+    """Where the tank of a run is."""
+
+    middle: np.ndarray  # [m]
+    angle: float  # by which it is turned, counter-clockwise [rad]
+
+    def inside(self, position: np.ndarray) -> np.ndarray:
+        """Places seen from the lower left corner of the tank, along its walls: particles x 2."""
+        cosine, sine = np.cos(self.angle), np.sin(self.angle)
+        return (position - self.middle) @ np.array([[cosine, -sine], [sine, cosine]]) + 0.5 * TANK
+
+
+def tank_of(run: Run) -> Tank:
+    """The sides of the grid, or a body that is all but a box."""
+    low, high = run.box
+    boxes = [body["shape"].get("invert", {}).get("box") for body in run.scene.get("bodies", [])]
+    low, high, angle = next(((np.array(box["low"]), np.array(box["high"]), np.radians(box.get("angle", 0)))
+                             for box in boxes if box), (low, high, 0.0))
+    if run.dimension != 2 or not np.allclose(high - low, TANK):
+        raise NoResults(f"{run.folder}: not the tank of the reference; expected: a grid, or the inverted box of a body, "
+                        f"of {TANK} m x {TANK} m, got: from {low} to {high}")
+    return Tank(0.5 * (low + high), angle)
+
+
+def water_of_run(run: Run, times: Iterable[float]) -> dict[float, np.ndarray]:
+    """Water of a run by time [s], at those of the times that it has written."""
+    tank = tank_of(run)
+    frames = {time: run.frame_at(time, TOLERANCE) for time in times}
+    return {time: water_of_particles(tank.inside(frame.position), shares(run, len(frame.position)))
             for time, frame in frames.items() if frame}
+
+
+def distances(run: Run, reference_water: dict[float, np.ndarray]) -> dict[float, float]:
+    """Area of the symmetric difference over that of the column, at the times that the run has written."""
+    return {time: float(np.count_nonzero(water != reference_water[time])) * PIXEL**2 / COLUMN
+            for time, water in water_of_run(run, reference_water).items()}
 
 
 def mean_distance(run: Run, water: dict[float, np.ndarray]) -> float:
@@ -92,23 +141,17 @@ def mean_distance(run: Run, water: dict[float, np.ndarray]) -> float:
     return sum(found.values()) / len(found)
 
 
-def require_tank(run: Run) -> None:
-    low, high = run.box
-    if run.dimension != 2 or not np.allclose([*low, *high], [0, 0, TANK, TANK]):
-        raise NoResults(f"{run.folder}: not the tank of the reference; expected: a grid from (0, 0) to "
-                        f"({TANK}, {TANK}) m, got: from {low} to {high}")
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(prog="tools/compare_interfoam.py", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", metavar="DIR", help="what `minamo run --out DIR` wrote")
     parser.add_argument("--mean", type=float, metavar="UNTIL", help="print the mean up to this time [s], a line per DIR")
+    parser.add_argument("--from", dest="other", metavar="DIR", help="another run, to compare with in place of interFoam")
     options = parser.parse_args()
     runs = [Run(folder) for folder in options.folders]
-    for run in runs:
-        require_tank(run)
     water = reference()
+    if options.other:
+        water = water_of_run(Run(options.other), water)
     if options.mean is not None:
         for run in runs:
             print(mean_distance(run, {time: w for time, w in water.items() if time < options.mean + TOLERANCE}))

@@ -22,11 +22,13 @@
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/scene_checks.hpp"
+#include "systems/setup/seed_text.hpp"
 #include "systems/shapes/read_shape.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace minamo {
@@ -163,6 +165,25 @@ void check_solver(bool any_is_free, bool any_moves, const Scene& scene, SeedProb
     problems.note("/solver/scheme", "not with bodies", R"("block")", R"("umfpack")");
 }
 
+/// An expression may have no value somewhere, which no comparison of distances would tell.
+template <int Dim>
+void check_distances(const BodySet<Dim>& set, const Grid<Dim>& grid, SeedProblems& problems) {
+  Index<Dim> nodes = grid.cells;
+  for (int& along : nodes) ++along;
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    const Shape<Dim>& shape = *set.bodies[b].shape;
+    if (shape.is_bounded_by_distance()) continue;
+    for (std::size_t i = 0; i < rows_in<Dim>(nodes); ++i) {
+      const Vec<Dim> x = grid.position(index_in<Dim>(nodes, i));
+      const double distance = shape.distance(x);
+      if (std::isfinite(distance)) continue;
+      problems.note(fmt::format("/bodies/{}/shape", b), "not finite", "a finite distance everywhere in the grid [m]",
+                    fmt::format("{} at {}", distance, place_text<Dim>(x)));
+      break;
+    }
+  }
+}
+
 template <int Dim>
 void seed_bodies(BodySet<Dim> set, World& world) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
@@ -211,6 +232,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
     for (auto& body : set.bodies) body.wall = wall_on_grid(body.wall, friction_of(scene), scene.grid.spacing);
     recipe.seed([set](const Scene& of, World& world, SeedProblems& problems) {
       check_solver(set.any_is_free(), set.any_moves(), of, problems);
+      check_distances<Dim>(set, world.resource<Grid<Dim>>(), problems);
       seed_bodies<Dim>(set, world);
     });
   });

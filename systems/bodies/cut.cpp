@@ -41,30 +41,66 @@ std::vector<AxisSample> samples_of(const SplineAxis& axis, int degree, int j, in
   return samples;
 }
 
+/// Where a cell lies, as far as the distance at its middle tells: one question in place of one for every sample.
+enum class CellSide : std::uint8_t { open, closed, cut };
+
+template <int Dim, class Distance>
+CellSide side_of_cell(const Vec<Dim>& middle, double half_diagonal, const Distance& distance) {
+  const double at_middle = distance(middle);
+  if (std::abs(at_middle) < 1.01 * half_diagonal) return CellSide::cut;
+  return at_middle > 0 ? CellSide::open : CellSide::closed;
+}
+
 /// (E85)  Integral of N_l over the open volume, over that of N_l.
 template <int Dim, class Distance>
-double volume_share(const SitePlaces<Dim>& places, const Index<Dim>& site, const Distance& distance) {
+double volume_share(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded, const Distance& distance) {
   const Splines<Dim>& splines = places.splines();
   const Grid<Dim>& grid = places.grid();
-  constexpr int per_cell = volume_samples<Dim>;
+  constexpr std::size_t per_cell = volume_samples<Dim>;
   std::array<std::vector<AxisSample>, static_cast<std::size_t>(Dim)> samples;
+  Index<Dim> cells;
   for (std::size_t d = 0; d < Dim; ++d) {
     samples[d] = samples_of(splines.axis[d], splines.degree, site[d], per_cell, grid.low[static_cast<Eigen::Index>(d)],
                             grid.spacing);
+    cells[d] = static_cast<int>(samples[d].size() / per_cell);
   }
-  const double size = grid.spacing / per_cell;
+  constexpr std::size_t most_cells = power(largest_degree, Dim);
+  std::array<CellSide, most_cells> side;
+  side.fill(CellSide::cut);
+  for (std::size_t c = 0; bounded && c < rows_in<Dim>(cells); ++c) {
+    const Index<Dim> at = index_in<Dim>(cells, c);
+    Vec<Dim> x;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const std::size_t first = static_cast<std::size_t>(at[d]) * per_cell;
+      x[static_cast<Eigen::Index>(d)] = 0.5 * (samples[d][first].place + samples[d][first + per_cell - 1].place);
+    }
+    side[c] = side_of_cell<Dim>(x, 0.5 * grid.spacing * std::sqrt(static_cast<double>(Dim)), distance);
+  }
+  const double size = grid.spacing / static_cast<double>(per_cell);
   double open = 0;
   double all = 0;
-  const auto add = [&](const Vec<Dim>& x, double weight) {
+  const auto add = [&](const Vec<Dim>& x, double weight, const Index<Dim>& cell) {
     all += weight;
-    open += weight * std::clamp(0.5 + distance(x) / size, 0.0, 1.0);
+    const CellSide of_cell = side[row_in<Dim>(cells, cell)];
+    if (of_cell == CellSide::cut) {
+      open += weight * std::clamp(0.5 + distance(x) / size, 0.0, 1.0);
+    } else if (of_cell == CellSide::open) {
+      open += weight;
+    }
   };
-  for (const AxisSample& a : samples[0]) {
-    for (const AxisSample& b : samples[1]) {
+  const auto cell_of_sample = [](std::size_t k) { return static_cast<int>(k / per_cell); };
+  for (std::size_t i = 0; i < samples[0].size(); ++i) {
+    const AxisSample& a = samples[0][i];
+    for (std::size_t j = 0; j < samples[1].size(); ++j) {
+      const AxisSample& b = samples[1][j];
       if constexpr (Dim == 2) {
-        add({a.place, b.place}, a.weight * b.weight);
+        add({a.place, b.place}, a.weight * b.weight, {cell_of_sample(i), cell_of_sample(j)});
       } else {
-        for (const AxisSample& c : samples[2]) add({a.place, b.place, c.place}, a.weight * b.weight * c.weight);
+        for (std::size_t k = 0; k < samples[2].size(); ++k) {
+          const AxisSample& c = samples[2][k];
+          add({a.place, b.place, c.place}, a.weight * b.weight * c.weight,
+              {cell_of_sample(i), cell_of_sample(j), cell_of_sample(k)});
+        }
       }
     }
   }
@@ -183,6 +219,7 @@ SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, boo
   const Bounds<Dim> box = places.box(site);
   SiteCut<Dim> cut;
   const bool has_multiplier = places.splines().has_multiplier(site);
+  const double half_diagonal = 0.5 * places.grid().spacing * std::sqrt(static_cast<double>(Dim));  // of a cell
   if (bounded) {
     const double at_middle = distance(middle<Dim>(box));
     if (std::abs(at_middle) > places.reach()) {
@@ -193,12 +230,18 @@ SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, boo
   for (std::size_t d = 0; d < Dim; ++d) {
     if (!places.splines().has_face(site, d)) continue;
     const auto axis = static_cast<Eigen::Index>(d);
+    // What is farther away than a cell reaches neither cuts the face nor parts its multipliers.
+    const CellSide side = bounded ? side_of_cell<Dim>(places.face(site, d), half_diagonal, distance) : CellSide::cut;
+    if (side != CellSide::cut) {
+      cut.open[axis] = side == CellSide::open ? 1 : 0;
+      continue;
+    }
     Vec<Dim> high = box.high;
     high[axis] = box.low[axis];
     const double open = open_share<Dim>(box.low, high, static_cast<int>(d), distance);
     cut.open[axis] = open < least_open || is_parted<Dim>(places, site, d, distance) ? 0 : open;
   }
-  if (has_multiplier) cut.share = volume_share<Dim>(places, site, distance);
+  if (has_multiplier) cut.share = volume_share<Dim>(places, site, bounded, distance);
   return cut;
 }
 
@@ -216,11 +259,11 @@ StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
   for_each_row(sites, [&](std::size_t i) {
     cut.of[i] = cut_site<Dim>(places, index_in<Dim>(cut.sites, i), bodies.bounded(), at_rest);
   });
-  cut.near.resize(cells);
+  cut.clearance.resize(cells);
   const double half_diagonal = 0.5 * grid.spacing * std::sqrt(static_cast<double>(Dim));
   for_each_row(cells, [&](std::size_t c) {
     const Vec<Dim> x = middle_of_cell<Dim>(grid, index_in<Dim>(grid.cells, c));
-    cut.near[c] = bodies.bounded() && at_rest(x) > 1.1 * half_diagonal ? 0 : 1;
+    cut.clearance[c] = bodies.bounded() ? std::max(0.0, at_rest(x) - 1.1 * half_diagonal) : 0;
   });
   return cut;
 }
@@ -292,7 +335,7 @@ void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
     share[i] = cut.share;
     capacity[i] *= cut.share;
   });
-  close_gaps<Dim>([&](std::size_t i) { return by_rest(site[i]); }, neighbour.span(), open.span());
+  if (set->any_moves()) close_gaps<Dim>([&](std::size_t i) { return by_rest(site[i]); }, neighbour.span(), open.span());
   for_each_row(site.size(), [&](std::size_t i) {
     flux[i].setZero();
     old_flux[i].setZero();

@@ -102,12 +102,17 @@ SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, boo
 /// The cut of all sites of the grid by the bodies at rest.
 template <int Dim>
 struct StaticCut {
-  Index<Dim> sites{};              ///< per direction
-  std::vector<SiteCut<Dim>> of;    ///< of all sites, x fastest; empty without bodies at rest
-  std::vector<std::uint8_t> near;  ///< cells of the grid, x fastest, whose points may lie in a body
+  Index<Dim> sites{};             ///< per direction
+  std::vector<SiteCut<Dim>> of;   ///< of all sites, x fastest; empty without bodies at rest
+  std::vector<double> clearance;  ///< within this of any point of a cell of the grid, x fastest, is no body [m]
   static constexpr ComponentInfo info{"bodies.static_cut", "a_f", "1", Lifetime::constant};
 
   const SiteCut<Dim>& at(const Index<Dim>& site) const { return of[row_in<Dim>(sites, site)]; }
+  double clearance_of(const Grid<Dim>& grid, const Index<Dim>& cell) const {
+    return of.empty() ? std::numeric_limits<double>::infinity() : clearance[row_in<Dim>(grid.cells, cell)];
+  }
+  /// Whether a point of a cell may lie in a body at rest.
+  bool is_near(const Grid<Dim>& grid, const Index<Dim>& cell) const { return clearance_of(grid, cell) == 0; }
 };
 
 template <int Dim>

@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+
 namespace minamo {
 
 namespace {
@@ -89,20 +91,23 @@ Vec<Dim> nearest_of_surface(const Shape<Dim>& shape, const Placement<Dim>& place
   return x;
 }
 
-/// What of the cells that a face covers its particles fill, by row and direction; some of it at least. [1]
+/// What of the cells that a face covers its particles fill, by row and direction, of wanted rows; some of it at least.
+/// [1]
 template <int Dim>
 std::vector<Vec<Dim>> filled_around_faces(const Grid<Dim>& grid, const Splines<Dim>& splines,
                                           const OccupiedCells<Dim>& cells, const CellSites& sites,
-                                          std::span<const double> V_p, std::size_t rows) {
-  std::vector<Vec<Dim>> filled(rows, Vec<Dim>::Constant(some));
+                                          std::span<const double> V_p, std::span<const std::uint8_t> is_wanted) {
+  std::vector<Vec<Dim>> filled(is_wanted.size(), Vec<Dim>::Constant(some));
   with_degree(splines.degree, [&](auto degree) {
     constexpr int K = degree();
     const double per_volume = std::pow(grid.spacing, -Dim) * Dim / static_cast<double>(cell_faces<Dim, K>);
     for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto& cell) {
+      const std::uint32_t* rows = sites.of(c);
+      if (std::none_of(rows, rows + power(K + 1, Dim), [&](std::uint32_t row) { return is_wanted[row] != 0; })) return;
       double volume = 0;
       for (std::size_t p = cell.begin; p < cell.end; ++p) volume += V_p[p];
       for_each_cell_face<Dim, K>(
-          [&](std::size_t, std::size_t k, Eigen::Index d) { filled[sites.of(c)[k]][d] += per_volume * volume; });
+          [&](std::size_t, std::size_t k, Eigen::Index d) { filled[rows[k]][d] += per_volume * volume; });
     });
   });
   return filled;
@@ -169,11 +174,6 @@ void FindFaceExtension<Dim>::operator()(
   const SitePlaces<Dim> places(*grid, *splines);
   const Sticks<Dim> sticks{*set, {*set, c_b.span(), R_b.span()}};
   const bool any_sticks = set->any_sticks();
-  std::vector<Vec<Dim>> filled;
-  if (tension) {
-    filled = liquid_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), y_p.span(), site.span());
-  } else if (set->rubs)
-    filled = filled_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), site.size());
   std::vector<std::uint8_t> is_open(site.size());
   for_each_row(site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -197,6 +197,18 @@ void FindFaceExtension<Dim>::operator()(
                                     .own = open[i][d] > sliver});
     }
   }
+  std::vector<std::uint8_t> is_near_target(site.size(), 0);
+  for (const auto& target : extension->targets) {
+    for_each_site_around<Dim, rings>(*splines, site[target.row], [&](const Index<Dim>& at, const Index<Dim>&) {
+      if (const auto row = rows->find(at)) is_near_target[*row] = 1;
+    });
+  }
+  std::vector<Vec<Dim>> filled;
+  if (tension) {
+    filled = liquid_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), y_p.span(), site.span());
+  } else {
+    filled = filled_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), is_near_target);
+  }
   extension->source.resize(extension->targets.size() * most);
   extension->weight.resize(extension->targets.size() * most);
   for_each_row(extension->targets.size(), [&](std::size_t t) {
@@ -216,7 +228,7 @@ void FindFaceExtension<Dim>::operator()(
         offset[axis] = splines->axis[d].periodic() ? steps[d] : (y[axis] - x[axis]) / grid->spacing;
       }
       around.row[around.count] = *row;
-      around.filled[around.count] = filled.empty() ? 1 : filled[*row][target.direction];
+      around.filled[around.count] = filled[*row][target.direction];
       around.offset[around.count++] = offset;
     });
     const auto weight = std::span(extension->weight).subspan(target.begin, most);

@@ -2,6 +2,7 @@
 
 #include "systems/conforming/sites_around.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace minamo {
@@ -11,6 +12,10 @@ namespace {
 /// Open share from which on a multiplier tells whether the liquid around it is full: in less few particles tell little.
 constexpr double telling_from = 0.4;
 constexpr double least_open_liquid = 1e-2;
+/// Open share around a face from which on its own particles tell its mass. With those of faces beside it a thin layer
+/// along a wall is too light, and a front runs ahead: the energy of a dam break between walls of a body along faces of
+/// the grid rises by 1.5 of 61 J, with this by 0.15 J.
+constexpr double enough_open = 0.3;
 /// Open share below which a multiplier lies inside a body.
 constexpr double inside_below = 1e-6;
 
@@ -109,7 +114,7 @@ void FindUncutMass<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, R
       uncut[i][axis] = m_f[i][axis];
       if (open_volume[i][axis] == 1) continue;
       double open = open_liquid(i, d);
-      const double from_beside = 1 - open;
+      const double from_beside = std::max(0.0, 1 - open / enough_open);
       for (std::size_t side = 0; side < 2 * Dim; ++side) {
         if (side / 2 == d || neighbour[i][side] == staggered::none) continue;
         const auto j = static_cast<std::size_t>(neighbour[i][side]);

@@ -23,8 +23,8 @@ struct FillBesideBodies {
                   Update<multiplier::FillFraction> phi, Update<multiplier::LeastFill> least) const;
 };
 
-/// (E86)  m_f over what bodies leave open of the liquid around a face, with that of the faces beside it the more the
-/// less is open.
+/// (E86)  m_f over what bodies leave open of the liquid around a face; where that is little, with that of the faces
+/// beside it.
 template <int Dim>
 struct FindUncutMass {
   static constexpr std::string_view doc = "(E86) mass of faces, were nothing cut away";

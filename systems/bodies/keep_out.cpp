@@ -1,6 +1,7 @@
 #include "systems/bodies/keep_out.hpp"
 
 #include "systems/bodies/clip.hpp"
+#include "systems/grid/support.hpp"
 #include "systems/setup/lattice.hpp"
 #include "systems/transfer/advect.hpp"
 
@@ -55,7 +56,8 @@ std::optional<Vec<Dim>> end_before_plate(const Shape<Dim>& shape, const Vec<Dim>
 
 template <int Dim>
 void KeepOutOfBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
-                                      Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_middle,
+                                      Read<StaticCut<Dim>> at_rest, Read<GridCells<Dim>> cells,
+                                      Read<body::MiddlePosition<Dim>> c_middle,
                                       Read<body::MiddleRotation<Dim>> R_middle, Read<body::Position<Dim>> c_b,
                                       Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
                                       Read<body::Spin<Dim>> omega_b, Read<particle::QuadraturePosition<Dim>> y_p,
@@ -63,11 +65,9 @@ void KeepOutOfBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, R
                                       Update<Clamped> clamped) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const double least = gap * grid->spacing;
-  const bool any_rests = !at_rest->of.empty();
   const auto nearest_to = [&](const PlacedBodies<Dim>& at, const Vec<Dim>& x, double reach) {
     typename PlacedBodies<Dim>::Nearest nearest;
-    if (any_rests && at_rest->near[row_in<Dim>(grid->cells, cell_of<Dim>(*grid, x))] != 0)
-      nearest = at.nearest(x, false);
+    if (at_rest->is_near(*grid, cell_of<Dim>(*grid, x))) nearest = at.nearest(x, false);
     if (!at.may_be_near(x, reach)) return nearest;
     const auto moving = at.nearest(x, true);
     return moving.distance < nearest.distance ? moving : nearest;
@@ -105,7 +105,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, R
     stop_approach(p, b, placement.direction_to_world(shape.gradient(from)).stableNormalized());
   };
   std::atomic<std::int64_t> count = 0;
-  for_each_row(x_p.size(), [&](std::size_t p) {
+  const auto keep_out = [&](std::size_t p) {
     bool was_inside = stop_before_plate(p);
     std::optional<Vec<Dim>> held_by;
     typename PlacedBodies<Dim>::Nearest nearest;
@@ -128,6 +128,22 @@ void KeepOutOfBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, R
     }
     stop_at_plate(p, nearest);
     if (was_inside) ++count;
+  };
+  // Most cells are so far from bodies that no particle of them gets there within a step.
+  const double within = grid->spacing;  // that no moving body is
+  const double half_diagonal = 0.5 * grid->spacing * std::sqrt(static_cast<double>(Dim));
+  const double reach = 1.1 * (within + half_diagonal);
+  const bool any_moves = set->any_moves();
+  for_each_cell<Dim>(*cells, [&](std::size_t, const auto& cell) {
+    double clearance = at_rest->clearance_of(*grid, cell.node);
+    const Vec<Dim> middle = middle_of_cell<Dim>(*grid, cell.node);
+    if (any_moves) {
+      const bool is_near = bodies.may_be_near(middle, reach) || in_middle.may_be_near(middle, reach);
+      clearance = is_near ? 0 : std::min(clearance, within);
+    }
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      if ((x_p[p] - y_p[p]).squaredNorm() >= clearance * clearance) keep_out(p);
+    }
   });
   clamped->count += count;
 }

@@ -21,11 +21,11 @@ template <int Dim>
 struct KeepOutOfBodies {
   static constexpr std::string_view doc = "(E89) particles stay outside of bodies";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
-                  Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle,
-                  Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
-                  Read<body::Spin<Dim>> omega_b, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Update<particle::Position<Dim>> x_p, Update<particle::Velocity<Dim>> v_p,
-                  Update<Clamped> clamped) const;
+                  Read<GridCells<Dim>> cells, Read<body::MiddlePosition<Dim>> c_middle,
+                  Read<body::MiddleRotation<Dim>> R_middle, Read<body::Position<Dim>> c_b,
+                  Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Update<particle::Position<Dim>> x_p,
+                  Update<particle::Velocity<Dim>> v_p, Update<Clamped> clamped) const;
 };
 
 }  // namespace minamo

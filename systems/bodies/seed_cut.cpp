@@ -20,11 +20,13 @@ struct Piece {
   Vec<Dim> middle;
 };
 
-template <int Dim>
-Piece<Dim> piece_outside(const PlacedBodies<Dim>& bodies, const Vec<Dim>& x, double size) {
+/// What a region leaves of a part, `distance` its signed distance, positive where liquid may be.
+/// \param bounded  whether one distance tells of a neighbourhood (Shape::is_bounded_by_distance())
+template <int Dim, class Distance>
+Piece<Dim> piece_of(const Vec<Dim>& x, double size, bool bounded, const Distance& distance) {
   Piece<Dim> piece{1, x};
-  const double at_middle = bodies.distance(x);
-  if (bodies.bounded() && std::abs(at_middle) > 0.5 * size * std::sqrt(static_cast<double>(Dim))) {
+  const double at_middle = distance(x);
+  if (bounded && std::abs(at_middle) > 0.5 * size * std::sqrt(static_cast<double>(Dim))) {
     piece.share = at_middle > 0 ? 1 : 0;
     return piece;
   }
@@ -38,7 +40,7 @@ Piece<Dim> piece_outside(const PlacedBodies<Dim>& bodies, const Vec<Dim>& x, dou
       offset[d] = (static_cast<double>(rest % samples) + 0.5 - 0.5 * samples) * step;
       rest /= samples;
     }
-    const double share = std::clamp(0.5 + bodies.distance(Vec<Dim>(x + offset)) / step, 0.0, 1.0);
+    const double share = std::clamp(0.5 + distance(Vec<Dim>(x + offset)) / step, 0.0, 1.0);
     open += share;
     moment += share * offset;
   }
@@ -50,18 +52,32 @@ Piece<Dim> piece_outside(const PlacedBodies<Dim>& bodies, const Vec<Dim>& x, dou
 }  // namespace
 
 template <int Dim>
-LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<double>& size, Seeds<Dim>& seeds) {
+LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<CutRegion<Dim>>& regions,
+                   Seeds<Dim>& seeds) {
   const auto bodies = PlacedBodies<Dim>::at_start(set);
-  std::vector<Piece<Dim>> pieces(seeds.position.size());
-  for_each_row(pieces.size(), [&](std::size_t p) {
-    pieces[p] = piece_outside<Dim>(bodies, seeds.position[p], size[seeds.region[p]]);
+  const std::size_t parts = seeds.position.size();
+  std::vector<double> within(parts, 1);  // share of a part that lies in its region
+  std::vector<Piece<Dim>> pieces(parts);
+  for_each_row(parts, [&](std::size_t p) {
+    const CutRegion<Dim>& region = regions[seeds.region[p]];
+    const Vec<Dim>& x = seeds.position[p];
+    if (!region.shape) {
+      pieces[p] =
+          piece_of<Dim>(x, region.size, bodies.bounded(), [&](const Vec<Dim>& y) { return bodies.distance(y); });
+      return;
+    }
+    const bool bounded = region.shape->is_bounded_by_distance();
+    const auto depth = [&](const Vec<Dim>& y) { return -region.shape->distance(y); };
+    within[p] = piece_of<Dim>(x, region.size, bounded, depth).share;
+    pieces[p] = piece_of<Dim>(x, region.size, bounded && bodies.bounded(),
+                              [&](const Vec<Dim>& y) { return std::min(depth(y), bodies.distance(y)); });
   });
 
   LiquidCut cut;
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const double volume = seeds.share[p] * std::pow(size[seeds.region[p]], Dim);
-    cut.volume += (1 - pieces[p].share) * volume;
-    cut.of += volume;
+  for (std::size_t p = 0; p < parts; ++p) {
+    const double volume = seeds.share[p] * std::pow(regions[seeds.region[p]].size, Dim);
+    cut.volume += (within[p] - pieces[p].share) * volume;
+    cut.of += within[p] * volume;
   }
 
   Seeds<Dim> kept;
@@ -108,7 +124,7 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
   return cut;
 }
 
-template LiquidCut cut_away<2>(const BodySet<2>&, const Grid<2>&, const std::vector<double>&, Seeds<2>&);
-template LiquidCut cut_away<3>(const BodySet<3>&, const Grid<3>&, const std::vector<double>&, Seeds<3>&);
+template LiquidCut cut_away<2>(const BodySet<2>&, const Grid<2>&, const std::vector<CutRegion<2>>&, Seeds<2>&);
+template LiquidCut cut_away<3>(const BodySet<3>&, const Grid<3>&, const std::vector<CutRegion<3>>&, Seeds<3>&);
 
 }  // namespace minamo

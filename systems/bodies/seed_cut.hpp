@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Liquid that lies in bodies at the start is cut away.
+/// Liquid at the start, cut by bodies and by surfaces of its own.
 
 #include "components/grid.hpp"
 #include "systems/bodies/body_set.hpp"
@@ -22,10 +22,18 @@ struct LiquidCut {
   static constexpr ComponentInfo info{"bodies.liquid_cut", "", "m^3", Lifetime::constant};
 };
 
-/// (E91)  A particle gets the volume that bodies leave of its part of a cell, and the place of its middle; what is less
-/// than 0.3 of a part goes to the nearest particle. The volume of the liquid is that of what is left.
-/// \param size  edge of a part, by region [m]
+/// A region of liquid, divided into parts of cells.
 template <int Dim>
-LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<double>& size, Seeds<Dim>& seeds);
+struct CutRegion {
+  double size = 0;         ///< edge of a part [m]
+  SharedShape<Dim> shape;  ///< that cuts parts; none: they are whole
+};
+
+/// (E91)  A particle gets the volume that bodies, and the surface of its region, leave of its part of a cell, and the
+/// place of its middle; what is less than 0.3 of a part goes to the nearest particle. The volume of the liquid is that
+/// of what is left.
+template <int Dim>
+LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<CutRegion<Dim>>& regions,
+                   Seeds<Dim>& seeds);
 
 }  // namespace minamo

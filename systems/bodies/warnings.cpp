@@ -99,6 +99,12 @@ class Surroundings {
     return deepest.width < -least() ? std::optional(deepest) : std::nullopt;
   }
 
+  /// Whether all of the surface of a body lies in something, or on its surface.
+  bool lies_in(std::size_t b, const Opposite<Dim>& opposite) const {
+    const auto is_in = [&](const Vec<Dim>& x) { return opposite.distance(x) <= least(); };
+    return !samples_[b].empty() && std::all_of(samples_[b].begin(), samples_[b].end(), is_in);
+  }
+
  private:
   double sample() const { return 0.5 * grid_.spacing; }
   /// Widths below are none.
@@ -176,6 +182,12 @@ class Warnings {
   void look_at_pair(std::size_t a, std::size_t b) {
     const auto of_a = as_opposite<Dim>(*set_.bodies[a].shape);
     const auto of_b = as_opposite<Dim>(*set_.bodies[b].shape);
+    const bool is_b_in_a = around_.lies_in(b, of_a);
+    if (is_b_in_a || around_.lies_in(a, of_b)) {
+      found_.push_back(
+          fmt::format("body {} lies in the place of {}", quoted(is_b_in_a ? b : a), quoted(is_b_in_a ? a : b)));
+      return;
+    }
     note_gap(narrower<Dim>(around_.gap(a, of_b), around_.gap(b, of_a)), quoted(a), quoted(b));
     if (!set_.bodies[a].free() && !set_.bodies[b].free()) return;
     const bool is_b_the_free_one = !set_.bodies[a].free();

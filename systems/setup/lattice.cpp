@@ -15,7 +15,11 @@ namespace {
 template <int Dim>
 class Inside {
  public:
-  Inside(const ParticleScene& region, const Instant& start) : region_(region), start_(start) { tried_.reserve(batch); }
+  /// \param part  edge of what a point stands for [m]
+  Inside(const ParticleScene& region, const Instant& start, PartsTaken taken, double part)
+      : region_(region), start_(start), taken_(taken), reach_(0.5 * part * std::sqrt(static_cast<double>(Dim))) {
+    tried_.reserve(batch);
+  }
 
   void try_point(const Vec<Dim>& x) {
     tried_.push_back(x);
@@ -32,7 +36,7 @@ class Inside {
   void sift() {
     std::vector<std::uint8_t> is_inside(tried_.size());
     if (const auto* shape = std::get_if<SharedShape<Dim>>(&region_.shape)) {
-      for_each_row(tried_.size(), [&](std::size_t k) { is_inside[k] = (*shape)->contains(tried_[k]); });
+      for_each_row(tried_.size(), [&](std::size_t k) { is_inside[k] = is_in(**shape, tried_[k]); });
     } else {
       for (std::size_t k = 0; k < tried_.size(); ++k) is_inside[k] = is_where(tried_[k]);
     }
@@ -40,6 +44,10 @@ class Inside {
       if (is_inside[k] != 0) found_.push_back(tried_[k]);
     }
     tried_.clear();
+  }
+  bool is_in(const Shape<Dim>& shape, const Vec<Dim>& x) const {
+    if (taken_ == PartsTaken::middle_inside) return shape.contains(x);
+    return !shape.is_bounded_by_distance() || shape.distance(x) < reach_;
   }
   bool is_where(const Vec<Dim>& x) const {
     Arguments arguments(start_);
@@ -49,6 +57,8 @@ class Inside {
 
   const ParticleScene& region_;
   const Instant& start_;
+  PartsTaken taken_;
+  double reach_;
   std::vector<Vec<Dim>> tried_;
   std::vector<Vec<Dim>> found_;
 };
@@ -88,11 +98,12 @@ Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x) {
 }
 
 template <int Dim>
-std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start) {
+std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start,
+                              PartsTaken taken) {
   const auto range = parts_to_try<Dim>(region, grid);
   const double part = grid.spacing / region.per_cell;
   std::mt19937_64 random(region.jitter.value_or(0));
-  Inside<Dim> inside(region, start);
+  Inside<Dim> inside(region, start, taken, part);
   Index<Dim> at;
   for (std::size_t d = 0; d < Dim; ++d) at[d] = range[d][0];
   while (at[Dim - 1] < range[Dim - 1][1]) {
@@ -149,7 +160,7 @@ template Vec<2> exact_for_splines<2>(const Grid<2>&, int, Vec<2>);
 template Vec<3> exact_for_splines<3>(const Grid<3>&, int, Vec<3>);
 template Vec<2> nearer_to_walls<2>(const Grid<2>&, int, Vec<2>);
 template Vec<3> nearer_to_walls<3>(const Grid<3>&, int, Vec<3>);
-template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&, const Instant&);
-template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&, const Instant&);
+template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&, const Instant&, PartsTaken);
+template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&, const Instant&, PartsTaken);
 
 }  // namespace minamo

@@ -16,11 +16,15 @@ enum class LatticePlaces { middle_of_parts, nearer_to_walls, exact_for_splines }
 template <int Dim>
 Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x);
 
+/// Which parts of cells a region of liquid takes: those with the middle inside, or all that may reach into it.
+enum class PartsTaken { middle_inside, within_reach };
+
 /// The particles of a region: per_cell^d in every cell, at the middles of equal parts, or anywhere in these parts if
-/// jittered; those inside the shape. Cells and parts come in the order of the grid, x fastest. `start` is what the
-/// expression of a shape sees of time and ode variables.
+/// jittered; those inside the shape, or, of a shape with a distance, all that may reach into it. Cells and parts come
+/// in the order of the grid, x fastest. `start` is what the expression of a shape sees of time and ode variables.
 template <int Dim>
-std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start = {});
+std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start = {},
+                              PartsTaken taken = PartsTaken::middle_inside);
 
 /// (E70)  x of a lattice of n per cell and direction; in the cells at walls moved so that the sums of the quadratic
 /// splines are their integrals. One particle per cell and direction moves nearer to the wall alone.

@@ -10,6 +10,7 @@
 #include "systems/shapes/read_shape.hpp"
 #include "systems/transfer/scheme.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -38,6 +39,13 @@ struct FluidsOfRegions {
   std::vector<std::size_t> of;
 };
 
+/// Of which regions the surface cuts parts of cells.
+struct CutRegions {
+  std::vector<bool> is_cut;
+
+  bool any() const { return std::find(is_cut.begin(), is_cut.end(), true) != is_cut.end(); }
+};
+
 std::size_t read_fluid_of(Input& input, const Scene& scene) {
   const std::string doc = "which of the \"fluids\"; required with several";
   const auto* fluids = scene.facts.find<Fluids>();
@@ -52,19 +60,28 @@ std::size_t read_fluid_of(Input& input, const Scene& scene) {
   return 0;
 }
 
-ParticleScene read_particles(Input& input, const Scene& scene) {
+ParticleScene read_particles(Input& input, const Scene& scene, CutRegions& cut) {
   ParticleScene particles;
   input.object("shape", "the region that is filled", Input::Presence::required,
                [&](Input& shape) { particles.shape = read_region(shape, scene); });
   particles.per_cell = static_cast<int>(input.integer(
       "per_cell", {.doc = "particles per cell and direction", .fallback = 3, .at_least = 1, .at_most = 16}));
   if (input.sound("shape") && input.sound("per_cell")) check_particle_count(input, particles, scene.grid);
+  bool is_cut = false;
   input.variant("arrangement", "where in a cell the particles start", "lattice",
                 {{"lattice", [](Input&) {}},
-                 {"jittered", [&](Input& in) {
+                 {"jittered",
+                  [&](Input& in) {
                     particles.jitter = static_cast<std::uint64_t>(
                         in.integer("seed", {.doc = "of the random numbers", .fallback = 1, .at_least = 0}));
-                  }}});
+                  }},
+                 {"cut", [&](Input&) { is_cut = true; }}});
+  if (is_cut && !input.describing() && input.sound("shape") && std::holds_alternative<Where>(particles.shape)) {
+    input.problem("arrangement", "\"where\" has no distance to cut parts at", "another shape, or \"lattice\"",
+                  "\"cut\"");
+    is_cut = false;
+  }
+  cut.is_cut.push_back(is_cut);
   particles.velocity = read_vector(input, "velocity", scene, {.unit = "m/s", .doc = "initial velocity", .fallback = 0});
   return particles;
 }
@@ -102,13 +119,38 @@ Vec<Dim> moved_at_walls(const Scene& scene, const Grid<Dim>& grid, int per_cell,
   }
 }
 
+/// (E91) by bodies, and by the surfaces of regions that are cut.
+template <int Dim>
+void cut_seeds(const Scene& scene, const Grid<Dim>& grid, World& world, Seeds<Dim>& seeds, SeedProblems& problems) {
+  const auto* bodies = scene.facts.find<BodiesOfScene>();
+  const auto& cut_regions = scene.facts.get<CutRegions>();
+  if (bodies == nullptr && !cut_regions.any()) return;
+  std::vector<CutRegion<Dim>> regions;
+  for (std::size_t r = 0; r < scene.particles.size(); ++r) {
+    const ParticleScene& region = scene.particles[r];
+    regions.push_back({grid.spacing / region.per_cell, nullptr});
+    if (cut_regions.is_cut[r]) regions.back().shape = std::get<SharedShape<Dim>>(region.shape);
+  }
+  const bool any = !seeds.position.empty();
+  const LiquidCut cut = cut_away<Dim>(bodies ? bodies->of<Dim>() : BodySet<Dim>{}, grid, regions, seeds);
+  if (bodies != nullptr) world.resource<LiquidCut>() = cut;
+  if (!any || !seeds.position.empty()) return;
+  if (bodies != nullptr) {
+    problems.note("/bodies", "no liquid is left", "bodies with liquid beside them", "all of it lies in bodies");
+  } else {
+    problems.note("/particles", "no liquid in them", "a shape that fills a part of a cell", "less than 0.3 of any");
+  }
+}
+
 template <int Dim>
 Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, SeedProblems& problems) {
   Seeds<Dim> seeds;
   std::unordered_map<std::size_t, double> filled;
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
     const ParticleScene& region = scene.particles[r];
-    const auto positions = lattice<Dim>(region, grid, scene.start);
+    const bool is_cut = scene.facts.get<CutRegions>().is_cut[r];
+    const auto positions =
+        lattice<Dim>(region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside);
     const std::string pointer = fmt::format("/particles/{}", r);
     if (positions.empty()) {
       problems.note(pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
@@ -118,7 +160,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
     const Vec<Dim>* overlap = nullptr;
     for (const Vec<Dim>& x : positions) {
       double& cell = filled[grid.row(cell_of<Dim>(grid, x))];
-      cell += share;
+      if (!is_cut || std::get<SharedShape<Dim>>(region.shape)->contains(x)) cell += share;
       if (cell > 1 + 1e-9 && !overlap) overlap = &x;
       seeds.position.push_back(region.jitter ? x : moved_at_walls<Dim>(scene, grid, region.per_cell, x));
       seeds.region.push_back(r);
@@ -129,14 +171,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
                     "more than a full cell at " + place_text<Dim>(*overlap));
     }
   }
-  if (const auto* bodies = scene.facts.find<BodiesOfScene>()) {
-    std::vector<double> size;
-    for (const ParticleScene& region : scene.particles) size.push_back(grid.spacing / region.per_cell);
-    const std::size_t before = seeds.position.size();
-    world.resource<LiquidCut>() = cut_away<Dim>(bodies->of<Dim>(), grid, size, seeds);
-    if (before > 0 && seeds.position.empty())
-      problems.note("/bodies", "no liquid is left", "bodies with liquid beside them", "all of it lies in bodies");
-  }
+  cut_seeds<Dim>(scene, grid, world, seeds, problems);
   return seeds;
 }
 
@@ -222,11 +257,13 @@ void check_fluids_used(Input& input, const Scene& scene) {
 
 Contribution read_regions(Input& input, Scene& scene) {
   FluidsOfRegions fluids;
+  CutRegions cut;
   input.list("particles", "regions filled with liquid", 1, [&](Input& in, std::size_t) {
     fluids.of.push_back(read_fluid_of(in, scene));
-    scene.particles.push_back(read_particles(in, scene));
+    scene.particles.push_back(read_particles(in, scene, cut));
   });
   scene.facts.set(fluids);
+  scene.facts.set(cut);
   check_fluids_used(input, scene);
   return [](const Scene&, Recipe& recipe) {
     recipe.seed([](const Scene& of, World& world, SeedProblems& problems) {

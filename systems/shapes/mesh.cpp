@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <unsupported/Eigen/BVH>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace minamo::shapes {
 
@@ -55,21 +57,6 @@ FootOnTriangle foot_on(const ClosedSurface& surface, std::uint32_t t, const Vec<
   return at(a + part_b / sum * ab + part_c / sum * ac, surface.triangle_normal[t], true);
 }
 
-/// What Eigen's search asks.
-struct NearestTriangle {
-  using Scalar = double;
-  const ClosedSurface& surface;
-  Vec<3> x;
-  FootOnTriangle best = {};
-
-  double minimumOnVolume(const AlignedBox& box) const { return box.squaredExteriorDistance(Eigen::Vector3d(x)); }
-  double minimumOnObject(std::uint32_t triangle) {
-    const FootOnTriangle foot = foot_on(surface, triangle, x);
-    if (foot.squared < best.squared) best = foot;  // not so a foot that is not a number, of a triangle without area
-    return best.squared;
-  }
-};
-
 double sign(const FootOnTriangle& foot, const Vec<3>& x) { return foot.normal.dot(x - foot.point) < 0 ? -1 : 1; }
 
 }  // namespace
@@ -89,9 +76,32 @@ struct Mesh::Tree {
   }
 
   FootOnTriangle nearest(const ClosedSurface& surface, const Vec<3>& x) const {
-    NearestTriangle search{surface, x};
-    Eigen::BVMinimize(boxes, search);
-    return search.best;
+    FootOnTriangle best;
+    search(boxes.getRootIndex(), surface, x, best);
+    return best;
+  }
+
+ private:
+  /// What is in the nearer of two boxes first, so that the other is seldom opened. Eigen's own search keeps a queue,
+  /// for which it allocates.
+  void search(int node, const ClosedSurface& surface, const Vec<3>& x, FootOnTriangle& best) const {
+    const int* box = nullptr;
+    const int* box_end = nullptr;
+    const std::uint32_t* triangle = nullptr;
+    const std::uint32_t* triangle_end = nullptr;
+    boxes.getChildren(node, box, box_end, triangle, triangle_end);
+    for (; triangle != triangle_end; ++triangle) {
+      const FootOnTriangle foot = foot_on(surface, *triangle, x);
+      if (foot.squared < best.squared) best = foot;  // not so a foot that is not a number, of a triangle without area
+    }
+    std::array<std::pair<double, int>, 2> inner;
+    std::size_t count = 0;
+    for (; box != box_end; ++box)
+      inner[count++] = {boxes.getVolume(*box).squaredExteriorDistance(Eigen::Vector3d(x)), *box};
+    if (count == 2 && inner[1].first < inner[0].first) std::swap(inner[0], inner[1]);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (inner[k].first < best.squared) search(inner[k].second, surface, x, best);
+    }
   }
 };
 

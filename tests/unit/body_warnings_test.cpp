@@ -63,6 +63,17 @@ TEST_CASE("a thin gap between two bodies is told once, a wide one not", "[unit]"
   CHECK(sentences_of(beside_bodies(bodies(0.501))).empty());
 }
 
+TEST_CASE("a body in the place of another one is told once", "[unit]") {
+  const std::string motion = GENERATE(R"("wall": "slip")", R"("motion": {"free": {"density": 500}})");
+  const double radius = GENERATE(0.1, 0.15);
+  const auto found = sentences_of(
+      beside_bodies(fmt::format(R"([{{"name": "a", "shape": {{"ball": {{"center": [0.5, 0.5], "radius": {}}}}}, {}}},
+                      {{"name": "b", "shape": {{"ball": {{"center": [0.5, 0.5], "radius": 0.1}}}}, {}}}])",
+                                radius, motion, motion)));
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], Contains("body \"b\" lies in the place of \"a\""));
+}
+
 TEST_CASE("where bodies touch, stand on each other, reach through a side or meet it at an angle is no gap", "[unit]") {
   const std::string bodies = GENERATE(
       R"([{"name": "ball", "shape": {"ball": {"center": [0.5, 0.3], "radius": 0.3}}}])",

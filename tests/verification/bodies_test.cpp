@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -141,6 +142,30 @@ TEST_CASE("the force on a tank is the weight of its water", "[verification]") {
   const double weight = 9.81 * total_mass(run.world());
   CHECK(measured(run.world(), "tank_force_y") == Approx(-weight).epsilon(5e-3));
   CHECK(std::abs(measured(run.world(), "tank_force_x")) < 5e-3 * weight);
+}
+
+TEST_CASE("a dam that breaks between walls of a body gains no energy", "[verification]") {
+  const bool is_tilted = GENERATE(true, false);
+  CAPTURE(is_tilted);
+  Json scene = scene_of_file("tilted_dam_break.json");
+  if (!is_tilted) {
+    scene =
+        with(scene, {"/bodies/0/shape/invert/box/angle=0", "/particles/0/shape/box/angle=0", "/body_force=[0, -9.81]",
+                     "/particles/0/shape/box/low=[-0.3066, -0.3066]", "/particles/0/shape/box/high=[-0.146, 0]"});
+  }
+  SceneRun run(scene);
+  run.start();
+  const auto energy = [&] { return run.world().resource<measure::Energy>().total(); };
+  run.step(1);
+  const double at_start = energy();
+  double rise = 0;
+  for (int k = 0; k < 110; ++k) {  // until the front reaches the wall
+    run.step();
+    rise = std::max(rise, energy() - at_start);
+  }
+  // Of 30 J that it releases; 0.01 and 0.15 J measured. 0.6 and 0.5 J, and a front that runs ahead, where closed faces
+  // follow those without particles, and where thin layers are too light.
+  CHECK(rise < (is_tilted ? 0.1 : 0.25));
 }
 
 TEST_CASE("the liquid that is left has the volume that bodies leave", "[verification]") {
