@@ -19,16 +19,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double depth = 0.4;
+constexpr double depth_of_tank = 0.4;
 constexpr double stroke = 0.025;  ///< half of the way of the paddle [m]
 constexpr double omega = 4;
 constexpr double gauge_width = 0.2;
 constexpr std::array<double, 4> gauges{2.0, 2.5, 3.0, 3.5};
 
 /// The wave number of omega^2 = g k tanh(k d).
-double wave_number() {
+double wave_number_of_paddle() {
   double k = omega * omega / 9.81;
-  for (int i = 0; i < 200; ++i) k = omega * omega / (9.81 * std::tanh(k * depth));
+  for (int i = 0; i < 200; ++i) k = omega * omega / (9.81 * std::tanh(k * depth_of_tank));
   return k;
 }
 
@@ -36,7 +36,7 @@ double wave_number() {
 Json long_tank(double h) {
   Json scene = with(scene_of_file("paddle.json"), {"/constants/stroke=0.025"});
   scene["grid"] = {{"low", {0, 0}}, {"high", {7, 0.75}}, {"cells", {std::lround(7 / h), std::lround(0.75 / h)}}};
-  scene["particles"][0]["shape"]["box"]["high"] = {7, depth};
+  scene["particles"][0]["shape"]["box"]["high"] = {7, depth_of_tank};
   scene["bodies"][1]["shape"]["polygon"]["vertices"] = {{4.5, -0.1}, {10, -0.1}, {10, 1}};
   scene["time"]["end"] = 9;
   return scene;
@@ -45,7 +45,7 @@ Json long_tank(double h) {
 /// Amplitudes of cos(omega t) and sin(omega t) in the level around every gauge, as complex numbers, over two periods.
 Eigen::Vector4cd amplitudes(double h) {
   constexpr double step = 4e-3;
-  const double k = wave_number();
+  const double k = wave_number_of_paddle();
   const auto period = static_cast<int>(std::lround(2 * 3.14159265358979 / omega / step));
   const int end = 2000;
   SceneRun run(long_tank(h));
@@ -70,7 +70,7 @@ Eigen::Vector4cd amplitudes(double h) {
 }  // namespace
 
 TEST_CASE("a paddle makes waves of the height of first-order theory", "[verification][long]") {
-  const double k = wave_number();
+  const double k = wave_number_of_paddle();
   const Eigen::Vector4cd z = amplitudes(0.05);
   Eigen::Matrix<Complex, 4, 2> waves;
   for (Eigen::Index j = 0; j < 4; ++j) {
@@ -78,7 +78,7 @@ TEST_CASE("a paddle makes waves of the height of first-order theory", "[verifica
     waves.row(j) << std::polar(1.0, k * x), std::polar(1.0, -k * x);
   }
   const Eigen::Vector2cd both = waves.colPivHouseholderQr().solve(z);
-  const double kd2 = 2 * k * depth;
+  const double kd2 = 2 * k * depth_of_tank;
   const double exact = 2 * stroke * 2 * (std::cosh(kd2) - 1) / (std::sinh(kd2) + kd2);
   CHECK(2 * std::abs(both[0]) == Approx(exact).epsilon(0.06));  // 1 % too low
   CHECK(std::abs(both[1]) < 0.07 * std::abs(both[0]));          // 5 %
