@@ -11,7 +11,12 @@
 namespace minamo::scene_run {
 
 Json scene_of_file(const std::string& name) {
-  Json scene = read_json(std::string(MINAMO_SOURCE_DIR) + "/scenes/" + name);
+  const std::string folder = std::string(MINAMO_SOURCE_DIR) + "/scenes/";
+  Json scene = read_json(folder + name);
+  const Json flat = scene.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (pointer.ends_with("/mesh/file")) scene[Json::json_pointer(pointer)] = folder + value.get<std::string>();
+  }
   Json& time = scene["time"];
   if (!time.contains("step") && !time.contains("cfl")) time["step"] = 2e-3;
   return scene;

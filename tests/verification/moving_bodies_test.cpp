@@ -93,9 +93,7 @@ class Watch {
 };
 
 void check_leaks(const std::vector<std::string>& overrides, int steps, int least_spilt) {
-  Json scene = with(scene_of_file("cup.json"), overrides);
-  scene["bodies"][0]["shape"]["mesh"]["file"] = std::string(MINAMO_SOURCE_DIR) + "/scenes/cup.stl";
-  SceneRun run(scene);
+  SceneRun run(with(scene_of_file("cup.json"), overrides));
   run.start();
   Watch watch(run);
   for (int k = 0; k < steps; ++k) {
