@@ -18,6 +18,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = pathlib.Path(os.environ["WORK"])
 SCENES = ROOT / "scenes"
 
+# More ranks than processors take turns; and containers may forbid a process to read another's memory.
+os.environ.update(OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_btl_vader_single_copy_mechanism="none")
+
 DAM_BREAK = ["--set", "/grid/cells=[24, 24]", "--set", "/time/end=0.3", "--set", "/output/every=0.1", "--set",
              "/time/step=4e-3", "--set", "/solver={\"tolerance\": 1e-12}"]
 SPACE = ["--set", "/grid/cells=[16, 8, 16]", "--set", "/particles/0/per_cell=2", "--set", "/time/end=0.1", "--set",

@@ -152,8 +152,8 @@ void require_one_process() {
                      {}}});
 }
 
-/// What every process does, with others or alone. \return the exit code
-int run_alone(int argc, const char* const* argv, const std::function<void(SystemRegistry&)>& add) {
+/// Runs the command of the command line, and tells what went wrong. \return the exit code
+int run_command(int argc, const char* const* argv, const std::function<void(SystemRegistry&)>& add) {
   const auto say = [](const char* what) {
     if (writes_for_all()) std::cerr << what << '\n';
   };
@@ -194,7 +194,7 @@ int run(int argc, const char* const* argv, const std::function<void(SystemRegist
   std::signal(SIGXFSZ, SIG_IGN);
   // What all ranks would say, one says.
   if (!writes_for_all()) logger->set_level(spdlog::level::off);
-  return run_alone(argc, argv, add);
+  return run_command(argc, argv, add);
 }
 
 }  // namespace minamo
