@@ -86,6 +86,38 @@ Vec<Dim> mean_around(const std::vector<typename FreeSurface<Dim>::Element>& elem
   return sum / around;
 }
 
+/// The same as a function of the site that works each out once. \pre what it is made of outlives it
+template <int Dim, class Velocity>
+auto means_around(const std::vector<typename FreeSurface<Dim>::Element>& elements, const Grid<Dim>& grid,
+                  const Velocity& velocity) {
+  return [&, known = std::map<Index<Dim>, Vec<Dim>>()](const Index<Dim>& node) mutable -> const Vec<Dim>& {
+    const auto [found, is_new] = known.try_emplace(node, Vec<Dim>::Zero());
+    if (is_new) found->second = mean_around<Dim>(elements, grid, node, velocity);
+    return found->second;
+  };
+}
+
+/// sum_f F_f v_f, for a velocity that splines hold exactly: a linear one, by its values at Greville points.
+/// \pre degree 2
+template <int Dim, class Velocity>
+double power_of_forces(World& world, const Velocity& velocity) {
+  const auto& grid = world.resource<Grid<Dim>>();
+  const auto F_f = world.column<face::SurfaceForce<Dim>>();
+  const auto site = world.column<staggered::Site<Dim>>();
+  double power = 0;
+  for (std::size_t i = 0; i < F_f.size(); ++i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      Vec<Dim> x;  // of degree 2 faces lie on grid lines' middles along themselves, across on grid lines
+      for (std::size_t e = 0; e < Dim; ++e) {
+        const double place = e == d ? site[i][e] - 0.5 : site[i][e];
+        x[static_cast<Eigen::Index>(e)] = grid.low[static_cast<Eigen::Index>(e)] + place * grid.spacing;
+      }
+      power += F_f[i][static_cast<Eigen::Index>(d)] * velocity(x)[static_cast<Eigen::Index>(d)];
+    }
+  }
+  return power;
+}
+
 }  // namespace
 
 TEST_CASE("the distance of a plane is found from what it leaves of a quadratic spline", "[unit]") {
@@ -155,29 +187,11 @@ TEMPLATE_TEST_CASE_SIG("the force of surface tension is what the energy of the s
   kernels::Random random(2);
   const Mat<Dim> gradient = random.matrix<Dim>(-1, 1);
   const auto velocity = [&](const Vec<Dim>& x) -> Vec<Dim> { return gradient * x; };
-  double power = 0;
-  const auto F_f = world.column<face::SurfaceForce<Dim>>();
-  const auto site = world.column<staggered::Site<Dim>>();
-  for (std::size_t i = 0; i < F_f.size(); ++i) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      if (F_f[i][static_cast<Eigen::Index>(d)] == 0) continue;
-      Vec<Dim> x;  // of degree 2 faces lie on grid lines' middles along themselves, across on grid lines
-      for (std::size_t e = 0; e < Dim; ++e) {
-        const double place = e == d ? site[i][e] - 0.5 : site[i][e];
-        x[static_cast<Eigen::Index>(e)] = grid.low[static_cast<Eigen::Index>(e)] + place * grid.spacing;
-      }
-      power += F_f[i][static_cast<Eigen::Index>(d)] * velocity(x)[static_cast<Eigen::Index>(d)];
-    }
-  }
+  const double power = power_of_forces<Dim>(world, velocity);
   REQUIRE(splines.degree == 2);
   // The corners move by the means of the velocity around the nodes that they lie between.
   const auto elements = elements_of<Dim>(world);
-  std::map<Index<Dim>, Vec<Dim>> mean;
-  const auto mean_at = [&](const Index<Dim>& node) -> const Vec<Dim>& {
-    const auto [found, is_new] = mean.try_emplace(node, Vec<Dim>::Zero());
-    if (is_new) found->second = mean_around<Dim>(elements, grid, node, velocity);
-    return found->second;
-  };
+  auto mean_at = means_around<Dim>(elements, grid, velocity);
   const auto area_after = [&](double time) {
     double area = 0;
     for (auto element : elements) {
@@ -355,26 +369,10 @@ TEMPLATE_TEST_CASE_SIG("on a body the force of surface tension is what the energ
     v[Dim - 1] = 0.28 - x[Dim - 1];
     return v;
   };
-  double power = 0;
-  const auto F_f = world.column<face::SurfaceForce<Dim>>();
-  const auto site = world.column<staggered::Site<Dim>>();
-  for (std::size_t i = 0; i < F_f.size(); ++i) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      Vec<Dim> x;
-      for (std::size_t e = 0; e < Dim; ++e)
-        x[static_cast<Eigen::Index>(e)] =
-            grid.low[static_cast<Eigen::Index>(e)] + (e == d ? site[i][e] - 0.5 : site[i][e]) * grid.spacing;
-      power += F_f[i][static_cast<Eigen::Index>(d)] * velocity(x)[static_cast<Eigen::Index>(d)];
-    }
-  }
+  const double power = power_of_forces<Dim>(world, velocity);
   const auto& surface = world.resource<FreeSurface<Dim>>();
   const auto elements = elements_of<Dim>(world);
-  std::map<Index<Dim>, Vec<Dim>> mean;
-  const auto mean_at = [&](const Index<Dim>& node) -> const Vec<Dim>& {
-    const auto [found, is_new] = mean.try_emplace(node, Vec<Dim>::Zero());
-    if (is_new) found->second = mean_around<Dim>(elements, grid, node, velocity);
-    return found->second;
-  };
+  auto mean_at = means_around<Dim>(elements, grid, velocity);
   const auto velocity_of = [&](const auto& piece, const auto& corner) {
     Vec<Dim> v = (1 - corner.share) * mean_at(corner.in) + corner.share * mean_at(corner.out);
     if (corner.on_body == staggered::none) return v;
