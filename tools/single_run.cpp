@@ -17,6 +17,7 @@
 #include <spdlog/spdlog.h>
 
 #include <fstream>
+#include <optional>
 
 namespace minamo {
 
@@ -45,19 +46,21 @@ void open_output(const fs::path& folder, World& world) {
 /// Makes the output, or takes it up where the checkpoint was written.
 /// \return whether there is anything left to run
 bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& times, World& world) {
-  if (plan.beginning == Beginning::start) {
-    do_on_all(all_ranks(), [&] {
-      if (writes_for_all()) open_output(plan.folder, world);
-    });
-  } else {
-    StoredFields fields = load_checkpoint(plan.folder, plan.scene, file, world);
+  std::optional<StoredFields> fields;
+  if (plan.beginning == Beginning::continuation) {
+    fields = load_checkpoint(plan.folder, plan.scene, file, world);
     if (all_ranks() != nullptr) keep_own_particles(file.scene.dimension, world);
     if (is_over(times, world.resource<Clock>())) return false;
-    do_on_all(all_ranks(), [&] {
-      if (writes_for_all()) continue_output(plan.folder, std::move(fields), world);
-    });
   }
-  if (writes_for_all()) write_text(plan.folder / "scene.json", file.as_run.dump(2) + "\n");
+  do_on_all(all_ranks(), [&] {
+    if (!writes_for_all()) return;
+    if (fields) {
+      continue_output(plan.folder, std::move(*fields), world);
+    } else {
+      open_output(plan.folder, world);
+    }
+    write_text(plan.folder / "scene.json", file.as_run.dump(2) + "\n");
+  });
   return true;
 }
 

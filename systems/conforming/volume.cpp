@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <functional>
-#include <map>
 #include <numeric>
 
 namespace minamo {
@@ -24,7 +23,7 @@ template <int Dim>
 void add_up_parts(const SiteExchange& shared, const Splines<Dim>& splines, const GridCells<Dim>& cells,
                   const GhostCells<Dim>& ghosts, const StaggeredIndex<Dim>& index, std::size_t per_cell,
                   std::span<double> fill) {
-  std::map<std::size_t, double*> of_site;
+  std::vector<double*> of_site(shared.rows(), nullptr);
   const auto note = [&](const Index<Dim>& cell, std::size_t c) {
     Index<Dim> middle;
     middle.fill(1);
@@ -32,10 +31,7 @@ void add_up_parts(const SiteExchange& shared, const Splines<Dim>& splines, const
   };
   for (std::size_t c = 0; c < cells.cells.size(); ++c) note(cells.cells[c].node, c);
   for (std::size_t g = 0; g < ghosts.cells.size(); ++g) note(ghosts.cells[g].at, cells.cells.size() + g);
-  shared.add_up(per_cell, [&](std::size_t row) {
-    const auto found = of_site.find(row);
-    return found == of_site.end() ? nullptr : found->second;
-  });
+  shared.add_up(per_cell, [&](std::size_t row) { return of_site[row]; });
 }
 
 }  // namespace

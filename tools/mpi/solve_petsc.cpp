@@ -54,16 +54,36 @@ struct PetscSolver::Impl {
 
 namespace {
 
+/// The unknowns that this rank answers for, in their order: its rows of the matrix and of vectors.
+std::vector<std::size_t> own_unknowns(const SiteExchange& shared, std::span<const std::uint32_t> of_unknown) {
+  std::vector<std::size_t> own;
+  for (std::size_t l = 0; l < of_unknown.size(); ++l) {
+    if (shared.owns(of_unknown[l])) own.push_back(l);
+  }
+  return own;
+}
+
+/// Numbers of the unknowns among those of all ranks; none of what no rank owns. \param sites  rows of their table
+std::vector<PetscInt> number_globally(const SiteExchange& shared, std::size_t sites,
+                                      std::span<const std::uint32_t> of_unknown, std::span<const std::size_t> own) {
+  auto next = static_cast<double>(shared.ranks().sum_below(static_cast<std::int64_t>(own.size()))) + 1;
+  std::vector<double> one_past(sites, 0);
+  for (const std::size_t l : own) one_past[of_unknown[l]] = next++;
+  shared.copy_from_owner(std::span(one_past));
+  std::vector<PetscInt> number;
+  for (const std::uint32_t i : of_unknown) number.push_back(static_cast<PetscInt>(one_past[i]) - 1);
+  return number;
+}
+
 /// Sets the null space where walls enclose the liquid all around: S n = 0.
-void note_closed_box(PetscSolver::Impl& petsc, const SiteExchange& shared, std::span<const std::uint32_t> of_unknown,
+void note_closed_box(PetscSolver::Impl& petsc, const SiteExchange& shared, std::span<const std::size_t> own,
                      std::span<const double> null_vector, std::span<const double> diagonal) {
   double* values = nullptr;
   double largest = 0;
   check(VecGetArray(petsc.right, &values));
-  for (std::size_t l = 0, k = 0; l < of_unknown.size(); ++l) {
-    if (!shared.owns(of_unknown[l])) continue;
-    values[k++] = null_vector[l];
-    largest = std::max(largest, diagonal[l] * null_vector[l]);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    values[k] = null_vector[own[k]];
+    largest = std::max(largest, diagonal[own[k]] * null_vector[own[k]]);
   }
   check(VecRestoreArray(petsc.right, &values));
   check(MatMult(petsc.matrix, petsc.right, petsc.solution));
@@ -78,24 +98,6 @@ void note_closed_box(PetscSolver::Impl& petsc, const SiteExchange& shared, std::
   check(MatCreateVecs(petsc.matrix, nullptr, &petsc.right));
 }
 
-/// Numbers of the unknowns among those of all ranks; none of what no rank owns.
-template <int Dim>
-std::vector<PetscInt> number_globally(const SiteExchange& shared, std::span<const std::int32_t> row,
-                                      std::span<const std::uint32_t> of_unknown, PetscInt& own, PetscInt& all) {
-  own = 0;
-  for (const std::uint32_t i : of_unknown) own += shared.owns(i) ? 1 : 0;
-  all = static_cast<PetscInt>(shared.ranks().sum(static_cast<std::int64_t>(own)));
-  auto next = static_cast<double>(shared.ranks().sum_below(own)) + 1;
-  std::vector<double> one_past(row.size(), 0);
-  for (const std::uint32_t i : of_unknown) {
-    if (shared.owns(i)) one_past[i] = next++;
-  }
-  shared.copy_from_owner(std::span(one_past));
-  std::vector<PetscInt> number;
-  for (const std::uint32_t i : of_unknown) number.push_back(static_cast<PetscInt>(one_past[i]) - 1);
-  return number;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -106,36 +108,37 @@ void SolveMultipliersPetsc<Dim>::operator()(Read<SiteExchange> shared, Read<Solv
                                             Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector,
                                             Read<unknown::Source> source, Update<PetscSolver> solver,
                                             Write<unknown::Solution> solution, Write<SolveReport> report) const {
-  PetscInt own = 0;
-  PetscInt all = 0;
-  const auto number = number_globally<Dim>(*shared, row.span(), of_unknown.span(), own, all);
+  const std::vector<std::size_t> own = own_unknowns(*shared, of_unknown.span());
+  const auto rows = static_cast<PetscInt>(own.size());
+  const auto all = static_cast<PetscInt>(shared->ranks().sum(static_cast<std::int64_t>(rows)));
+  const auto number = number_globally(*shared, row.size(), of_unknown.span(), own);
   *report = {.unknowns = all, .active = all, .iterations = 0, .residual = 0};
   for (auto& x : solution) x = {};
   if (all == 0) return;
 
   auto& petsc = solver->impl();
   petsc.forget();
-  check(MatCreateAIJ(PETSC_COMM_WORLD, own, own, all, all, 2 * Dim + 1, nullptr, 2 * Dim, nullptr, &petsc.matrix));
+  check(MatCreateAIJ(PETSC_COMM_WORLD, rows, rows, all, all, 2 * Dim + 1, nullptr, 2 * Dim, nullptr, &petsc.matrix));
   check(MatCreateVecs(petsc.matrix, &petsc.solution, &petsc.right));
-  for (std::size_t l = 0; l < number.size(); ++l) {
-    if (!shared->owns(of_unknown[l])) continue;
+  for (const std::size_t l : own) {
     const auto set = [&](PetscInt column, double value) {
       check(MatSetValues(petsc.matrix, 1, &number[l], 1, &column, &value, INSERT_VALUES));
     };
     set(number[l], diagonal[l]);
     for (std::size_t d = 0; d < Dim; ++d) {
-      const std::int32_t below = neighbour[l][2 * d];
-      const std::int32_t above = neighbour[l][2 * d + 1];
-      if (below >= 0 && number[static_cast<std::size_t>(below)] >= 0)
-        set(number[static_cast<std::size_t>(below)], -conductance[static_cast<std::size_t>(below)][d]);
-      if (above >= 0 && number[static_cast<std::size_t>(above)] >= 0)
-        set(number[static_cast<std::size_t>(above)], -conductance[l][d]);
+      const auto set_neighbour = [&](std::int32_t m, bool is_below) {
+        if (m == staggered::none) return;
+        const auto other = static_cast<std::size_t>(m);
+        if (number[other] >= 0) set(number[other], -conductance[is_below ? other : l][d]);
+      };
+      set_neighbour(neighbour[l][2 * d], true);
+      set_neighbour(neighbour[l][2 * d + 1], false);
     }
   }
   check(MatAssemblyBegin(petsc.matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(petsc.matrix, MAT_FINAL_ASSEMBLY));
   check(MatSetOption(petsc.matrix, MAT_SPD, PETSC_TRUE));
-  note_closed_box(petsc, *shared, of_unknown.span(), null_vector.span(), diagonal.span());
+  note_closed_box(petsc, *shared, own, null_vector.span(), diagonal.span());
   check(KSPSetOperators(petsc.solver, petsc.matrix, petsc.matrix));
   check(KSPSetTolerances(petsc.solver, tolerance->relative, 0, PETSC_DEFAULT, most_iterations));
 
@@ -143,9 +146,7 @@ void SolveMultipliersPetsc<Dim>::operator()(Read<SiteExchange> shared, Read<Solv
   for (std::size_t s = 0; s < most_sources; ++s) {
     double* values = nullptr;
     check(VecGetArray(petsc.right, &values));
-    for (std::size_t l = 0, k = 0; l < number.size(); ++l) {
-      if (shared->owns(of_unknown[l])) values[k++] = source[l][s];
-    }
+    for (std::size_t k = 0; k < own.size(); ++k) values[k] = source[own[k]][s];
     check(VecRestoreArray(petsc.right, &values));
     if (petsc.null_space != nullptr) check(MatNullSpaceRemove(petsc.null_space, petsc.right));
     double size = 0;
@@ -160,9 +161,7 @@ void SolveMultipliersPetsc<Dim>::operator()(Read<SiteExchange> shared, Read<Solv
     report->residual = std::max(report->residual, residual / size);
     const double* x = nullptr;
     check(VecGetArrayRead(petsc.solution, &x));
-    for (std::size_t l = 0, k = 0; l < number.size(); ++l) {
-      if (shared->owns(of_unknown[l])) of_site[of_unknown[l]][s] = x[k++];
-    }
+    for (std::size_t k = 0; k < own.size(); ++k) of_site[of_unknown[own[k]]][s] = x[k];
     check(VecRestoreArrayRead(petsc.solution, &x));
   }
   shared->copy_from_owner(std::span(of_site));
