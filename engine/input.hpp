@@ -103,6 +103,8 @@ class Input {
   /// is then not the user's. An empty `got` shows the key's value.
   void problem(std::string_view key, std::string what, std::string expected = {}, std::string got = {},
                std::string closest = {});
+  /// Notes what is no problem, but may not be meant: a sentence about the value of a key (as in problem()).
+  void remark(std::string_view key, const std::string& sentence);
   /// Whether nothing wrong is known of a key (as in problem()), so that its value is the user's.
   bool sound(std::string_view key) const;
   /// How many elements the list at a key (as in problem()) has, read or not; none if there is no list.
@@ -136,6 +138,8 @@ class Input::Document {
   /// is missing while an unknown key is close to it is one problem, not two. Call once, after all is read.
   void finish();
   const std::vector<Problem>& problems() const;
+  /// What was remarked, with the pointer before it.
+  const std::vector<std::string>& remarks() const;
   /// \throws InputError if there are problems.
   void require_valid();
   /// The document as understood, defaults filled in, keys in reading order.

@@ -79,7 +79,7 @@ Input::Document::Document(std::shared_ptr<InputRecord> record)
     : record_(std::move(record)), root_(root_place(record_)) {}
 
 Input::Document::Document(const Json& json, std::string file)
-    : Document(std::make_shared<InputRecord>(InputRecord{std::move(file), {}, {}, {}, {}})) {
+    : Document(std::make_shared<InputRecord>(InputRecord{std::move(file), {}, {}, {}, {}, {}})) {
   InputPlace& root = *root_.place_;
   root.standing = InputPlace::Standing::present;
   if (json.is_object()) {
@@ -105,6 +105,8 @@ void Input::Document::finish() {
 }
 
 const std::vector<Problem>& Input::Document::problems() const { return record_->problems; }
+
+const std::vector<std::string>& Input::Document::remarks() const { return record_->remarks; }
 
 void Input::Document::require_valid() {
   if (!record_->problems.empty()) throw InputError(record_->problems);

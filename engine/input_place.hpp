@@ -59,6 +59,7 @@ struct InputRecord {
   std::string file;
   bool describing = false;
   std::vector<Problem> problems;
+  std::vector<std::string> remarks;
   std::set<std::string> unsound;              ///< pointers of the problems
   std::optional<ExpressionScope> of_numbers;  ///< what a string in the place of a number may use, once that is known
 };

@@ -206,6 +206,10 @@ void Input::problem(std::string_view key, std::string what, std::string expected
       {{}, pointer_below(pointer(), key), std::move(what), std::move(expected), std::move(got), std::move(closest)});
 }
 
+void Input::remark(std::string_view key, const std::string& sentence) {
+  if (!describing()) place_->record->remarks.push_back(pointer_below(pointer(), key) + ": " + sentence);
+}
+
 bool Input::sound(std::string_view key) const {
   const std::string at = pointer_below(pointer(), key);
   const auto& unsound = place_->record->unsound;

@@ -129,6 +129,7 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
   problems.insert(problems.end(), document.problems().begin(), document.problems().end());
   if (problems.empty()) problems = misplaced_systems(file.scene, path);
   if (!problems.empty()) throw InputError(std::move(problems));
+  file.scene.remarks = document.remarks();
   file.as_run = document.echo();
   return file;
 }
@@ -139,9 +140,9 @@ void seed(const Scene& scene, const std::string& file, World& world) {
 }
 
 std::vector<std::string> warnings_of(const Scene& scene, World& world) {
-  std::vector<std::string> warnings = warnings_of_bodies(scene, world);
-  const auto of_tension = warnings_of_surface_tension(scene);
-  warnings.insert(warnings.end(), of_tension.begin(), of_tension.end());
+  std::vector<std::string> warnings = scene.remarks;
+  for (const auto& more : {warnings_of_bodies(scene, world), warnings_of_surface_tension(scene)})
+    warnings.insert(warnings.end(), more.begin(), more.end());
   return warnings;
 }
 

@@ -1,11 +1,11 @@
 #include "systems/bodies/motion.hpp"
 
-#include "engine/step_control.hpp"
 #include "systems/shapes/rotation.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <tuple>
 
 namespace minamo {
@@ -56,7 +56,9 @@ Twist<Dim> mean_twist(const BodyScene<Dim>& body, double time, double length) {
     mean.spin[rotations<Dim> - 1] = (angle_to - angle_from) / length;
   }
   if (mean.velocity.allFinite() && mean.spin.allFinite()) return mean;
-  throw StepRejected(fmt::format("body \"{}\" has a velocity that is not finite near t = {} s", body.name, time));
+  // No shorter step gets past it.
+  throw std::runtime_error(
+      fmt::format("body \"{}\" has a velocity that is not finite in the step from t = {:.6g} s", body.name, time));
 }
 
 }  // namespace

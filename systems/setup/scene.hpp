@@ -74,7 +74,8 @@ struct Scene {
   Facts facts;                                 ///< what parts tell each other
   std::map<std::string, std::string> schemes;  ///< the chosen ones, by the part's name
   std::vector<ExtraSystem> systems;
-  Recipe recipe;  ///< what the parts have added
+  Recipe recipe;                     ///< what the parts have added
+  std::vector<std::string> remarks;  ///< what was read and may not be meant, a sentence each
 };
 
 /// Reads a scene; problems are noted in the document that `input` belongs to. Where there are any, the recipe of the

@@ -175,7 +175,8 @@ ClosedSurface close_surface(const Triangles& mesh, double scale, const Vec<3>& m
   if (!(std::abs(surface.volume) > least_volume(surface)))
     throw MeshError("no volume", "a surface around a solid",
                     fmt::format("{} around {:.3g} m^3", given, surface.volume));
-  if (surface.volume < 0) turn_round(surface);
+  surface.was_inward = surface.volume < 0;
+  if (surface.was_inward) turn_round(surface);
   surface.volume = std::abs(surface.volume);
   set_normals(surface);
   return surface;

@@ -16,6 +16,7 @@ struct ClosedSurface {
   std::vector<Vec<3>> edge_normal;    ///< mean of the two triangles
   std::vector<Vec<3>> corner_normal;  ///< mean of the triangles, weighted with their angles
   double volume = 0;                  ///< [m^3]
+  bool was_inward = false;            ///< and has been turned round
 };
 
 /// x = scale X + move of the corners of a file. Corners at one place become one; triangles that thereby lose a corner

@@ -211,7 +211,11 @@ class ShapeReader {
           vec_of<Dim>(input.numbers("move", 3, {.unit = "m", .doc = "after they are scaled", .fallback = 0.0}));
       if (!can_make(input)) return nullptr;
       try {
-        return std::make_shared<shapes::Mesh>(shapes::close_surface(shapes::read_mesh(file), scale, move));
+        auto surface = shapes::close_surface(shapes::read_mesh(file), scale, move);
+        if (surface.was_inward)
+          input.remark("file",
+                       "the triangles turn inward; the solid is what they enclose, \"invert\" makes it the rest");
+        return std::make_shared<shapes::Mesh>(std::move(surface));
       } catch (const shapes::MeshError& error) {
         input.problem("file", error.what(), error.expected, error.got);
       }

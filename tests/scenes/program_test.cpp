@@ -211,6 +211,19 @@ TEST_CASE("a run that fails ends with 3, says where, and leaves a checkpoint and
   CHECK(summary["time"] < 0.0032);
 }
 
+TEST_CASE("a motion that becomes no number ends the run at once", "[scene]") {
+  const Folder folder;
+  const ProgramEnd end =
+      run_program({"run", scene_path("paddle.json"), "--out", folder / "out", "--threads", "1", "--set",
+                   R"json(/bodies/0/motion={"prescribed": {"velocity": ["0.1*sqrt(0.01 - t)", 0]}})json", "--set",
+                   R"json(/time={"end": 1, "step": 0.004})json"});
+  CHECK(end.code == 3);
+  CHECK_THAT(end.output, Catch::Contains("has a velocity that is not finite in the step from t = 0.008 s") &&
+                             !Catch::Contains("taken back"));
+  CHECK(json_of(folder / "out/summary.json")["steps"] == 2);
+  CHECK(std::filesystem::exists(folder / "out/checkpoint.h5"));
+}
+
 TEST_CASE("an interrupted run ends with 130 and leaves a checkpoint", "[scene]") {
   const Folder folder;
   const int signal = GENERATE(SIGINT, SIGTERM);

@@ -133,3 +133,23 @@ TEST_CASE("check and run warn of bodies, and still run", "[scene]") {
   CHECK(ran.code == 0);
   CHECK_THAT(ran.err, Contains("a.json: a gap of 0.02 m"));
 }
+
+TEST_CASE("a mesh whose triangles turn inward is told once, by check and by run", "[scene]") {
+  const Folder folder;
+  const bool is_inward = GENERATE(true, false);
+  std::ofstream(folder / "a.obj") << "v 0.2 0.2 0.3\nv 0.3 0.2 0.3\nv 0.2 0.3 0.3\nv 0.2 0.2 0.4\n"
+                                  << (is_inward ? "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n"
+                                                : "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  Json scene = around_bodies(R"([{"name": "a", "shape": {"mesh": {"file": "a.obj"}}}])");
+  scene["time"] = Json::parse(R"({"end": 0.001, "step": 1e-3})");
+  std::ofstream(folder / "a.json") << scene.dump();
+  const auto checked = output_of_program(folder / "", {"check", "a.json"});
+  CHECK(checked.code == 0);
+  const std::string remark = "a.json: /bodies/0/shape/mesh/file: the triangles turn inward";
+  const std::size_t found = checked.err.find(remark);
+  CHECK((found != std::string::npos) == is_inward);
+  if (is_inward) CHECK(checked.err.find(remark, found + 1) == std::string::npos);
+  const auto ran = output_of_program(folder / "", {"run", "a.json", "--out", "out", "--threads", "1", "--quiet"});
+  CHECK(ran.code == 0);
+  CHECK((ran.err.find(remark) != std::string::npos) == is_inward);
+}
