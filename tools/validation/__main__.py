@@ -109,6 +109,20 @@ def validate(case: Case, options: argparse.Namespace) -> dict[str, Any]:
         "particles": result.particles, "steps": result.steps, "cpu_s": round(result.cpu_s, 2)} for result in results}
 
 
+def without_stale(stored: dict[str, Any]) -> dict[str, Any]:
+    """Results of resolutions that a case no longer has are left out until it is run again."""
+    kept = {}
+    for case in CASES:
+        of_case = stored.get(case.name)
+        if of_case is None:
+            continue
+        if set(of_case) == {label for label, _ in case.resolutions}:
+            kept[case.name] = of_case
+        else:
+            print(f"{case.name}: its results are of other resolutions; left out until it is run again")
+    return kept
+
+
 def main() -> None:
     options = arguments()
     if options.list:
@@ -120,6 +134,7 @@ def main() -> None:
     options.out.mkdir(parents=True, exist_ok=True)
     numbers = options.out / "results.json"
     stored = json.loads(numbers.read_text()) if numbers.exists() else {"machine": "", "cases": {}}
+    stored["cases"] = without_stale(stored["cases"])
     for case in chosen(options):
         stored["cases"][case.name] = validate(case, options)
         stored["machine"] = machine()
