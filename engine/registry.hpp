@@ -20,7 +20,9 @@ class SystemRegistry {
   struct Entry {
     std::string name;
     std::string doc;  ///< `Kernel::doc` where it has one: one line, with the equation's number
-    std::function<System(int dimension, Input* options)> make;  ///< `options` may be null: no options given
+    System (*make_named)(std::string name, int dimension, Input* options);
+    /// \param options  may be null: no options given
+    System make(int dimension, Input* options) const { return make_named(name, dimension, options); }
   };
 
   /// Registers `Kernel<2>` and `Kernel<3>`. A kernel with a constructor from `Input&` reads its options there.
@@ -29,9 +31,7 @@ class SystemRegistry {
   void add(std::string name) {
     std::string doc;
     if constexpr (requires { Kernel<2>::doc; }) doc = Kernel<2>::doc;
-    insert({name, std::move(doc), [name](int dimension, Input* options) {
-              return dimension == 2 ? instance<Kernel<2>>(name, options) : instance<Kernel<3>>(name, options);
-            }});
+    insert({std::move(name), std::move(doc), &instance<Kernel>});
   }
 
   /// Adds something that is chosen by its member `name`, like a transfer scheme.
@@ -78,13 +78,17 @@ class SystemRegistry {
     return found == choices_.end() ? none : std::any_cast<const Registered<Choice>&>(found->second);
   }
 
+  template <template <int> class Kernel>
+  static System instance(std::string name, int dimension, Input* options) {
+    return dimension == 2 ? made<Kernel<2>>(std::move(name), options) : made<Kernel<3>>(std::move(name), options);
+  }
   template <class Kernel>
-  static System instance(const std::string& name, Input* options) {
+  static System made(std::string name, Input* options) {
     if constexpr (std::is_constructible_v<Kernel, Input&>) {
-      if (options) return make_system(name, Kernel(*options));
+      if (options) return make_system(std::move(name), Kernel(*options));
     }
     (void)options;
-    return make_system(name, Kernel());
+    return make_system(std::move(name), Kernel());
   }
   void insert(Entry entry);
 

@@ -7,8 +7,13 @@
 #include "engine/world.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -147,6 +152,9 @@ class Resize {
   void reorder(std::span<const std::uint32_t> order) const { world_->reorder<Table>(order); }
   /// As many rows as entries; row k becomes what row `from[k]` was, or zero if there is none.
   void renumber(std::span<const std::optional<std::uint32_t>> from) const { world_->renumber<Table>(from); }
+  /// Rows as bytes, and more of them, from a world with the same columns (world.hpp).
+  std::vector<std::byte> pack(std::span<const std::uint32_t> rows) const { return world_->pack(Table::name, rows); }
+  void append(std::span<const std::byte> packed) const { world_->append(Table::name, packed); }
 
  private:
   World* world_;
@@ -179,21 +187,31 @@ void create(World& world) {
   if constexpr (!std::is_constructible_v<Arg, World&, const Absent&>) (void)Arg(world);
 }
 
+/// A system without its types: what is compiled once for each is no more than this.
+struct Erased {
+  std::span<const Access> access;
+  std::span<void (*const)(World&)> create;  ///< by access
+  std::shared_ptr<const void> kernel;       ///< null if it has no members
+  void (*run)(const void* kernel, World& world, const Absent& absent);
+};
+System make_system(std::string name, const Erased& erased);
+
 template <class Kernel, class... Args>
-System make_system(const std::string& name, const Kernel& kernel, void (Kernel::*)(Args...) const) {
-  const auto run_without = [kernel](const Absent& absent) {
-    return [kernel, absent](World& world) { kernel(view<Args>(world, absent)...); };
-  };
-  System system{name, {Args::access()...}, [](World& world) { (create<Args>(world), ...); }, run_without({})};
-  system.without = [run_without, rest = system](const Absent& absent) {
-    System less = rest;
-    less.run = run_without(absent);
-    std::erase_if(less.access, [&](const Access& access) {
-      return access.optional && std::find(absent.begin(), absent.end(), access.component) != absent.end();
-    });
-    return less;
-  };
-  return system;
+void run(const void* kernel, World& world, const Absent& absent) {
+  if constexpr (std::is_empty_v<Kernel>) {
+    Kernel{}(view<Args>(world, absent)...);
+  } else {
+    (*static_cast<const Kernel*>(kernel))(view<Args>(world, absent)...);
+  }
+}
+
+template <class Kernel, class... Args>
+System make_system(std::string name, const Kernel& kernel, void (Kernel::*)(Args...) const) {
+  static constexpr std::array<Access, sizeof...(Args)> access{Args::access()...};
+  static constexpr std::array<void (*)(World&), sizeof...(Args)> creators{&create<Args>...};
+  Erased erased{access, creators, {}, &run<Kernel, Args...>};
+  if constexpr (!std::is_empty_v<Kernel>) erased.kernel = std::make_shared<const Kernel>(kernel);
+  return make_system(std::move(name), erased);
 }
 
 }  // namespace detail
@@ -201,7 +219,7 @@ System make_system(const std::string& name, const Kernel& kernel, void (Kernel::
 /// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Optional, Write, Update or Resize.
 template <class Kernel>
 System make_system(std::string name, Kernel kernel = {}) {
-  return detail::make_system(name, kernel, &Kernel::operator());
+  return detail::make_system(std::move(name), kernel, &Kernel::operator());
 }
 
 }  // namespace minamo

@@ -1,5 +1,6 @@
 #include "engine/world.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 namespace minamo {
@@ -25,10 +26,54 @@ void World::insert(std::size_t id, std::unique_ptr<Storage> storage) {
   by_id_[id] = std::move(storage);
 }
 
+void World::insert(std::size_t id, MakeStorage make, const ComponentInfo& info, std::string_view table) {
+  insert(id, make(info, table));
+}
+
 void World::resize(std::string_view table, std::size_t rows) {
   rows_[std::string(table)] = rows;
   for (const auto& storage : by_id_) {
     if (storage && storage->table() == table) storage->resize(rows);
+  }
+}
+
+namespace {
+
+bool travels(const Storage& storage, std::string_view table) {
+  return storage.table() == table && storage.info().lifetime != Lifetime::scratch && storage.value_bytes() > 0;
+}
+
+}  // namespace
+
+std::vector<std::byte> World::pack(std::string_view table, std::span<const std::uint32_t> rows) const {
+  std::vector<std::byte> packed;
+  for (const auto& [name, storage] : components()) {
+    if (!travels(*storage, table)) continue;
+    const std::size_t size = storage->value_bytes();
+    const std::span<const std::byte> bytes = storage->bytes();
+    for (const std::uint32_t row : rows) {
+      const auto value = bytes.subspan(row * size, size);
+      packed.insert(packed.end(), value.begin(), value.end());
+    }
+  }
+  return packed;
+}
+
+void World::append(std::string_view table, std::span<const std::byte> packed) {
+  std::size_t row_bytes = 0;
+  for (const auto& [name, storage] : components()) {
+    if (travels(*storage, table)) row_bytes += storage->value_bytes();
+  }
+  if (row_bytes == 0 || packed.empty()) return;
+  const std::size_t before = rows(table);
+  const std::size_t count = packed.size() / row_bytes;
+  resize(table, before + count);
+  for (const auto& [name, storage] : components()) {
+    if (!travels(*storage, table)) continue;
+    const std::size_t size = storage->value_bytes();
+    const auto column = packed.first(count * size);
+    std::copy(column.begin(), column.end(), storage->bytes().subspan(before * size).begin());
+    packed = packed.subspan(count * size);
   }
 }
 

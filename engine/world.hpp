@@ -301,6 +301,10 @@ class World {
     resize(Table::name, rows);
   }
   void resize(std::string_view table, std::size_t rows);
+  /// What outlives a step of some rows of a table, column by column in the order of their names, as bytes.
+  std::vector<std::byte> pack(std::string_view table, std::span<const std::uint32_t> rows) const;
+  /// Adds rows that pack() of a world with the same columns has left.
+  void append(std::string_view table, std::span<const std::byte> packed);
 
   /// Row k of every column of the table that outlives a step becomes what row `order[k]` was.
   /// Scratch columns are left as they are: they mean nothing after a structural change.
@@ -329,9 +333,15 @@ class World {
   template <class C, class StorageType>
   StorageType& stored(std::string_view table) {
     const std::size_t id = component_id<C>();
-    if (id >= by_id_.size() || !by_id_[id]) insert(id, std::make_unique<StorageType>(C::info, table));
+    if (id >= by_id_.size() || !by_id_[id]) insert(id, make_storage<StorageType>, C::info, table);
     return static_cast<StorageType&>(*by_id_[id]);
   }
+  template <class StorageType>
+  static std::unique_ptr<Storage> make_storage(const ComponentInfo& info, std::string_view table) {
+    return std::make_unique<StorageType>(info, table);
+  }
+  using MakeStorage = std::unique_ptr<Storage> (*)(const ComponentInfo& info, std::string_view table);
+  void insert(std::size_t id, MakeStorage make, const ComponentInfo& info, std::string_view table);
   void insert(std::size_t id, std::unique_ptr<Storage> storage);
   void reorder(std::string_view table, std::span<const std::uint32_t> order);
   void renumber(std::string_view table, std::span<const std::optional<std::uint32_t>> from);

@@ -3,7 +3,7 @@
 #include "systems/conforming/support.hpp"
 
 #include <map>
-#include <numeric>
+#include <optional>
 
 namespace minamo {
 
@@ -23,8 +23,9 @@ std::vector<int> owners_of(const RankMap& map, const Grid<Dim>& grid, const Spli
   return owner;
 }
 
-std::vector<std::uint32_t> rows_of(std::span<const int> owner, int rank) {
-  std::vector<std::uint32_t> rows;
+/// For renumber().
+std::vector<std::optional<std::uint32_t>> rows_of(std::span<const int> owner, int rank) {
+  std::vector<std::optional<std::uint32_t>> rows;
   for (std::size_t p = 0; p < owner.size(); ++p) {
     if (owner[p] == rank) rows.push_back(static_cast<std::uint32_t>(p));
   }
@@ -63,14 +64,14 @@ void keep_own(Communicator& ranks, World& world) {
   const auto x_p = world.column<particle::Position<Dim>>();
   auto& map = world.resource<RankMap>();
   map = cut_curve(loads_of<Dim>(grid, splines, x_p), ranks.size());
-  MoveRows<Particles>(world).keep(rows_of(owners_of<Dim>(map, grid, splines, x_p), ranks.rank()));
+  Resize<Particles>(world).renumber(rows_of(owners_of<Dim>(map, grid, splines, x_p), ranks.rank()));
 }
 
 }  // namespace
 
 template <int Dim>
 void MigrateParticles<Dim>::operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                       Read<particle::QuadraturePosition<Dim>> y_p, MoveRows<Particles> particles,
+                                       Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
                                        Update<RankMap> map) const {
   Communicator& all = *ranks->all;
   if (map->begin.empty() || is_imbalanced(all, y_p.size()))
@@ -83,7 +84,7 @@ void MigrateParticles<Dim>::operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, 
   std::vector<Communicator::Message> sent;
   for (const auto& [rank, rows] : leaving) sent.push_back({rank, particles.pack(rows)});
   const auto received = all.exchange(sent);
-  if (!sent.empty()) particles.keep(rows_of(owner, all.rank()));
+  if (!sent.empty()) particles.renumber(rows_of(owner, all.rank()));
   for (const auto& message : received) particles.append(message.bytes);
 }
 

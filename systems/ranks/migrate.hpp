@@ -5,7 +5,7 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "engine/communicator.hpp"
-#include "engine/packed_rows.hpp"
+#include "engine/system.hpp"
 #include "systems/ranks/rank_map.hpp"
 
 namespace minamo {
@@ -16,8 +16,7 @@ template <int Dim>
 struct MigrateParticles {
   static constexpr std::string_view doc = "particles to the rank that owns their block";
   void operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<particle::QuadraturePosition<Dim>> y_p, MoveRows<Particles> particles,
-                  Update<RankMap> map) const;
+                  Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles, Update<RankMap> map) const;
 };
 
 /// Of a world that has the particles of all ranks: leaves those of this one.

@@ -1,7 +1,6 @@
 #include "systems/ranks/rows_of_ranks.hpp"
 
 #include "components/particle.hpp"
-#include "engine/packed_rows.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 #include <numeric>
@@ -29,21 +28,21 @@ std::vector<std::uint32_t> owned_rows(Communicator& ranks, World& world) {
 
 RowsOfRanks::RowsOfRanks(Communicator& ranks, World& world)
     : world_(world), has_all_(ranks.is_first()), particles_(world.rows<Particles>()) {
-  const auto particles = ranks.gather(pack_rows(world, Particles::name, all_rows(has_all_ ? 0 : particles_)));
+  const auto particles = ranks.gather(world.pack(Particles::name, all_rows(has_all_ ? 0 : particles_)));
   const std::vector<std::uint32_t> owned = owned_rows(ranks, world);
-  const auto sites = ranks.gather(pack_rows(world, Staggered::name, owned));
+  const auto sites = ranks.gather(world.pack(Staggered::name, owned));
   if (!has_all_) return;
-  for (const auto& of_rank : particles) append_rows(world, Particles::name, of_rank);
-  staggered_ = pack_rows(world, Staggered::name, all_rows(world.rows<Staggered>()));
+  for (const auto& of_rank : particles) world.append(Particles::name, of_rank);
+  staggered_ = world.pack(Staggered::name, all_rows(world.rows<Staggered>()));
   world.resize<Staggered>(0);
-  for (const auto& of_rank : sites) append_rows(world, Staggered::name, of_rank);
+  for (const auto& of_rank : sites) world.append(Staggered::name, of_rank);
 }
 
 RowsOfRanks::~RowsOfRanks() {
   if (!has_all_) return;
   world_.resize<Particles>(particles_);
   world_.resize<Staggered>(0);
-  append_rows(world_, Staggered::name, staggered_);
+  world_.append(Staggered::name, staggered_);
 }
 
 }  // namespace minamo

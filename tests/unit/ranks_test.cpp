@@ -2,7 +2,6 @@
 
 #include "components/particle.hpp"
 #include "engine/communicator.hpp"
-#include "engine/packed_rows.hpp"
 #include "engine/schedule.hpp"
 #include "engine/step_control.hpp"
 #include "support/rows.hpp"
@@ -113,15 +112,12 @@ TEST_CASE("rows go from world to world with all that outlives a step", "[unit]")
     from.column<particle::Position<2>>()[p] = Vec<2>(p, -1.0 * static_cast<double>(p));
   }
   to.column<particle::Id>()[0] = 7;
-  append_rows(to, Particles::name, pack_rows(from, Particles::name, std::vector<std::uint32_t>{3, 1}));
+  to.append(Particles::name, from.pack(Particles::name, std::vector<std::uint32_t>{3, 1}));
   REQUIRE(to.rows<Particles>() == 3);
   const auto id = to.column<particle::Id>();
   CHECK(std::vector<std::int64_t>(id.begin(), id.end()) == std::vector<std::int64_t>{7, 13, 11});
   CHECK(to.column<particle::Position<2>>()[1] == Vec<2>(3, -3));
   CHECK(to.column<particle::BodyForce<2>>().size() == 3);
-  MoveRows<Particles>(from).keep(std::vector<std::uint32_t>{2});
-  REQUIRE(from.rows<Particles>() == 1);
-  CHECK(from.column<particle::Id>()[0] == 12);
 }
 
 namespace {
