@@ -5,6 +5,7 @@
 
 #include "engine/component.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -12,7 +13,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace minamo {
@@ -59,7 +59,6 @@ class Communicator {
     sum(std::span(&value, 1));
     return value;
   }
-  bool any(bool value) { return largest(value ? 1 : 0) > 0; }
 
  protected:
   virtual std::vector<Message> exchange_between_strangers(const std::vector<Message>& sent) = 0;
@@ -75,6 +74,13 @@ Communicator* all_ranks();
 void set_all_ranks(Communicator* communicator);
 /// Whether this process writes for all.
 inline bool writes_for_all() { return all_ranks() == nullptr || all_ranks()->is_first(); }
+
+/// Over the ranks; of a process that is alone its own value.
+inline double sum_over_ranks(double value) { return all_ranks() == nullptr ? value : all_ranks()->sum(value); }
+inline std::int64_t sum_over_ranks(std::int64_t value) {
+  return all_ranks() == nullptr ? value : all_ranks()->sum(value);
+}
+inline double largest_over_ranks(double value) { return all_ranks() == nullptr ? value : all_ranks()->largest(value); }
 
 /// What another rank has failed with, and told.
 class FailedElsewhere : public std::runtime_error {

@@ -1,5 +1,7 @@
 #include "engine/simulation.hpp"
 
+#include "engine/communicator.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -130,7 +132,7 @@ class Loop {
     Recurrence checkpoints(plan_.checkpoint_every, clock_.time, clock_.step);
     while (!is_over()) {
       const bool has_frame = take_step(frames);
-      const bool is_stopped = observers_.on_any_rank ? observers_.on_any_rank(stop) : stop.load();
+      const bool is_stopped = largest_over_ranks(stop ? 1 : 0) > 0;
       if (checkpoints.due(clock_.time, clock_.step) || is_over() || is_stopped) checkpoint();
       if (is_over() && !has_frame) frame_.run();
       if (is_stopped && !is_over()) return Ending::interrupted;

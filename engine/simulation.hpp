@@ -35,8 +35,6 @@ struct Observers {
   /// An attempt was not accepted, and another follows. The clock is that of the attempt.
   std::function<void(const Clock&, const std::string& why)> after_rejection;
   std::function<void()> write_checkpoint;
-  /// Whether the run is to stop, on one rank or more; empty: this process is asked alone.
-  std::function<bool(bool)> on_any_rank = {};
 };
 
 enum class Ending { done, interrupted, failed };

@@ -162,9 +162,7 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
             reserve.release();
             write_run_checkpoint(plan.folder, file, world);
             reserve.take();
-          },
-      .on_any_rank = all_ranks() == nullptr ? std::function<bool(bool)>()
-                                            : [](bool is_asked) { return all_ranks()->any(is_asked); }};
+          }};
   const Stopwatch loop;
   result.outcome = run_simulation(world, start, step, frame, times, observers, stop, plan.beginning);
   result.loop_seconds = loop.wall_seconds();

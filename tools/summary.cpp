@@ -89,13 +89,9 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   const RunTotals& totals = totals_of_all_rows(world);
   const StepTotals& steps = world.resource<StepTotals>();
   const double wall = stopwatch.wall_seconds();
-  auto particles = static_cast<std::int64_t>(world.rows<Particles>());
   double mass = 0;
   for (const double m : world.column<particle::Mass>()) mass += m;
-  if (all_ranks() != nullptr) {
-    particles = all_ranks()->sum(particles);
-    mass = all_ranks()->sum(mass);
-  }
+  mass = sum_over_ranks(mass);
   Json summary{{"scene", scene}, {"status", status(outcome.ending)}};
   if (!outcome.message.empty()) summary["message"] = outcome.message;
   summary.update({{"steps", clock.index},
@@ -107,7 +103,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
                   {"cpu_model", cpu_model()},
                   {"version", version},
                   {"build", build_facts()},
-                  {"particles", particles},
+                  {"particles", sum_over_ranks(static_cast<std::int64_t>(world.rows<Particles>()))},
                   {"clamped", world.resource<Clamped>().count},
                   {"active_nodes_max", steps.active_nodes_max},
                   {"unknowns_max", steps.unknowns_max},

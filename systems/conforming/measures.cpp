@@ -22,34 +22,17 @@ void MeasureFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<D
       of_unknown.size(), 0.0,
       [&](std::size_t l) {
         const std::size_t i = of_unknown[l];
-        return shared && !shared->owns(i) ? 0 : std::abs(incidence.divergence(i, v_f.span(), passage));
+        return owns(of_ranks(shared), i) ? std::abs(incidence.divergence(i, v_f.span(), passage)) : 0;
       },
       [](double x, double y) { return std::max(x, y); });
   if (shared) largest->value = shared->ranks().largest(largest->value);
 }
 
-namespace {
-
-/// overlap_of() of all ranks, every multiplier counted once.
-double overlap_on_ranks(const SiteExchange& shared, std::span<const double> V_p, std::span<const double> capacity,
-                        std::span<const double> v_l) {
-  std::array<double, 2> sums{};
-  for (std::size_t i = 0; i < v_l.size(); ++i) {
-    if (shared.owns(i)) sums[0] += std::max(0.0, v_l[i] - capacity[i]);
-  }
-  for (const double V : V_p) sums[1] += V;
-  shared.ranks().sum(sums);
-  return sums[0] / sums[1];
-}
-
-}  // namespace
-
 template <int Dim>
 void MeasureMultiplierOverlap<Dim>::operator()(Read<particle::Volume> V_p, Read<multiplier::Capacity> capacity,
                                                Read<multiplier::Volume> v_l, Optional<Read<SiteExchange>> shared,
                                                Write<measure::Overlap> overlap) const {
-  overlap->value = shared ? overlap_on_ranks(*shared, V_p.span(), capacity.span(), v_l.span())
-                          : overlap_of(V_p.span(), capacity.span(), v_l.span());
+  overlap->value = overlap_of(V_p.span(), capacity.span(), v_l.span(), of_ranks(shared));
 }
 
 namespace {

@@ -125,7 +125,7 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
   if (lifted <= 0) return;
   const auto work_at = [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); };
   const double work = reduce_rows(
-      u_f.size(), 0.0, [&](std::size_t i) { return shared && !shared->owns(i) ? 0 : work_at(i); }, std::plus<>());
+      u_f.size(), 0.0, [&](std::size_t i) { return owns(of_ranks(shared), i) ? work_at(i) : 0; }, std::plus<>());
   // What bodies have got is not lost: they give it back.
   double given = 0;
   if (W_b)

@@ -1,15 +1,18 @@
 #include "systems/grid/activate.hpp"
 
+#include <array>
+
 namespace minamo {
 
-double mass_threshold(std::span<const double> m_i) {
-  double mass = 0;
-  std::size_t count = 0;
-  for (const double m : m_i) {
-    mass += m;
-    count += m > 0;
+double mass_threshold(std::span<const double> m_i, std::size_t width, const SiteExchange* shared) {
+  std::array<double, 2> sums{};  // mass, entries with mass
+  for (std::size_t k = 0; k < m_i.size(); ++k) {
+    if (!owns(shared, k / width)) continue;
+    sums[0] += m_i[k];
+    sums[1] += m_i[k] > 0 ? 1 : 0;
   }
-  return count == 0 ? 0 : share_of_mean_mass * mass / static_cast<double>(count);
+  if (shared != nullptr) shared->ranks().sum(sums);
+  return sums[1] == 0 ? 0 : share_of_mean_mass * sums[0] / sums[1];
 }
 
 namespace {

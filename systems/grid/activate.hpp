@@ -6,6 +6,7 @@
 #include "components/node.hpp"
 #include "components/sites.hpp"
 #include "engine/system.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 #include <span>
 
@@ -14,7 +15,9 @@ namespace minamo {
 /// Of (E7).
 inline constexpr double share_of_mean_mass = 1e-4;
 /// (E7)  1e-4 mean(m_J over nodes with mass): the mass threshold. [kg]
-double mass_threshold(std::span<const double> m_i);
+/// \param m_i     by row, `width` numbers each
+/// \param shared  of these rows; null where this process is alone
+double mass_threshold(std::span<const double> m_i, std::size_t width = 1, const SiteExchange* shared = nullptr);
 
 /// (E7)  Node I is active if it is above the mass threshold, or if it has mass and lies next to a node of a wall that
 /// is above. The others have no pressure and move freely.

@@ -105,19 +105,6 @@ void require_finite(std::span<const std::int64_t> id, std::span<const Vec<Dim>> 
                                  text<Vec<Dim>>(v_p[p]), only_gradient ? " and a gradient that is not finite" : ""));
 }
 
-/// mass_threshold() of the faces of all ranks, each counted once.
-template <int Dim>
-double threshold_on_ranks(const SiteExchange& shared, std::span<const Vec<Dim>> m_f) {
-  std::array<double, 2> sums{};  // mass, faces with mass
-  for (std::size_t i = 0; i < m_f.size(); ++i) {
-    if (!shared.owns(i)) continue;
-    sums[0] += m_f[i].sum();
-    sums[1] += static_cast<double>((m_f[i].array() > 0).count());
-  }
-  shared.ranks().sum(sums);
-  return sums[1] == 0 ? 0 : share_of_mean_mass * sums[0] / sums[1];
-}
-
 }  // namespace
 
 template <int Dim>
@@ -145,8 +132,7 @@ void AcceptStepOnFaces<Dim>::operator()(
     Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
     Optional<Read<SiteExchange>> shared, Read<measure::Overlap> overlap, Read<StepTotals> so_far) const {
   require_solved(*solve, *tolerance);
-  const double threshold =
-      shared ? threshold_on_ranks<Dim>(*shared, m_f.span()) : mass_threshold(numbers_of(m_f.span()));
+  const double threshold = mass_threshold(numbers_of(m_f.span()), Dim, of_ranks(shared));
   require_moderate<Dim>(*grid, largest->cells, site.span(), u_f.span(), [&](std::size_t i) {
     if (!u_f[i].allFinite()) return std::numeric_limits<double>::infinity();
     return (m_f[i].array() > threshold).select(u_f[i], Vec<Dim>(Vec<Dim>::Zero())).norm();

@@ -2,6 +2,7 @@
 
 #include "systems/assemble/neighbours.hpp"
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -25,10 +26,14 @@ void MeasureDivergence<Dim>::operator()(Read<Fluid> fluid, Read<Rates> rates, Re
   largest->value = reduce_rows(node.size(), 0.0, of_row, [](double x, double y) { return std::max(x, y); });
 }
 
-double overlap_of(std::span<const double> V_p, std::span<const double> capacity, std::span<const double> volume) {
+double overlap_of(std::span<const double> V_p, std::span<const double> capacity, std::span<const double> volume,
+                  const SiteExchange* shared) {
   const auto sum = [](std::size_t rows, const auto& value) { return reduce_rows(rows, 0.0, value, std::plus<>()); };
-  const double excess = sum(volume.size(), [&](std::size_t i) { return std::max(0.0, volume[i] - capacity[i]); });
-  return excess / sum(V_p.size(), [&](std::size_t p) { return V_p[p]; });
+  std::array<double, 2> sums{
+      sum(volume.size(), [&](std::size_t i) { return owns(shared, i) ? std::max(0.0, volume[i] - capacity[i]) : 0; }),
+      sum(V_p.size(), [&](std::size_t p) { return V_p[p]; })};
+  if (shared != nullptr) shared->ranks().sum(sums);
+  return sums[0] / sums[1];
 }
 
 template <int Dim>

@@ -12,6 +12,7 @@
 #include "components/sites.hpp"
 #include "components/step.hpp"
 #include "engine/system.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -26,7 +27,9 @@ struct MeasureDivergence {
 };
 
 /// (E32)  sum max(0, V~ - V) / sum_p V_p.
-double overlap_of(std::span<const double> V_p, std::span<const double> capacity, std::span<const double> volume);
+/// \param shared  of the sites with these volumes; null where this process is alone
+double overlap_of(std::span<const double> V_p, std::span<const double> capacity, std::span<const double> volume,
+                  const SiteExchange* shared = nullptr);
 
 /// (E32)  overlap = sum_I max(0, V~_I - V_I) / sum_p V_p, V~_I (E35), V_I (E39).
 template <int Dim>

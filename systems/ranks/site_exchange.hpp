@@ -70,6 +70,8 @@ void add_up(const Optional<Read<SiteExchange>>& shared, std::span<T> column) {
 }
 
 inline const SiteExchange* of_ranks(const Optional<Read<SiteExchange>>& shared) { return shared ? &*shared : nullptr; }
+/// Whether this process answers for a row where every row counts once: for all, if it is alone.
+inline bool owns(const SiteExchange* shared, std::size_t row) { return shared == nullptr || shared->owns(row); }
 
 template <int Dim>
 struct PlanSiteExchange {

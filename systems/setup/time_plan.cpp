@@ -80,8 +80,7 @@ TimePlan make_time_plan(const Scene& scene) {
     const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);
     const auto& force = scene.facts.get<BodyForce>();
     const double b = scene.dimension == 2 ? largest_force<2>(force, world) : largest_force<3>(force, world);
-    return all_ranks() == nullptr ? step_of_cfl(scene, v, b)
-                                  : step_of_cfl(scene, all_ranks()->largest(v), all_ranks()->largest(b));
+    return step_of_cfl(scene, largest_over_ranks(v), largest_over_ranks(b));
   };
   return plan;
 }
