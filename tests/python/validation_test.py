@@ -48,6 +48,14 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(figure.rms()(ours, measured), 10)
         self.assertAlmostEqual(figure.rms(0, 5)(ours, measured), 20)
 
+    def test_a_delay_is_found_and_taken_off(self):
+        late = Points(self.x[::50] + 0.3, self.x[::50] ** 2)
+        ours = Points(self.x, self.x**2)
+        self.assertAlmostEqual(figure.delay(0.5)(ours, late), 0.3, delta=1e-3)
+        self.assertLess(figure.rms_but_delay(0.5)(ours, late), 0.02)
+        self.assertGreater(figure.rms()(ours, late), 2)
+        self.assertAlmostEqual(figure.delay(0.5)(late, ours), 0)  # never earlier
+
     def test_slope_and_mean_are_relative(self):
         ours, measured = Points(self.x, 1.2 * self.x), Points(self.x[::50], self.x[::50])
         self.assertAlmostEqual(figure.slope(2, 8)(ours, measured), 20)
@@ -95,6 +103,17 @@ class Tool(unittest.TestCase):
         self.assertEqual(len(rows), 201)
         self.assertTrue(rows[1].startswith("0,1,1"), rows[1])  # the front at the start, over a
         self.assertIn("## Dam break", (out / "README.md").read_text())
+
+    def test_results_of_other_resolutions_are_left_out(self):
+        out = WORK / "stale"
+        out.mkdir()
+        of_before = {"L/10": {"figures": [1, 2], "particles": 1, "steps": 1, "cpu_s": 1}}
+        stale = {"machine": "", "cases": {CASES[1].name: of_before}}
+        (out / "results.json").write_text(json.dumps(stale))
+        done = validate("--experiments", stand_ins(WORK / "other"), "--out", out, "dam_break")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{CASES[1].name}: its results are of other resolutions", done.stdout)
+        self.assertEqual(list(json.loads((out / "results.json").read_text())["cases"]), ["dam_break"])
 
     def test_wrong_input_is_told_at_once(self):
         data = stand_ins(WORK / "some")

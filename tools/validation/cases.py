@@ -58,6 +58,8 @@ CASES = (
         (Curve("front", "front over L", front(), "koshizuka_oka_1996_front.csv", "front_over_L", scale=1 / L,
                time_column="t_sqrt_2g_over_L", time_scale=math.sqrt(2 * G / L)),),
         (Figure("front", "front, rms", figure.rms()),
+         Figure("front", "delay of the gate, fitted", figure.delay(0.5), ""),
+         Figure("front", "front but for that delay, rms", figure.rms_but_delay(0.5)),
          Figure("front", "speed of the front, from 1.5", figure.slope(1.5, 3.2))),
         tuple((label, {"/time/end": 0.28, "/walls": ROUGH_FLOOR, "/grid/cells": [cells, cells]})
               for label, cells in (("L/20", 80), ("L/40", 160)))),

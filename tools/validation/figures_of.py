@@ -26,6 +26,25 @@ def rms(low: float = -np.inf, high: float = np.inf) -> Of:
     return of
 
 
+def later(measured: Points, delay: float) -> Points:
+    """The measured curve, were there no delay."""
+    return Points(measured.x - delay, measured.y)
+
+
+def best_delay(ours: Points, measured: Points, most: float) -> float:
+    return min(np.linspace(0, most, 501), key=lambda delay: rms()(ours, later(measured, delay)))
+
+
+def delay(most: float) -> Of:
+    """By which the measured curve is later, from 0 to `most`, where it is nearest to ours. [of the axis]"""
+    return lambda ours, measured: float(best_delay(ours, measured, most))
+
+
+def rms_but_delay(most: float) -> Of:
+    """Like rms(), after that delay. [%]"""
+    return lambda ours, measured: rms()(ours, later(measured, best_delay(ours, measured, most)))
+
+
 def slope(low: float, high: float) -> Of:
     """Mean slope over that of the measured curve, less 1. [%]"""
 

@@ -15,7 +15,7 @@ replaces an experiment. The data are their authors' and not part of minamo: what
 - All settings but the cells are the defaults, or stand in the scene. Two were chosen with the measurements in view: the
   floor of the dry columns holds the water, and the pitched tank has 3 x 3 particles a cell and steps of 10 ms.
 - *rms* is the root mean square of the difference over the largest measured value. Other figures are what ours is over
-  theirs, less one.
+  theirs, less one; a delay is in units of the picture's axis.
 - Curves are means over 1/200 of the time shown; pressures of single steps are noisier.
 - Air is not computed: a cavity is empty, and closes without a cushion.
 - *CPU time* is of all threads together{machine}.
@@ -23,7 +23,9 @@ replaces an experiment. The data are their authors' and not part of minamo: what
 
 
 def number(value: float | None, unit: str) -> str:
-    return "none" if value is None else f"{value:+.1f} {unit}"
+    if value is None:
+        return "none"
+    return f"{value:+.1f} {unit}" if unit else f"{value:+.2f}"
 
 
 def section(case: Any, stored: dict[str, Any], scene: str) -> list[str]:
