@@ -106,7 +106,7 @@ class Tool(unittest.TestCase):
 
     def test_results_of_other_resolutions_are_left_out(self):
         out = WORK / "stale"
-        out.mkdir()
+        out.mkdir(exist_ok=True)
         of_before = {"L/10": {"figures": [1, 2], "particles": 1, "steps": 1, "cpu_s": 1}}
         stale = {"machine": "", "cases": {CASES[1].name: of_before}}
         (out / "results.json").write_text(json.dumps(stale))
