@@ -88,7 +88,7 @@ void warn_of_rejection(const Clock& clock, const std::string& why) {
 void warn_of_energy(const Json& summary, World& world) {
   const double rise = summary["conservation"]["energy_rise"];
   if (rise <= 0.01) return;
-  spdlog::warn("energy rose by {:.3g} % though nothing does work, most of all until t = {:.6g} s; a shorter step or "
+  spdlog::warn("energy rose by {:.3g} % that no work accounts for, most of all until t = {:.6g} s; a shorter step or "
                "another method may keep it",
                100 * rise, totals_of_all_rows(world).energy.time);
 }
