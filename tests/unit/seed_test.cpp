@@ -215,7 +215,8 @@ TEST_CASE("layers of a lattice are those of the whole one, jitter included", "[u
   Grid<2> grid;
   grid.cells = {7, 9};
   grid.spacing = 0.1;
-  ParticleScene region{.shape = Where{}, .per_cell = 3, .jitter = {}, .velocity = {}};
+  ParticleScene region;
+  region.per_cell = 3;
   region.shape = SharedShape<2>(std::make_shared<shapes::Ball<2>>(Vec<2>(0.3, 0.5), 0.25));
   if (GENERATE(false, true)) region.jitter = 5;
   std::vector<Vec<2>> together;
