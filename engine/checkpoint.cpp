@@ -1,9 +1,10 @@
 #include "engine/checkpoint.hpp"
 
+#include "engine/shared_file.hpp"
+
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <vector>
+#include <list>
 
 namespace minamo {
 
@@ -11,28 +12,52 @@ namespace {
 
 std::string dataset_of(const Storage& storage) { return "/state/" + std::string(storage.info().name); }
 
-void write_component(Hdf5File& file, Storage& storage) {
-  const std::string dataset = dataset_of(storage);
-  if (storage.value_bytes() == 0) {
-    throw std::logic_error("state component " + std::string(storage.info().name) + " is not plain data");
+/// The bytes of some rows.
+std::vector<std::byte> bytes_of(Storage& storage, std::span<const std::uint32_t> rows) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(rows.size() * storage.value_bytes());
+  for (const std::uint32_t row : rows) {
+    const auto value = storage.bytes().subspan(row * storage.value_bytes(), storage.value_bytes());
+    bytes.insert(bytes.end(), value.begin(), value.end());
   }
-  const std::span<std::byte> bytes = storage.bytes();
-  if (const std::size_t width = storage.doubles_per_value(); width > 0) {
-    const std::span values(reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double));
-    file.write(dataset, values, width);
-  } else {
-    file.write(dataset, std::span<const std::byte>(bytes));
-  }
+  return bytes;
 }
 
-void write_file(const std::string& path, const World& world, const std::function<void(Hdf5File&)>& add) {
-  Hdf5File file(path, Hdf5File::Access::create);
-  for (const auto& [name, storage] : world.components()) {
-    if (storage->info().lifetime == Lifetime::state) write_component(file, *storage);
-  }
-  if (add) add(file);
-  file.close();
+DatasetRows dataset_rows(const Storage& storage, std::span<const std::byte> bytes) {
+  const std::size_t width = storage.doubles_per_value();
+  if (width == 0) return {dataset_of(storage), bytes};
+  const std::span values(reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double));
+  return {dataset_of(storage), values, width};
 }
+
+/// The state that this rank has to write.
+class OwnState {
+ public:
+  OwnState(const World& world, const RowsOfRank& rows) {
+    for (const auto& [name, storage] : world.components()) {
+      if (storage->info().lifetime == Lifetime::state) add(*storage, rows);
+    }
+  }
+  std::span<const DatasetRows> datasets() const { return datasets_; }
+
+ private:
+  void add(Storage& storage, const RowsOfRank& rows) {
+    if (storage.value_bytes() == 0) {
+      throw std::logic_error("state component " + std::string(storage.info().name) + " is not plain data");
+    }
+    const auto some = rows.some.find(storage.table());
+    if (some != rows.some.end()) {
+      selected_.push_back(bytes_of(storage, some->second));
+      datasets_.push_back(dataset_rows(storage, selected_.back()));
+    } else {
+      const bool is_here = rows.ranks == nullptr || rows.ranks->is_first() || storage.table() == rows.whole;
+      datasets_.push_back(dataset_rows(storage, is_here ? storage.bytes() : std::span<std::byte>()));
+    }
+  }
+
+  std::vector<DatasetRows> datasets_;
+  std::list<std::vector<std::byte>> selected_;
+};
 
 /// The values of a component in the file, and of how many rows.
 struct Stored {
@@ -41,13 +66,16 @@ struct Stored {
   std::size_t rows() const { return bytes.size() / storage->value_bytes(); }
 };
 
-Stored read_component(const Hdf5File& file, Storage& storage) {
-  Stored stored{&storage, file.read_bytes(dataset_of(storage))};
+Stored read_component(const Hdf5File& file, Storage& storage, const ShareOfTable& share) {
+  const std::size_t bytes = file.size_of(dataset_of(storage));
+  const std::size_t rows = bytes / storage.value_bytes();
   const bool is_resource = storage.table().empty();
-  if (stored.bytes.size() % storage.value_bytes() != 0 || (is_resource && stored.rows() != 1)) {
+  if (bytes % storage.value_bytes() != 0 || (is_resource && rows != 1)) {
     throw std::runtime_error(file.path() + ": dataset " + dataset_of(storage) + " has another size");
   }
-  return stored;
+  if (is_resource || storage.table() != share.table) return {&storage, file.read_bytes(dataset_of(storage))};
+  const auto bytes_before = [&](std::size_t rank) { return rank * rows / share.ranks * storage.value_bytes(); };
+  return {&storage, file.read_bytes(dataset_of(storage), bytes_before(share.rank), bytes_before(share.rank + 1))};
 }
 
 /// The rows of every table.
@@ -65,23 +93,29 @@ std::map<std::string_view, std::size_t> rows_of_tables(const Hdf5File& file, con
 
 }  // namespace
 
-void write_checkpoint(const std::string& path, const World& world, const std::function<void(Hdf5File&)>& add) {
+void write_checkpoint(const std::string& path, const World& world, const std::function<void(Hdf5File&)>& add,
+                      const RowsOfRank& rows) {
   const std::string unfinished = path + ".unfinished";
+  const bool is_first = rows.ranks == nullptr || rows.ranks->is_first();
   try {
-    write_file(unfinished, world, add);
-    synchronize(unfinished);
-    std::filesystem::rename(unfinished, path);
+    const OwnState state(world, rows);
+    write_shared(rows.ranks, unfinished, Hdf5File::Access::create, state.datasets(), add);
+    do_on_all(rows.ranks, [&] {
+      if (!is_first) return;
+      synchronize(unfinished);
+      std::filesystem::rename(unfinished, path);
+    });
   } catch (...) {
     std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
+    if (is_first) std::filesystem::remove(unfinished, ignored);
     throw;
   }
 }
 
-void read_state(const Hdf5File& file, World& world) {
+void read_state(const Hdf5File& file, World& world, const ShareOfTable& share) {
   std::vector<Stored> state;
   for (const auto& [name, storage] : world.components()) {
-    if (storage->info().lifetime == Lifetime::state) state.push_back(read_component(file, *storage));
+    if (storage->info().lifetime == Lifetime::state) state.push_back(read_component(file, *storage, share));
   }
   for (const auto& [table, rows] : rows_of_tables(file, state)) world.resize(table, rows);
   for (const Stored& stored : state)

@@ -1,5 +1,6 @@
 #include "engine/communicator.hpp"
 
+#include "engine/problem.hpp"
 #include "engine/step_control.hpp"
 
 #include <algorithm>
@@ -72,6 +73,40 @@ void do_on_all(Communicator* ranks, const std::function<void()>& f) {
     failure = std::current_exception();
   }
   agree_on_failure(*ranks, failure);
+}
+
+namespace {
+
+std::vector<std::byte> packed(const std::vector<Problem>& problems) {
+  Json list = Json::array();
+  for (const Problem& p : problems) list.push_back({p.file, p.pointer, p.what, p.expected, p.got, p.closest});
+  const std::string text = list.dump();
+  return to_bytes(std::span<const char>(text));
+}
+
+std::vector<Problem> unpacked(std::string_view text) {
+  std::vector<Problem> problems;
+  for (const Json& p : Json::parse(text)) problems.push_back({p[0], p[1], p[2], p[3], p[4], p[5]});
+  return problems;
+}
+
+}  // namespace
+
+void agree_on_problems(Communicator* ranks, std::vector<Problem> problems) {
+  if (ranks != nullptr && ranks->any(!problems.empty())) {
+    std::vector<Problem> of_all;
+    for (const auto& bytes : ranks->gather(packed(problems))) {
+      for (Problem& problem : unpacked({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
+        const bool is_known = std::any_of(of_all.begin(), of_all.end(), [&](const Problem& known) {
+          return known.pointer == problem.pointer && known.what == problem.what;
+        });
+        if (!is_known) of_all.push_back(std::move(problem));
+      }
+    }
+    const auto bytes = packed(of_all);
+    problems = unpacked(ranks->broadcast({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, 0));
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 }  // namespace minamo

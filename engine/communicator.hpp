@@ -17,12 +17,20 @@
 
 namespace minamo {
 
+struct Problem;
+
 class Communicator {
  public:
   /// To a rank or from one.
   struct Message {
     int rank;
     std::vector<std::byte> bytes;
+  };
+  /// What a rank writes somewhere in a file.
+  struct Piece {
+    std::uint64_t offset;
+    std::size_t row_bytes;
+    std::span<const std::byte> rows;
   };
   /// What this rank has sent to others so far.
   struct Traffic {
@@ -33,6 +41,8 @@ class Communicator {
   virtual ~Communicator() = default;
   virtual int rank() const = 0;
   virtual int size() const = 0;
+  /// How many of the ranks share the memory of this one, itself among them.
+  virtual int on_this_machine() const = 0;
   bool is_first() const { return rank() == 0; }
   const Traffic& traffic() const { return traffic_; }
 
@@ -49,6 +59,9 @@ class Communicator {
   /// \return on rank 0 what every rank has passed, by rank; elsewhere nothing
   virtual std::vector<std::vector<std::byte>> gather(std::vector<std::byte> bytes) = 0;
 
+  /// Every rank writes its pieces, as many as the others, of a file that is there. \return whether this rank could
+  virtual bool write(const std::string& path, std::span<const Piece> pieces) = 0;
+
   /// Sends to some ranks, not to itself; nobody knows who hears from whom. \return what came, by rank
   std::vector<Message> exchange(const std::vector<Message>& sent);
   /// The same between ranks that know of each other, and of the sizes.
@@ -59,6 +72,7 @@ class Communicator {
     sum(std::span(&value, 1));
     return value;
   }
+  bool any(bool value) { return largest(value ? 1 : 0) > 0; }
 
  protected:
   virtual std::vector<Message> exchange_between_strangers(const std::vector<Message>& sent) = 0;
@@ -93,6 +107,9 @@ class FailedElsewhere : public std::runtime_error {
 void agree_on_failure(Communicator& ranks, const std::exception_ptr& failure);
 /// Calls f, and fails on all ranks if it fails on one. f talks to nobody.
 void do_on_all(Communicator* ranks, const std::function<void()>& f);
+
+/// \throws InputError on all ranks if there are problems on one: those of all, by rank, one of a kind at every place.
+void agree_on_problems(Communicator* ranks, std::vector<Problem> problems);
 
 /// The ranks as systems declare them. In a run of one process there is none.
 struct Ranks {

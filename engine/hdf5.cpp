@@ -64,7 +64,44 @@ void write_attribute(hid_t file, const std::string& object, const std::string& n
   if (H5Awrite(attribute, type, value) < 0) throw std::runtime_error(what);
 }
 
+hid_t type_of(DatasetRows::Number number) {
+  switch (number) {
+  case DatasetRows::Number::real:
+    return H5T_NATIVE_DOUBLE;
+  case DatasetRows::Number::integer:
+    return H5T_NATIVE_INT64;
+  case DatasetRows::Number::byte:
+    return H5T_NATIVE_UINT8;
+  }
+  return -1;
+}
+
+/// The rows of a dataset, and what they take.
+struct OpenDataset {
+  OpenDataset(hid_t file, const std::string& dataset, const std::string& what)
+      : data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose, what),
+        type(H5Dget_type(data), H5Tclose, what),
+        space(H5Dget_space(data), H5Sclose, what) {
+    H5Sget_simple_extent_dims(space, size.data(), nullptr);
+  }
+  std::size_t row_bytes() const { return size[1] * H5Tget_size(type); }
+
+  Handle data;
+  Handle type;
+  Handle space;
+  std::array<hsize_t, 2> size{1, 1};
+};
+
 }  // namespace
+
+DatasetRows::DatasetRows(std::string name, std::span<const double> values, std::size_t numbers_per_row)
+    : dataset(std::move(name)), number(Number::real), width(numbers_per_row), bytes(std::as_bytes(values)) {}
+DatasetRows::DatasetRows(std::string name, std::span<const std::int64_t> values, std::size_t numbers_per_row)
+    : dataset(std::move(name)), number(Number::integer), width(numbers_per_row), bytes(std::as_bytes(values)) {}
+DatasetRows::DatasetRows(std::string name, std::span<const std::byte> values)
+    : dataset(std::move(name)), number(Number::byte), width(1), bytes(values) {}
+
+std::size_t DatasetRows::row_bytes() const { return width * (number == Number::byte ? 1 : sizeof(double)); }
 
 Hdf5File::Hdf5File(std::string path, Access access) : path_(std::move(path)), file_(open(path_, access)) {
   if (file_ < 0) throw std::runtime_error(path_ + ": cannot be opened as an HDF5 file");
@@ -80,39 +117,32 @@ void Hdf5File::close() {
   if (failed < 0) throw std::runtime_error(path_ + ": cannot be written");
 }
 
-Extent Hdf5File::write(const std::string& dataset, const void* values, std::int64_t type,
-                       std::span<const std::size_t> shape) {
-  const std::string what = path_ + ": dataset " + dataset + " cannot be written";
-  std::array<hsize_t, 2> size{};
-  for (std::size_t k = 0; k < shape.size(); ++k) size[k] = shape[k];
+Extent Hdf5File::make(const DatasetRows& like, std::size_t rows, const void* values) {
+  const std::string what = path_ + ": dataset " + like.dataset + " cannot be written";
+  const std::array<hsize_t, 2> size{rows, like.width};
+  const hid_t type = type_of(like.number);
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
   H5Pset_create_intermediate_group(links, 1);
   // Without the time of day in it, the same run gives the same bytes.
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   H5Pset_obj_track_times(creation, false);
-  const Handle space(H5Screate_simple(static_cast<int>(shape.size()), size.data(), nullptr), H5Sclose, what);
-  Handle data(H5Dcreate2(file_, dataset.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose, what);
-  if (H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) throw std::runtime_error(what);
+  // So that the file is the same whether the library writes the rows or ranks do.
+  H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+  const Handle space(H5Screate_simple(like.width == 1 ? 1 : 2, size.data(), nullptr), H5Sclose, what);
+  Handle data(H5Dcreate2(file_, like.dataset.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose, what);
+  if (values != nullptr && H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
+    throw std::runtime_error(what);
+  }
   const haddr_t offset = H5Dget_offset(data);
   const Extent extent = offset == HADDR_UNDEF ? Extent{} : Extent{offset, H5Dget_storage_size(data)};
   data.close(what);
   return extent;
 }
 
-Extent Hdf5File::write(const std::string& dataset, std::span<const double> values, std::size_t width) {
-  const std::array<std::size_t, 2> shape{values.size() / width, width};
-  return write(dataset, values.data(), H5T_NATIVE_DOUBLE, std::span(shape).first(width == 1 ? 1 : 2));
-}
+Extent Hdf5File::write(const DatasetRows& rows) { return make(rows, rows.rows(), rows.bytes.data()); }
 
-Extent Hdf5File::write(const std::string& dataset, std::span<const std::int64_t> values, std::size_t width) {
-  const std::array<std::size_t, 2> shape{values.size() / width, width};
-  return write(dataset, values.data(), H5T_NATIVE_INT64, std::span(shape).first(width == 1 ? 1 : 2));
-}
-
-Extent Hdf5File::write(const std::string& dataset, std::span<const std::byte> values) {
-  const std::array<std::size_t, 1> shape{values.size()};
-  return write(dataset, values.data(), H5T_NATIVE_UINT8, shape);
-}
+Extent Hdf5File::make_room(const DatasetRows& like, std::size_t rows) { return make(like, rows, nullptr); }
 
 Extent Hdf5File::write_text(const std::string& dataset, const std::string& text) {
   return write(dataset, std::as_bytes(std::span(text)));
@@ -143,13 +173,27 @@ std::string Hdf5File::read_text(const std::string& dataset) const {
 }
 
 std::vector<std::byte> Hdf5File::read_bytes(const std::string& dataset) const {
+  return read_bytes(dataset, 0, size_of(dataset));
+}
+
+std::vector<std::byte> Hdf5File::read_bytes(const std::string& dataset, std::size_t begin, std::size_t end) const {
   const std::string what = path_ + ": dataset " + dataset + " cannot be read";
-  const Handle data(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose, what);
-  const Handle type(H5Dget_type(data), H5Tclose, what);
-  const Handle space(H5Dget_space(data), H5Sclose, what);
-  std::vector<std::byte> bytes(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type));
-  if (H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0) throw std::runtime_error(what);
+  const OpenDataset stored(file_, dataset, what);
+  std::vector<std::byte> bytes(end - begin);
+  if (bytes.empty()) return bytes;
+  const std::array<hsize_t, 2> first{begin / stored.row_bytes(), 0};
+  const std::array<hsize_t, 2> count{bytes.size() / stored.row_bytes(), stored.size[1]};
+  const Handle in_memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose, what);
+  H5Sselect_hyperslab(stored.space, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr);
+  if (H5Dread(stored.data, stored.type, in_memory, stored.space, H5P_DEFAULT, bytes.data()) < 0) {
+    throw std::runtime_error(what);
+  }
   return bytes;
+}
+
+std::size_t Hdf5File::size_of(const std::string& dataset) const {
+  const OpenDataset stored(file_, dataset, path_ + ": dataset " + dataset + " cannot be read");
+  return stored.size[0] * stored.row_bytes();
 }
 
 }  // namespace minamo

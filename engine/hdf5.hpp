@@ -12,6 +12,22 @@
 
 namespace minamo {
 
+/// Rows for a dataset: of `width` numbers each; width 1 makes a one-dimensional dataset.
+struct DatasetRows {
+  enum class Number { real, integer, byte };
+  DatasetRows(std::string name, std::span<const double> values, std::size_t numbers_per_row = 1);
+  DatasetRows(std::string name, std::span<const std::int64_t> values, std::size_t numbers_per_row = 1);
+  DatasetRows(std::string name, std::span<const std::byte> values);
+
+  std::size_t row_bytes() const;
+  std::size_t rows() const { return bytes.size() / row_bytes(); }
+
+  std::string dataset;
+  Number number;
+  std::size_t width;
+  std::span<const std::byte> bytes;
+};
+
 /// An open file. Every call throws std::runtime_error naming file and dataset. Groups on the way to a dataset are
 /// created. A file that was written to wants close(), which tells whether all of it has arrived; the destructor cannot.
 class Hdf5File {
@@ -22,24 +38,34 @@ class Hdf5File {
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
-  /// Rows of `width` values; width 1 makes a one-dimensional dataset.
-  /// \return where in the file they are
-  Extent write(const std::string& dataset, std::span<const double> values, std::size_t width = 1);
-  Extent write(const std::string& dataset, std::span<const std::int64_t> values, std::size_t width = 1);
-  Extent write(const std::string& dataset, std::span<const std::byte> values);
+  /// \return where in the file the rows are
+  Extent write(const DatasetRows& rows);
+  Extent write(const std::string& dataset, std::span<const double> values, std::size_t width = 1) {
+    return write({dataset, values, width});
+  }
+  Extent write(const std::string& dataset, std::span<const std::int64_t> values, std::size_t width = 1) {
+    return write({dataset, values, width});
+  }
+  Extent write(const std::string& dataset, std::span<const std::byte> values) { return write({dataset, values}); }
   Extent write_text(const std::string& dataset, const std::string& text);
+  /// Makes a dataset with so many rows like these, and leaves it to others to write them where it says.
+  Extent make_room(const DatasetRows& like, std::size_t rows);
   void set_attribute(const std::string& object, const std::string& name, double value);
   void set_attribute(const std::string& object, const std::string& name, const std::string& value);
 
   const std::string& path() const { return path_; }
   bool has(const std::string& dataset) const;
   std::vector<std::byte> read_bytes(const std::string& dataset) const;
+  /// Of what read_bytes() returns, from one byte up to another. \pre both lie between rows of the dataset
+  std::vector<std::byte> read_bytes(const std::string& dataset, std::size_t begin, std::size_t end) const;
+  /// What read_bytes() returns has so many bytes.
+  std::size_t size_of(const std::string& dataset) const;
   std::string read_text(const std::string& dataset) const;
 
   void close();
 
  private:
-  Extent write(const std::string& dataset, const void* values, std::int64_t type, std::span<const std::size_t> shape);
+  Extent make(const DatasetRows& like, std::size_t rows, const void* values);
 
   std::string path_;
   std::int64_t file_;

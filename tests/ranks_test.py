@@ -1,5 +1,5 @@
 """Runs on several ranks against runs of one process. In the environment: PROGRAM (minamo), MPI_PROGRAM (minamo-mpi),
-MPIEXEC, WORK."""
+MPIEXEC, RANDOM_MAP (minamo-mpi whose blocks are anywhere), WORK."""
 
 import csv
 import json
@@ -27,18 +27,18 @@ SPACE = ["--set", "/grid/cells=[16, 8, 16]", "--set", "/particles/0/per_cell=2",
          "/output/every=0.1", "--set", "/time={\"end\": 0.1, \"step\": 5e-3}", "--set", "/solver={\"tolerance\": 1e-12}"]
 
 
-def command(ranks):
+def command(ranks, program="MPI_PROGRAM"):
     if ranks == 0:
         return [os.environ["PROGRAM"]]
     as_root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
-    return [os.environ["MPIEXEC"], "-n", str(ranks), "--oversubscribe", *as_root, os.environ["MPI_PROGRAM"]]
+    return [os.environ["MPIEXEC"], "-n", str(ranks), "--oversubscribe", *as_root, os.environ[program]]
 
 
-def run(name, ranks, scene, *options, expect=0):
+def run(name, ranks, scene, *options, expect=0, program="MPI_PROGRAM"):
     folder = WORK / name
     if "--resume" not in options:
         shutil.rmtree(folder, ignore_errors=True)
-    done = subprocess.run([*command(ranks), "run", str(scene), "--out", str(folder), "--threads", "1", "--quiet",
+    done = subprocess.run([*command(ranks, program), "run", str(scene), "--out", str(folder), "--threads", "1", "--quiet",
                            *options], capture_output=True, text=True, timeout=250)
     if expect is not None and done.returncode != expect:
         raise AssertionError(f"{name}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
@@ -57,6 +57,38 @@ def last_frame(folder):
         frame = frames[str(len(frames) - 1)]
         order = np.argsort(frame["id"][:])
         return {name: frame[name][:][order] for name in ("id", "position", "velocity", "pressure")}
+
+
+def layout(path):
+    """Kind, shape and attributes of everything in a file; of what differs with the order of particles only that."""
+    found = {}
+
+    def add(name, item):
+        kind = (item.dtype, item.shape, item.chunks) if isinstance(item, h5py.Dataset) else None
+        if name in ("fields/others", "fields/frames", "state/history.totals"):
+            kind = item.dtype
+        found[name] = (kind, dict(item.attrs))
+
+    with h5py.File(path) as file:
+        file.visititems(add)
+    return found
+
+
+def stop_one_that_writes(process, folder):
+    """Stops the second rank while there is a checkpoint and another one is being written. Returns its process id."""
+    unfinished = folder / "checkpoint.h5.unfinished"
+    end = time.monotonic() + 60
+    while time.monotonic() < end:
+        if not (unfinished.exists() and (folder / "checkpoint.h5").exists()):
+            continue
+        ranks = subprocess.run(["ps", "--ppid", str(process.pid), "-o", "pid="], capture_output=True, text=True)
+        rank = int(ranks.stdout.split()[1])
+        os.kill(rank, signal.SIGSTOP)
+        time.sleep(0.3)
+        if unfinished.exists():
+            return rank
+        os.kill(rank, signal.SIGCONT)
+    raise AssertionError("no checkpoint is written")
 
 
 class Alike(unittest.TestCase):
@@ -99,6 +131,14 @@ class Alike(unittest.TestCase):
         options = ["--set", "/walls={\"x\": \"periodic\", \"y\": \"slip\"}", "--set", "/time/end=0.2"]
         self.check("periodic", SCENES / "dam_break.json", [*DAM_BREAK, *options], [3])
 
+    def test_blocks_are_on_any_rank(self):
+        alone, _ = run("anywhere_alone", 0, SCENES / "dam_break.json", *DAM_BREAK)
+        for ranks, seed in ((2, 1), (3, 2), (5, 3)):
+            with self.subTest(ranks=ranks, seed=seed):
+                folder, _ = run(f"anywhere_{ranks}", ranks, SCENES / "dam_break.json", *DAM_BREAK, "--set",
+                                f"/random_map={seed}", program="RANDOM_MAP")
+                self.assert_alike(folder, alone)
+
     def test_one_process_of_mpi_is_the_ordinary_program(self):
         alone, _ = run("ordinary", 0, SCENES / "dam_break.json", *DAM_BREAK)
         of_mpi, _ = run("of_mpi", 1, SCENES / "dam_break.json", *DAM_BREAK)
@@ -122,7 +162,7 @@ class Continuations(unittest.TestCase):
     def test_another_number_of_ranks_goes_on(self):
         alone, _ = run("whole", 0, SCENES / "dam_break.json", *DAM_BREAK)
         folder, _ = run("parts", 3, SCENES / "dam_break.json", *DAM_BREAK, "--steps", "30")
-        run("parts", 2, SCENES / "dam_break.json", *DAM_BREAK, "--steps", "50", "--resume")
+        run("parts", 5, SCENES / "dam_break.json", *DAM_BREAK, "--steps", "50", "--resume")
         run("parts", 0, SCENES / "dam_break.json", *DAM_BREAK, "--resume")
         Alike.assert_alike(self, folder, alone)
 
@@ -141,6 +181,47 @@ class Continuations(unittest.TestCase):
         run("signal", 2, SCENES / "dam_break.json", *DAM_BREAK, "--set", "/time/end=100", "--steps", str(steps + 2),
             "--resume")
         self.assertEqual(len(history(folder)["time"]), steps + 3)
+
+
+    def test_a_rank_that_is_killed_while_it_writes_leaves_the_checkpoint_before(self):
+        options = [*DAM_BREAK, "--set", "/time/end=0.6", "--set", "/output/checkpoint=1e-3"]
+        folder = WORK / "killed"
+        shutil.rmtree(folder, ignore_errors=True)
+        process = subprocess.Popen([*command(3), "run", str(SCENES / "dam_break.json"), "--out", str(folder), "--quiet",
+                                    *options], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        rank = stop_one_that_writes(process, folder)
+        before = (folder / "checkpoint.h5").read_bytes()
+        os.kill(rank, signal.SIGKILL)
+        self.assertNotEqual(process.wait(timeout=60), 0)
+        self.assertEqual((folder / "checkpoint.h5").read_bytes(), before)
+        run("killed", 2, SCENES / "dam_break.json", *options, "--resume")
+        alone, _ = run("not_killed", 0, SCENES / "dam_break.json", *options)
+        Alike.assert_alike(self, folder, alone, within=1e-6)
+
+
+class Files(unittest.TestCase):
+    """What ranks write side by side is what one process writes."""
+
+    @classmethod
+    def setUpClass(cls):
+        jitter = ["--set", "/particles/0/arrangement=\"jittered\"", "--set", "/particles/0/seed=7"]
+        cls.folders = [run(f"files_{ranks}", ranks, SCENES / "dam_break.json", *DAM_BREAK, *jitter, "--steps", "2")[0]
+                       for ranks in (0, 3)]
+
+    def test_the_layout_is_the_same(self):
+        for name in ("checkpoint.h5", "fields.h5"):
+            alone, ours = [layout(folder / name) for folder in self.folders]
+            self.assertEqual(ours, alone)
+
+    def test_the_first_frame_is_the_same(self):
+        frames = []
+        for folder in self.folders:
+            with h5py.File(folder / "fields.h5") as file:
+                frame = file["particles/0"]
+                order = np.argsort(frame["id"][:])
+                frames.append({name: frame[name][:][order] for name in ("id", "position", "velocity")})
+        for name, values in frames[0].items():
+            np.testing.assert_array_equal(frames[1][name], values, name)
 
 
 class Refusals(unittest.TestCase):

@@ -133,27 +133,27 @@ void write_index(World& world) {
   }
 }
 
-void write_checkpoint_of_world(const fs::path& folder, const SceneFile& scene, World& world) {
-  FieldsFile& fields = world.resource<FieldsFile>();
-  take_back_frame(fields);
-  // The rows that the checkpoint counts are in the file.
+/// Nothing is begun, and the rows that the checkpoint counts are in the file.
+void settle_output(const fs::path& folder, World& world) {
+  take_back_frame(world.resource<FieldsFile>());
   auto& history = world.resource<HistoryFile>().file;
   if (!history.flush()) throw std::runtime_error((folder / "history.csv").string() + ": cannot be written");
-  write_checkpoint((folder / checkpoint_name).string(), world, [&](Hdf5File& file) {
-    file.write_text(dataset::scene, scene.as_run.dump());
-    file.write_text(dataset::version, std::string(version));
-    add_fields(fields, file);
-  });
 }
 
 }  // namespace
 
 void write_run_checkpoint(const fs::path& folder, const SceneFile& scene, World& world) {
-  if (all_ranks() == nullptr) return write_checkpoint_of_world(folder, scene, world);
-  const RowsOfRanks rows(*all_ranks(), world);
-  do_on_all(all_ranks(), [&] {
-    if (writes_for_all()) write_checkpoint_of_world(folder, scene, world);
+  Communicator* ranks = all_ranks();
+  do_on_all(ranks, [&] {
+    if (writes_for_all()) settle_output(folder, world);
   });
+  const auto add = [&](Hdf5File& file) {
+    file.write_text(dataset::scene, scene.as_run.dump());
+    file.write_text(dataset::version, std::string(version));
+    add_fields(world.resource<FieldsFile>(), file);
+  };
+  write_checkpoint((folder / checkpoint_name).string(), world, add,
+                   ranks == nullptr ? RowsOfRank{} : rows_of_rank(*ranks, world));
 }
 
 StoredFields load_checkpoint(const fs::path& folder, const std::string& scene_path, const SceneFile& scene,
@@ -163,7 +163,8 @@ StoredFields load_checkpoint(const fs::path& folder, const std::string& scene_pa
   StoredFields fields = read_fields(file);
   require_output(folder, fields);
   world.resource<StepControl>();  // no system names it; the time loop makes it, later
-  read_state(file, world);
+  const Communicator* ranks = all_ranks();
+  read_state(file, world, ranks == nullptr ? ShareOfTable{} : share_of_rank(*ranks));
   return fields;
 }
 

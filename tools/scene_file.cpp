@@ -1,6 +1,7 @@
 #include "tools/scene_file.hpp"
 
 #include "components/particle.hpp"
+#include "engine/communicator.hpp"
 #include "engine/schedule.hpp"
 #include "systems/bodies/warnings.hpp"
 #include "systems/setup/memory.hpp"
@@ -31,23 +32,28 @@ std::string bytes_text(double bytes) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
-/// \throws InputError
-void require_memory(const Scene& scene, const std::string& file) {
+/// What this machine has of all that ranks share.
+double share_of_machine() {
+  const Communicator* ranks = all_ranks();
+  return ranks == nullptr ? 1 : static_cast<double>(ranks->on_this_machine()) / ranks->size();
+}
+
+std::vector<Problem> memory_problems(const Scene& scene, const std::string& file) {
   const SceneSize size = size_of(scene);
   const bool has_blas = prepare_blas();
-  const double needed = memory_of(scene, size) + (has_blas ? 0 : blas_work_space);
+  const double needed = share_of_machine() * memory_of(scene, size) + (has_blas ? 0 : blas_work_space);
   const AvailableMemory available = available_memory();
-  if (has_blas && needed <= available.bytes) return;
+  if (has_blas && needed <= available.bytes) return {};
   std::string what = "does not fit into memory; larger cells or fewer particles per cell need less";
   const std::string& leaner = scene.facts.get<LinearSolver>().leaner;
   if (!leaner.empty()) what += fmt::format(", as does the solver \"{}\"", leaner);
-  throw InputError({{file,
-                     {},
-                     what,
-                     fmt::format("at most {}, {}", bytes_text(available.bytes), available.source),
-                     fmt::format("about {}: {:.3g} particles on {:.3g} nodes{}", bytes_text(needed), size.particles,
-                                 size.nodes, has_blas ? "" : ", and BLAS"),
-                     {}}});
+  return {{file,
+           {},
+           what,
+           fmt::format("at most {}, {}", bytes_text(available.bytes), available.source),
+           fmt::format("about {}: {:.3g} particles on {:.3g} nodes{}", bytes_text(needed), size.particles, size.nodes,
+                       has_blas ? "" : ", and BLAS"),
+           {}}};
 }
 
 /// The pointer of an override, /pointer=JSON.
@@ -135,7 +141,7 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
 }
 
 void seed(const Scene& scene, const std::string& file, World& world) {
-  require_memory(scene, file);
+  agree_on_problems(all_ranks(), memory_problems(scene, file));
   seed_world(scene, file, world);
 }
 

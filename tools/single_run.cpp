@@ -49,7 +49,7 @@ bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& ti
   std::optional<StoredFields> fields;
   if (plan.beginning == Beginning::continuation) {
     fields = load_checkpoint(plan.folder, plan.scene, file, world);
-    if (all_ranks() != nullptr) keep_own_particles(file.scene.dimension, world);
+    if (all_ranks() != nullptr) send_particles_home(file.scene.dimension, world);
     if (is_over(times, world.resource<Clock>())) return false;
   }
   do_on_all(all_ranks(), [&] {

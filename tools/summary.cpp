@@ -113,7 +113,10 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   if (Communicator* ranks = all_ranks()) {
     const auto sent = ranks->traffic();
     summary["ranks"] = {
-        {"count", ranks->size()}, {"messages", ranks->sum(sent.messages)}, {"bytes", ranks->sum(sent.bytes)}};
+        {"count", ranks->size()},
+        {"messages", ranks->sum(sent.messages)},
+        {"bytes", ranks->sum(sent.bytes)},
+        {"peak_memory_bytes", static_cast<std::int64_t>(ranks->largest(static_cast<double>(peak_memory())))}};
   }
   Json conservation{{"mass", mass}};
   conservation.update(conserved(totals.last, in_plane));

@@ -1,6 +1,6 @@
 #include "systems/output/fields.hpp"
 
-#include "engine/hdf5.hpp"
+#include "engine/shared_file.hpp"
 #include "engine/text_file.hpp"
 #include "systems/grid/point_locator.hpp"
 #include "systems/output/body_fields.hpp"
@@ -27,26 +27,6 @@ std::vector<double> row_by_row(std::span<const Mat<Dim>> values) {
   }
   return numbers;
 }
-
-/// A column of all ranks, on the one that writes; what there is where there are no ranks.
-template <class T>
-struct Gathered {
-  Gathered(const Optional<Read<Ranks>>& ranks, std::span<const T> own) : all(own) {
-    if (!ranks) return;
-    for (const auto& bytes : (*ranks)->gather(to_bytes(own))) {
-      const auto of_rank = from_bytes<T>(bytes);
-      gathered_.insert(gathered_.end(), of_rank.begin(), of_rank.end());
-    }
-    all = gathered_;
-  }
-  Gathered(const Gathered&) = delete;
-  Gathered& operator=(const Gathered&) = delete;
-
-  std::span<const T> all;
-
- private:
-  std::vector<T> gathered_;
-};
 
 std::string group(std::size_t frame) { return fmt::format("/particles/{}", frame); }
 
@@ -132,36 +112,35 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
                                  Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
                                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<Ranks>> ranks,
                                  Update<FieldsFile> fields) const {
-  const Gathered ids(ranks, id.span());
-  const Gathered positions(ranks, x_p.span());
-  const Gathered velocities(ranks, v_p.span());
-  const Gathered pressures(ranks, p_p.span());
-  const Gathered gradients(ranks, grad_v_p.span());
-  const Gathered rates(ranks, g_p.span());
-  const Gathered viscosities(ranks, mu_p.span());
-  const Gathered liquids(ranks, k_p.span());
-  if (fields->folder.empty()) return;
-  const std::string name = group(fields->frames.size());
-  begin_frame(*fields, clock->time, ids.all.size());
-  const bool is_first = fields->frames.size() == 1;
-  Hdf5File file(fields->path(), is_first ? Hdf5File::Access::create : Hdf5File::Access::extend);
-  fields->frames.back().extents = {file.write(name + "/position", numbers<Dim>(positions.all), Dim),
-                                   file.write(name + "/velocity", numbers<Dim>(velocities.all), Dim),
-                                   file.write(name + "/pressure", pressures.all), file.write(name + "/id", ids.all)};
-  if (grad_v_p) {
-    FieldsFile::Frame& frame = fields->frames.back();
-    frame.extents.push_back(file.write(name + "/velocity_gradient", row_by_row<Dim>(gradients.all), Dim * Dim));
-    frame.extra_fields.emplace_back("velocity_gradient");
-  }
-  const auto write_scalar = [&](const char* field, const auto& values) {
-    fields->frames.back().extents.push_back(file.write(name + "/" + field, values));
-    fields->frames.back().extra_fields.emplace_back(field);
+  Communicator* all = ranks ? ranks->all : nullptr;
+  const auto own = static_cast<std::int64_t>(id.size());
+  const std::int64_t particles = all ? all->sum(own) : own;
+  const bool is_writer = !fields->folder.empty();
+  if (!is_writer && !all) return;
+  do_on_all(all, [&] {
+    if (is_writer) begin_frame(*fields, clock->time, static_cast<std::size_t>(particles));
+  });
+  const std::string name = is_writer ? group(fields->frames.size() - 1) : std::string();
+  const std::vector<double> gradients = row_by_row<Dim>(grad_v_p.span());
+  std::vector<DatasetRows> data{{name + "/position", numbers<Dim>(x_p.span()), Dim},
+                                {name + "/velocity", numbers<Dim>(v_p.span()), Dim},
+                                {name + "/pressure", p_p.span()},
+                                {name + "/id", id.span()}};
+  std::vector<std::string> extra_fields;
+  const auto add_field = [&](const char* field, const auto& values, std::size_t width) {
+    extra_fields.emplace_back(field);
+    data.emplace_back(name + "/" + field, values, width);
   };
-  if (g_p) write_scalar("shear_rate", rates.all);
-  if (mu_p) write_scalar("viscosity", viscosities.all);
-  if (k_p) write_scalar("fluid", liquids.all);
-  file.set_attribute(name, "time", clock->time);
-  file.close();
+  if (grad_v_p) add_field("velocity_gradient", std::span(gradients), Dim * Dim);
+  if (g_p) add_field("shear_rate", g_p.span(), 1);
+  if (mu_p) add_field("viscosity", mu_p.span(), 1);
+  if (k_p) add_field("fluid", k_p.span(), 1);
+  const bool is_first = fields->frames.size() == 1;
+  const auto extents = write_shared(all, fields->path(), is_first ? Hdf5File::Access::create : Hdf5File::Access::extend,
+                                    data, [&](Hdf5File& file) { file.set_attribute(name, "time", clock->time); });
+  if (!is_writer) return;
+  fields->frames.back().extents = extents;
+  fields->frames.back().extra_fields = extra_fields;
 }
 
 template <int Dim>

@@ -3,13 +3,15 @@
 #include "systems/conforming/support.hpp"
 
 #include <map>
+#include <numeric>
 #include <optional>
 
 namespace minamo {
 
 namespace {
 
-constexpr double most_imbalance = 1.2;
+/// A new cut is worth moving particles for if it leaves the fullest rank less than this share of what it has.
+constexpr double worth_moving = 0.95;
 
 /// The rank that owns the block of every point.
 template <int Dim>
@@ -32,13 +34,8 @@ std::vector<std::optional<std::uint32_t>> rows_of(std::span<const int> owner, in
   return rows;
 }
 
-bool is_imbalanced(Communicator& ranks, std::size_t particles) {
-  const auto mean = static_cast<double>(ranks.sum(static_cast<std::int64_t>(particles))) / ranks.size();
-  return ranks.largest(static_cast<double>(particles)) > most_imbalance * mean;
-}
-
-/// Of the loads of all ranks; rank 0 cuts.
-RankMap cut_together(Communicator& ranks, std::span<const BlockLoad> own) {
+/// The curve cut by the loads of all ranks, of which rank 0 does it; the old map where that is hardly better.
+void cut_together(Communicator& ranks, std::span<const BlockLoad> own, double fullest_now, RankMap& map) {
   const auto of_ranks = ranks.gather(to_bytes(own));
   std::string begin;
   if (ranks.is_first()) {
@@ -48,23 +45,43 @@ RankMap cut_together(Communicator& ranks, std::span<const BlockLoad> own) {
       loads.insert(loads.end(), of_rank.begin(), of_rank.end());
     }
     std::sort(loads.begin(), loads.end(), [](const BlockLoad& a, const BlockLoad& b) { return a.key < b.key; });
-    const auto bytes = to_bytes(std::span<const std::uint64_t>(cut_curve(loads, ranks.size()).begin));
-    begin.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const RankMap cut = cut_curve(loads, ranks.size());
+    if (map.begin.empty() || static_cast<double>(fullest(cut, loads)) < worth_moving * fullest_now) {
+      const auto bytes = std::as_bytes(std::span(cut.begin));
+      begin.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    }
   }
   begin = ranks.broadcast(begin, 0);
-  RankMap map;
+  if (begin.empty()) return;
   map.begin = from_bytes<std::uint64_t>(std::as_bytes(std::span(begin)));
-  return map;
+  map.rank.resize(map.begin.size());
+  std::iota(map.rank.begin(), map.rank.end(), 0);
+}
+
+/// Particles at y_p go to their ranks.
+template <int Dim>
+void send_home(Communicator& ranks, const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Vec<Dim>> y_p,
+               const Resize<Particles>& particles, RankMap& map) {
+  const auto count = static_cast<std::int64_t>(y_p.size());
+  const double mean = static_cast<double>(ranks.sum(count)) / ranks.size();
+  const double fullest_now = ranks.largest(static_cast<double>(count));
+  if (map.begin.empty() || fullest_now > map.most_imbalance * mean)
+    cut_together(ranks, loads_of<Dim>(grid, splines, y_p), fullest_now, map);
+  const std::vector<int> owner = owners_of<Dim>(map, grid, splines, y_p);
+  std::map<int, std::vector<std::uint32_t>> leaving;
+  for (std::size_t p = 0; p < owner.size(); ++p) {
+    if (owner[p] != ranks.rank()) leaving[owner[p]].push_back(static_cast<std::uint32_t>(p));
+  }
+  std::vector<Communicator::Message> sent;
+  for (const auto& [rank, rows] : leaving) sent.push_back({rank, particles.pack(rows)});
+  if (!sent.empty()) particles.renumber(rows_of(owner, ranks.rank()));
+  for (const auto& message : ranks.exchange(sent)) particles.append(message.bytes);
 }
 
 template <int Dim>
-void keep_own(Communicator& ranks, World& world) {
-  const auto& grid = world.resource<Grid<Dim>>();
-  const auto& splines = world.resource<Splines<Dim>>();
-  const auto x_p = world.column<particle::Position<Dim>>();
-  auto& map = world.resource<RankMap>();
-  map = cut_curve(loads_of<Dim>(grid, splines, x_p), ranks.size());
-  Resize<Particles>(world).renumber(rows_of(owners_of<Dim>(map, grid, splines, x_p), ranks.rank()));
+void send_home(Communicator& ranks, World& world) {
+  send_home<Dim>(ranks, world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>(),
+                 world.column<particle::Position<Dim>>(), Resize<Particles>(world), world.resource<RankMap>());
 }
 
 }  // namespace
@@ -73,26 +90,14 @@ template <int Dim>
 void MigrateParticles<Dim>::operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                        Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
                                        Update<RankMap> map) const {
-  Communicator& all = *ranks->all;
-  if (map->begin.empty() || is_imbalanced(all, y_p.size()))
-    *map = cut_together(all, loads_of<Dim>(*grid, *splines, y_p.span()));
-  const std::vector<int> owner = owners_of<Dim>(*map, *grid, *splines, y_p.span());
-  std::map<int, std::vector<std::uint32_t>> leaving;
-  for (std::size_t p = 0; p < owner.size(); ++p) {
-    if (owner[p] != all.rank()) leaving[owner[p]].push_back(static_cast<std::uint32_t>(p));
-  }
-  std::vector<Communicator::Message> sent;
-  for (const auto& [rank, rows] : leaving) sent.push_back({rank, particles.pack(rows)});
-  const auto received = all.exchange(sent);
-  if (!sent.empty()) particles.renumber(rows_of(owner, all.rank()));
-  for (const auto& message : received) particles.append(message.bytes);
+  send_home<Dim>(*ranks->all, *grid, *splines, y_p.span(), particles, *map);
 }
 
-void keep_own_particles(int dimension, World& world) {
+void send_particles_home(int dimension, World& world) {
   if (dimension == 2) {
-    keep_own<2>(*all_ranks(), world);
+    send_home<2>(*all_ranks(), world);
   } else {
-    keep_own<3>(*all_ranks(), world);
+    send_home<3>(*all_ranks(), world);
   }
 }
 

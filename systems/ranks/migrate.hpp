@@ -11,7 +11,7 @@
 namespace minamo {
 
 /// Sends particles, with all that outlives a step, to the rank that owns the block of y_p. Where a rank has a fifth
-/// more than the mean, the curve is cut anew before.
+/// more than the mean, the curve is cut anew before if that helps.
 template <int Dim>
 struct MigrateParticles {
   static constexpr std::string_view doc = "particles to the rank that owns their block";
@@ -19,7 +19,7 @@ struct MigrateParticles {
                   Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles, Update<RankMap> map) const;
 };
 
-/// Of a world that has the particles of all ranks: leaves those of this one.
-void keep_own_particles(int dimension, World& world);
+/// The same by x_p, before the first step.
+void send_particles_home(int dimension, World& world);
 
 }  // namespace minamo

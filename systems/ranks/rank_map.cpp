@@ -2,6 +2,8 @@
 
 #include "systems/conforming/support.hpp"
 
+#include <numeric>
+
 namespace minamo {
 
 RankMap cut_curve(std::span<const BlockLoad> loads, int ranks) {
@@ -20,7 +22,15 @@ RankMap cut_curve(std::span<const BlockLoad> loads, int ranks) {
   }
   // More ranks than blocks: the last ones have nothing.
   map.begin.resize(static_cast<std::size_t>(ranks), std::uint64_t{1} << 63);
+  map.rank.resize(map.begin.size());
+  std::iota(map.rank.begin(), map.rank.end(), 0);
   return map;
+}
+
+std::uint64_t fullest(const RankMap& map, std::span<const BlockLoad> loads) {
+  std::vector<std::uint64_t> of_rank(map.rank.size());
+  for (const BlockLoad& load : loads) of_rank[static_cast<std::size_t>(map.owner(load.key))] += load.particles;
+  return *std::max_element(of_rank.begin(), of_rank.end());
 }
 
 template <int Dim>

@@ -25,13 +25,15 @@ std::uint64_t morton_key(const Index<Dim>& place) {
   return key;
 }
 
-/// Where on the curve the piece of every rank begins; rank 0's at its start.
+/// Pieces of the curve, and the rank that has each.
 struct RankMap {
-  std::vector<std::uint64_t> begin;
+  std::vector<std::uint64_t> begin;  ///< of the pieces, the first one at the start of the curve
+  std::vector<int> rank;
+  double most_imbalance = 1.2;  ///< with so many times the mean on a rank the curve is cut anew
   static constexpr ComponentInfo info{"ranks.map", "", "1", Lifetime::cache};
 
   int owner(std::uint64_t key) const {
-    return static_cast<int>(std::upper_bound(begin.begin(), begin.end(), key) - begin.begin()) - 1;
+    return rank[static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), key) - begin.begin()) - 1];
   }
 };
 
@@ -41,9 +43,12 @@ struct BlockLoad {
   std::uint64_t particles;
 };
 
-/// Cuts the curve so that every rank has about as many particles.
+/// Cuts the curve so that every rank has about as many particles, in a piece of its own.
 /// \param loads  in the order of the curve; keys may come several times
 RankMap cut_curve(std::span<const BlockLoad> loads, int ranks);
+
+/// Particles of the fullest rank.
+std::uint64_t fullest(const RankMap& map, std::span<const BlockLoad> loads);
 
 /// Loads of the blocks around points, in the order of the curve.
 template <int Dim>

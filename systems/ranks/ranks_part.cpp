@@ -13,7 +13,7 @@ Contribution read_ranks(Input&, Scene&) {
   return [](const Scene&, Recipe& recipe) {
     recipe.seed([](const Scene& scene, World& world, SeedProblems&) {
       world.resource<Ranks>().all = all_ranks();
-      keep_own_particles(scene.dimension, world);
+      send_particles_home(scene.dimension, world);
     });
   };
 }

@@ -1,26 +1,15 @@
 #pragma once
 /// \file
-/// The state of all ranks in one world, for a checkpoint that any number of ranks can go on from.
+/// What a rank writes into a checkpoint, and reads of one: any number of ranks can go on from it.
 
-#include "engine/communicator.hpp"
-#include "engine/world.hpp"
+#include "engine/checkpoint.hpp"
 
 namespace minamo {
 
-/// While it lives the world of rank 0 has the particles of all ranks, and every row of the staggered table once; then
-/// it is as before, but for scratch.
-class RowsOfRanks {
- public:
-  RowsOfRanks(Communicator& ranks, World& world);
-  ~RowsOfRanks();
-  RowsOfRanks(const RowsOfRanks&) = delete;
-  RowsOfRanks& operator=(const RowsOfRanks&) = delete;
+/// Its particles, and the rows of the staggered table that it answers for, so that every row is written once.
+RowsOfRank rows_of_rank(Communicator& ranks, World& world);
 
- private:
-  World& world_;
-  bool has_all_;
-  std::size_t particles_;
-  std::vector<std::byte> staggered_;
-};
+/// As many particles as the others, wherever they are, and all of the staggered table.
+ShareOfTable share_of_rank(const Communicator& ranks);
 
 }  // namespace minamo

@@ -65,9 +65,10 @@ class Inside {
 
 /// Parts that can lie in a shape, first and past the last per direction; all of them unless the shape has bounds.
 template <int Dim>
-std::array<std::array<int, 2>, static_cast<std::size_t>(Dim)> parts_to_try(const ParticleScene& region,
-                                                                           const Grid<Dim>& grid) {
-  std::array<std::array<int, 2>, static_cast<std::size_t>(Dim)> range;
+using PartsToTry = std::array<std::array<int, 2>, static_cast<std::size_t>(Dim)>;
+template <int Dim>
+PartsToTry<Dim> parts_to_try(const ParticleScene& region, const Grid<Dim>& grid) {
+  PartsToTry<Dim> range;
   const auto* shape = std::get_if<SharedShape<Dim>>(&region.shape);
   const Bounds<Dim> bounds = shape ? (*shape)->bounds() : Bounds<Dim>();
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -80,6 +81,18 @@ std::array<std::array<int, 2>, static_cast<std::size_t>(Dim)> parts_to_try(const
     range[d] = {std::max(0, clip(bounds.low[axis]) - 1), std::min(parts, clip(bounds.high[axis]) + 2)};
   }
   return range;
+}
+
+/// The last axis narrowed to layers of cells. \return how many parts come before them
+template <int Dim>
+std::uint64_t narrow(PartsToTry<Dim>& range, const Layers& layers, const Grid<Dim>& grid, int per_cell) {
+  auto& [first, last] = range[Dim - 1];
+  const int before = first;
+  first = std::clamp(std::min(layers[0], grid.cells[Dim - 1]) * per_cell, first, last);
+  last = std::clamp(std::min(layers[1], grid.cells[Dim - 1]) * per_cell, first, last);
+  auto parts = static_cast<std::uint64_t>(first - before);
+  for (std::size_t d = 0; d + 1 < Dim; ++d) parts *= static_cast<std::uint64_t>(range[d][1] - range[d][0]);
+  return parts;
 }
 
 /// In [0, 1), the same on every machine.
@@ -98,11 +111,19 @@ Index<Dim> cell_of(const Grid<Dim>& grid, const Vec<Dim>& x) {
 }
 
 template <int Dim>
+Layers layers_of(const ParticleScene& region, const Grid<Dim>& grid) {
+  const auto [first, last] = parts_to_try<Dim>(region, grid)[Dim - 1];
+  return {first / region.per_cell, (last + region.per_cell - 1) / region.per_cell};
+}
+
+template <int Dim>
 std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start,
-                              PartsTaken taken) {
-  const auto range = parts_to_try<Dim>(region, grid);
+                              PartsTaken taken, const Layers& layers) {
+  auto range = parts_to_try<Dim>(region, grid);
+  const std::uint64_t parts_before = narrow<Dim>(range, layers, grid, region.per_cell);
   const double part = grid.spacing / region.per_cell;
   std::mt19937_64 random(region.jitter.value_or(0));
+  if (region.jitter) random.discard(Dim * parts_before);
   Inside<Dim> inside(region, start, taken, part);
   Index<Dim> at;
   for (std::size_t d = 0; d < Dim; ++d) at[d] = range[d][0];
@@ -156,11 +177,15 @@ Vec<Dim> exact_for_splines(const Grid<Dim>& grid, int per_cell, Vec<Dim> x) {
   return x;
 }
 
+template Layers layers_of<2>(const ParticleScene&, const Grid<2>&);
+template Layers layers_of<3>(const ParticleScene&, const Grid<3>&);
 template Vec<2> exact_for_splines<2>(const Grid<2>&, int, Vec<2>);
 template Vec<3> exact_for_splines<3>(const Grid<3>&, int, Vec<3>);
 template Vec<2> nearer_to_walls<2>(const Grid<2>&, int, Vec<2>);
 template Vec<3> nearer_to_walls<3>(const Grid<3>&, int, Vec<3>);
-template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&, const Instant&, PartsTaken);
-template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&, const Instant&, PartsTaken);
+template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&, const Instant&, PartsTaken,
+                                        const Layers&);
+template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&, const Instant&, PartsTaken,
+                                        const Layers&);
 
 }  // namespace minamo

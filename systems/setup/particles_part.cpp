@@ -1,6 +1,7 @@
 #include "components/fluids.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
+#include "engine/communicator.hpp"
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/bodies/seed_cut.hpp"
 #include "systems/parts.hpp"
@@ -119,6 +120,37 @@ Vec<Dim> moved_at_walls(const Scene& scene, const Grid<Dim>& grid, int per_cell,
   }
 }
 
+/// Of all ranks.
+std::int64_t sum_of_ranks(std::size_t count) {
+  const auto own = static_cast<std::int64_t>(count);
+  return all_ranks() == nullptr ? own : all_ranks()->sum(own);
+}
+
+/// Whether any rank has any.
+template <int Dim>
+bool is_any(const Seeds<Dim>& seeds) {
+  return sum_of_ranks(seeds.position.size()) > 0;
+}
+
+/// Layers that this rank fills: its share of those with liquid. Whoever cuts parts looks at the cells around; that is
+/// left to the first rank.
+template <int Dim>
+Layers own_layers(const Scene& scene, const Grid<Dim>& grid) {
+  Layers all{grid.cells[Dim - 1], 0};
+  for (const ParticleScene& region : scene.particles) {
+    const Layers layers = layers_of<Dim>(region, grid);
+    all = {std::min(all[0], layers[0]), std::max(all[1], layers[1])};
+  }
+  const Communicator* ranks = all_ranks();
+  if (ranks == nullptr) return all;
+  const bool cuts = scene.facts.find<BodiesOfScene>() != nullptr || scene.facts.get<CutRegions>().any();
+  if (cuts) return ranks->is_first() ? all : Layers{0, 0};
+  const auto begin = [&](int rank) {
+    return all[0] + static_cast<int>(std::int64_t{rank} * (all[1] - all[0]) / ranks->size());
+  };
+  return {begin(ranks->rank()), begin(ranks->rank() + 1)};
+}
+
 /// (E91) by bodies, and by the surfaces of regions that are cut.
 template <int Dim>
 void cut_seeds(const Scene& scene, const Grid<Dim>& grid, World& world, Seeds<Dim>& seeds, SeedProblems& problems) {
@@ -131,10 +163,10 @@ void cut_seeds(const Scene& scene, const Grid<Dim>& grid, World& world, Seeds<Di
     regions.push_back({grid.spacing / region.per_cell, nullptr});
     if (cut_regions.is_cut[r]) regions.back().shape = std::get<SharedShape<Dim>>(region.shape);
   }
-  const bool any = !seeds.position.empty();
+  const bool any = is_any(seeds);
   const LiquidCut cut = cut_away<Dim>(bodies ? bodies->of<Dim>() : BodySet<Dim>{}, grid, regions, seeds);
   if (bodies != nullptr) world.resource<LiquidCut>() = cut;
-  if (!any || !seeds.position.empty()) return;
+  if (!any || is_any(seeds)) return;
   if (bodies != nullptr) {
     problems.note("/bodies", "no liquid is left", "bodies with liquid beside them", "all of it lies in bodies");
   } else {
@@ -146,13 +178,14 @@ template <int Dim>
 Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, SeedProblems& problems) {
   Seeds<Dim> seeds;
   std::unordered_map<std::size_t, double> filled;
+  const Layers layers = own_layers<Dim>(scene, grid);
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
     const ParticleScene& region = scene.particles[r];
     const bool is_cut = scene.facts.get<CutRegions>().is_cut[r];
     const auto positions =
-        lattice<Dim>(region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside);
+        lattice<Dim>(region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside, layers);
     const std::string pointer = fmt::format("/particles/{}", r);
-    if (positions.empty()) {
+    if (sum_of_ranks(positions.size()) == 0) {
       problems.note(pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
                     fmt::format("none at {} per cell and direction", region.per_cell));
     }
@@ -182,6 +215,21 @@ double density_of(const Scene& scene, std::size_t region) {
                            : fluids->of[scene.facts.get<FluidsOfRegions>().of[region]].density;
 }
 
+/// Numbers of particles, region by region, as if one process had laid them out.
+std::vector<std::int64_t> numbers_of(std::span<const std::size_t> region, std::size_t regions) {
+  std::vector<std::int64_t> next(regions, 0);
+  for (const std::size_t r : region) ++next[r];
+  std::int64_t before = 0;
+  for (std::int64_t& count : next) {
+    const std::int64_t own = count;
+    count = before + (all_ranks() == nullptr ? 0 : all_ranks()->sum_below(own));
+    before += sum_of_ranks(static_cast<std::size_t>(own));
+  }
+  std::vector<std::int64_t> numbers;
+  for (const std::size_t r : region) numbers.push_back(next[r]++);
+  return numbers;
+}
+
 /// (E6)  V_p = (h/n)^d for n per cell and direction, m_p = rho V_p, v_p = v(x_p), grad v_p by central differences.
 template <int Dim>
 void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& seeds, World& world,
@@ -192,7 +240,8 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   const auto V_p = world.column<particle::Volume>();
-  const auto id = world.column<particle::Id>();
+  const auto numbers = numbers_of(seeds.region, scene.particles.size());
+  std::copy(numbers.begin(), numbers.end(), world.column<particle::Id>().begin());
   const auto grad_v_p = with_gradient ? world.column<particle::VelocityGradient<Dim>>() : std::span<Mat<Dim>>{};
   const Instant start = scene.start;
   const auto k_p = scene.facts.find<Fluids>() ? world.column<particle::FluidIndex>() : std::span<std::int64_t>{};
@@ -204,7 +253,6 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
     const std::size_t r = seeds.region[p];
     const ParticleScene& region = scene.particles[r];
     x_p[p] = seeds.position[p];
-    id[p] = static_cast<std::int64_t>(p);
     V_p[p] = seeds.share[p] * std::pow(grid.spacing / region.per_cell, Dim);
     m_p[p] = density[r] * V_p[p];
     if (!k_p.empty()) k_p[p] = static_cast<std::int64_t>(fluid_of_region[r]);

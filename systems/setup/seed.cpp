@@ -1,11 +1,13 @@
 #include "systems/setup/seed.hpp"
 
+#include "engine/communicator.hpp"
+
 namespace minamo {
 
 void seed_world(const Scene& scene, const std::string& file, World& world) {
   SeedProblems problems{file, {}};
   for (const Seed& seed : scene.recipe.seeds()) seed(scene, world, problems);
-  if (!problems.problems.empty()) throw InputError(std::move(problems.problems));
+  agree_on_problems(all_ranks(), std::move(problems.problems));
 }
 
 }  // namespace minamo

@@ -83,6 +83,25 @@ TEST_CASE("a world that has read a checkpoint has its state, and goes on bit for
   CHECK(state(other.world()) == state(run.world()));
 }
 
+TEST_CASE("shares of a table are all of it, and all else is whole in every share", "[unit]") {
+  const Folder folder;
+  SceneRun run(small_scene());
+  run.step(1);
+  write_checkpoint(folder / "c.h5", run.world(), {});
+  const auto all = state(run.world());
+  const Hdf5File file(folder / "c.h5", Hdf5File::Access::read);
+  std::vector<std::byte> together;
+  for (std::size_t rank = 0; rank < 3; ++rank) {
+    read_state(file, run.world(), {Particles::name, rank, 3});
+    const auto share = state(run.world());
+    const auto& positions = share.at("particle.position");
+    together.insert(together.end(), positions.begin(), positions.end());
+    CHECK(share.at("clock") == all.at("clock"));
+    CHECK(share.at("node.pressure") == all.at("node.pressure"));
+  }
+  CHECK(together == all.at("particle.position"));
+}
+
 TEST_CASE("a checkpoint that lacks a component, or has another size of it, changes nothing", "[unit]") {
   const Folder folder;
   SceneRun run(small_scene());

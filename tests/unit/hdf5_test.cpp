@@ -7,6 +7,7 @@
 #include <hdf5.h>
 
 #include <cstring>
+#include <fstream>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -82,6 +83,36 @@ TEST_CASE("a created HDF5 file forgets what was there", "[unit]") {
   Hdf5File(folder / "a.h5", Hdf5File::Access::create).write("/first", six);
   Hdf5File(folder / "a.h5", Hdf5File::Access::create).write("/second", six);
   CHECK_THROWS_WITH(Hdf5File(folder / "a.h5", Hdf5File::Access::read).read_bytes("/first"), Catch::Contains("/first"));
+}
+
+TEST_CASE("a file whose rows others have written is that of the library", "[unit]") {
+  const Folder folder;
+  const DatasetRows rows{"/group/rows", std::span<const double>(six), 2};
+  Hdf5File file(folder / "a.h5", Hdf5File::Access::create);
+  file.write(rows);
+  file.close();
+  Hdf5File other(folder / "b.h5", Hdf5File::Access::create);
+  const Extent extent = other.make_room(rows, 3);
+  other.close();
+  REQUIRE(extent.bytes == sizeof(double) * six.size());
+  std::fstream raw(folder / "b.h5", std::ios::binary | std::ios::in | std::ios::out);
+  raw.seekp(static_cast<std::streamoff>(extent.offset));
+  raw.write(reinterpret_cast<const char*>(six.data()), static_cast<std::streamsize>(extent.bytes));
+  raw.close();
+  CHECK(text_of(folder / "a.h5") == text_of(folder / "b.h5"));
+}
+
+TEST_CASE("some rows of a dataset can be read", "[unit]") {
+  const Folder folder;
+  Hdf5File(folder / "a.h5", Hdf5File::Access::create).write("/rows", six, 2);
+  const Hdf5File file(folder / "a.h5", Hdf5File::Access::read);
+  CHECK(file.size_of("/rows") == 48);
+  const auto bytes = file.read_bytes("/rows", 16, 32);
+  std::vector<double> second(2);
+  REQUIRE(bytes.size() == 16);
+  std::memcpy(second.data(), bytes.data(), 16);
+  CHECK(second == std::vector<double>{-3, 4});
+  CHECK(file.read_bytes("/rows", 16, 16).empty());
 }
 
 TEST_CASE("an HDF5 object has its attribute", "[unit]") {

@@ -2,6 +2,7 @@
 
 #include "components/particle.hpp"
 #include "engine/communicator.hpp"
+#include "engine/problem.hpp"
 #include "engine/schedule.hpp"
 #include "engine/step_control.hpp"
 #include "support/rows.hpp"
@@ -36,6 +37,12 @@ TEST_CASE("the curve is cut into pieces of as many particles, in whole blocks", 
     // The mean is 120 over the ranks; a block has 5 at most, of which a cut may give half to the wrong side.
     for (const std::uint64_t of_rank : particles) CHECK(std::abs(static_cast<double>(of_rank) - 120.0 / ranks) <= 5);
   }
+}
+
+TEST_CASE("the fullest rank has the most particles", "[unit]") {
+  const std::vector<BlockLoad> loads{{0, 9}, {5, 4}, {5, 6}, {7, 3}};
+  CHECK(fullest({.begin = {0, 5, 6}, .rank = {1, 0, 1}}, loads) == 12);
+  CHECK(fullest(cut_curve(loads, 1), loads) == 22);
 }
 
 TEST_CASE("with more ranks than blocks some have none, and all blocks have a rank", "[unit]") {
@@ -127,15 +134,19 @@ class WithAnother final : public Communicator {
  public:
   explicit WithAnother(std::string failure_of_other = {}) : failure_(std::move(failure_of_other)) {}
   using Communicator::sum;
+  int on_this_machine() const override { return 2; }
   int rank() const override { return 1; }
   int size() const override { return 2; }
   void sum(std::span<double>) override {}
   std::int64_t sum(std::int64_t value) override { return value; }
   std::int64_t sum_below(std::int64_t) override { return 0; }
   double largest(double value) override { return failure_.empty() ? value : 2; }  // rank 0 is the lowest
-  std::string broadcast(std::string text, int root) override { return root == 0 ? failure_ : text; }
+  std::string broadcast(std::string text, int root) override {
+    return root == 0 && !failure_.empty() ? failure_ : text;
+  }
   void abort(int) override {}
-  std::vector<std::vector<std::byte>> gather(std::vector<std::byte>) override { return {}; }
+  std::vector<std::vector<std::byte>> gather(std::vector<std::byte> own) override { return {own, own}; }
+  bool write(const std::string&, std::span<const Piece>) override { return true; }
 
  private:
   std::vector<Message> exchange_between_strangers(const std::vector<Message>&) override { return {}; }
@@ -155,4 +166,21 @@ TEST_CASE("what fails on one rank fails on all, as the same kind", "[unit]") {
   WithAnother failing("fdisk full");
   CHECK_THROWS_AS(do_on_all(&failing, [] {}), FailedElsewhere);
   CHECK_NOTHROW(do_on_all(nullptr, [] {}));
+}
+
+TEST_CASE("a problem that several ranks find is told once", "[unit]") {
+  WithAnother other;
+  CHECK_NOTHROW(agree_on_problems(&other, {}));
+  const std::vector<Problem> problems{{"a.json", "/x", "not finite", "a number", "nan", {}},
+                                      {"a.json", "/y", "not finite", "a number", "nan", {}},
+                                      {"a.json", "/x", "not finite", "a number", "inf", {}}};
+  try {
+    agree_on_problems(&other, problems);
+    FAIL("nothing is thrown");
+  } catch (const InputError& error) {
+    REQUIRE(error.problems().size() == 2);
+    CHECK(error.problems()[0].text() == problems[0].text());
+    CHECK(error.problems()[1].text() == problems[1].text());
+  }
+  CHECK_THROWS_AS(agree_on_problems(nullptr, problems), InputError);
 }

@@ -5,6 +5,8 @@
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "systems/grid/node_volume.hpp"
+#include "systems/setup/lattice.hpp"
+#include "systems/shapes/primitives.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -207,4 +209,24 @@ TEST_CASE("a region without particles is refused", "[unit]") {
 TEST_CASE("a velocity that is not finite is refused", "[unit]") {
   const Json scene = box(R"json([{"shape": {"where": "1"}, "velocity": ["1/(x < 0.02 ? 0 : 1)", 0]}])json");
   CHECK_THROWS_WITH(SceneRun(scene), Catch::Contains("/particles/0/velocity: not finite"));
+}
+
+TEST_CASE("layers of a lattice are those of the whole one, jitter included", "[unit]") {
+  Grid<2> grid;
+  grid.cells = {7, 9};
+  grid.spacing = 0.1;
+  ParticleScene region;
+  region.per_cell = 3;
+  region.shape = SharedShape<2>(std::make_shared<shapes::Ball<2>>(Vec<2>(0.3, 0.5), 0.25));
+  if (GENERATE(false, true)) region.jitter = 5;
+  std::vector<Vec<2>> together;
+  for (const Layers layers : {Layers{0, 3}, Layers{3, 4}, Layers{4, 4}, Layers{4, 12}}) {
+    const auto some = lattice<2>(region, grid, {}, PartsTaken::middle_inside, layers);
+    together.insert(together.end(), some.begin(), some.end());
+  }
+  CHECK(together == lattice<2>(region, grid));
+  const Layers reached = layers_of<2>(region, grid);
+  CHECK(reached[0] <= 2);
+  CHECK(reached[1] >= 8);
+  CHECK(reached[1] <= 9);
 }

@@ -20,18 +20,38 @@ int count_of(std::size_t bytes) {
   return static_cast<int>(bytes);
 }
 
+/// By rows, of which there may be more than 2 GB.
+bool write_piece(MPI_File file, const Communicator::Piece& piece) {
+  MPI_Datatype row = MPI_DATATYPE_NULL;
+  MPI_Type_contiguous(static_cast<int>(piece.row_bytes), MPI_BYTE, &row);
+  MPI_Type_commit(&row);
+  const auto rows = static_cast<int>(piece.rows.size() / piece.row_bytes);
+  MPI_Status status;
+  const int failed =
+      MPI_File_write_at_all(file, static_cast<MPI_Offset>(piece.offset), piece.rows.data(), rows, row, &status);
+  int written = 0;
+  MPI_Get_count(&status, row, &written);
+  MPI_Type_free(&row);
+  return failed == MPI_SUCCESS && written == rows;
+}
+
 class MpiCommunicator final : public Communicator {
  public:
   MpiCommunicator() {
     MPI_Comm_dup(MPI_COMM_WORLD, &comm_);
     MPI_Comm_rank(comm_, &rank_);
     MPI_Comm_size(comm_, &size_);
+    MPI_Comm of_machine = MPI_COMM_NULL;
+    MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &of_machine);
+    MPI_Comm_size(of_machine, &on_this_machine_);
+    MPI_Comm_free(&of_machine);
   }
   ~MpiCommunicator() override { MPI_Comm_free(&comm_); }
   MpiCommunicator(const MpiCommunicator&) = delete;
   MpiCommunicator& operator=(const MpiCommunicator&) = delete;
 
   using Communicator::sum;
+  int on_this_machine() const override { return on_this_machine_; }
   int rank() const override { return rank_; }
   int size() const override { return size_; }
 
@@ -85,6 +105,15 @@ class MpiCommunicator final : public Communicator {
                MPI_STATUS_IGNORE);
     }
     return all;
+  }
+  bool write(const std::string& path, std::span<const Piece> pieces) override {
+    MPI_File file = MPI_FILE_NULL;
+    const int failed = MPI_File_open(comm_, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file);
+    if (any(failed != MPI_SUCCESS)) return false;
+    bool is_written = true;
+    for (const Piece& piece : pieces) is_written &= write_piece(file, piece);
+    is_written &= MPI_File_sync(file) == MPI_SUCCESS;
+    return (MPI_File_close(&file) == MPI_SUCCESS) && is_written;
   }
 
  protected:
@@ -140,6 +169,7 @@ class MpiCommunicator final : public Communicator {
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
+  int on_this_machine_ = 1;
   bool is_odd_ = false;
 };
 

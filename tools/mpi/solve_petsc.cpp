@@ -3,6 +3,7 @@
 #include <petscksp.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <array>
 #include <cmath>
 
 namespace minamo {
@@ -13,6 +14,25 @@ constexpr PetscInt most_iterations = 500;
 
 void check(PetscErrorCode code) {
   if (code != 0) throw std::runtime_error(fmt::format("petsc: error {}", code));
+}
+
+/// Options of hypre's multigrid with which iterations grow least with size in space (systems/ranks/README.md). A weak
+/// threshold, for all entries are alike but at the surface; smoothing by Jacobi, which does not know where ranks end,
+/// damped, for a chessboard it would only turn around. Who gives PETSc an option of that name has that.
+constexpr std::array<std::array<const char*, 2>, 6> of_multigrid{{{"coarsen_type", "HMIS"},
+                                                                  {"interp_type", "standard"},
+                                                                  {"P_max", "6"},
+                                                                  {"strong_threshold", "0.1"},
+                                                                  {"relax_type_all", "Jacobi"},
+                                                                  {"relax_weight_all", "0.8"}}};
+
+void set_options_of_multigrid() {
+  for (const auto& [name, value] : of_multigrid) {
+    const std::string option = fmt::format("-minamo_pc_hypre_boomeramg_{}", name);
+    PetscBool is_given = PETSC_FALSE;
+    check(PetscOptionsHasName(nullptr, nullptr, option.c_str(), &is_given));
+    if (is_given == PETSC_FALSE) check(PetscOptionsSetValue(nullptr, option.c_str(), value));
+  }
 }
 
 }  // namespace
@@ -34,6 +54,7 @@ struct PetscSolver::Impl {
     check(PCHYPRESetType(preconditioner, "boomeramg"));
     check(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
     check(KSPSetOptionsPrefix(solver, "minamo_"));
+    set_options_of_multigrid();
     check(KSPSetFromOptions(solver));
   }
   ~Impl() {
