@@ -16,8 +16,8 @@ namespace minamo {
 /// What a rank has to add to the checkpoint of all: rows of tables that are spread over the ranks. All else the first
 /// rank has.
 struct RowsOfRank {
-  Communicator* ranks = nullptr;  ///< null: this process is alone and has everything
-  std::string_view whole = {};    ///< a table whose rows are on one rank each
+  Communicator* ranks = nullptr;                                     ///< null: this process is alone and has everything
+  std::string_view whole = {};                                       ///< a table whose rows are on one rank each
   std::map<std::string_view, std::vector<std::uint32_t>> some = {};  ///< rows of a table that ranks share
 };
 

@@ -14,8 +14,7 @@ std::vector<Place> places_of(Communicator& ranks, std::span<const DatasetRows> d
   std::vector<Place> places;
   for (const DatasetRows& own : datasets) {
     const auto rows = static_cast<std::int64_t>(own.rows());
-    places.push_back(
-        {static_cast<std::size_t>(ranks.sum_below(rows)), static_cast<std::size_t>(ranks.sum(rows))});
+    places.push_back({static_cast<std::size_t>(ranks.sum_below(rows)), static_cast<std::size_t>(ranks.sum(rows))});
   }
   return places;
 }

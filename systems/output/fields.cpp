@@ -136,9 +136,8 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
   if (mu_p) add_field("viscosity", mu_p.span(), 1);
   if (k_p) add_field("fluid", k_p.span(), 1);
   const bool is_first = fields->frames.size() == 1;
-  const auto extents =
-      write_shared(all, fields->path(), is_first ? Hdf5File::Access::create : Hdf5File::Access::extend, data,
-                   [&](Hdf5File& file) { file.set_attribute(name, "time", clock->time); });
+  const auto extents = write_shared(all, fields->path(), is_first ? Hdf5File::Access::create : Hdf5File::Access::extend,
+                                    data, [&](Hdf5File& file) { file.set_attribute(name, "time", clock->time); });
   if (!is_writer) return;
   fields->frames.back().extents = extents;
   fields->frames.back().extra_fields = extra_fields;

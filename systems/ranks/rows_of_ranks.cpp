@@ -9,8 +9,9 @@ namespace minamo {
 
 namespace {
 
-/// Rows of the staggered table that this rank answers for. Where they are not those that ranks last agreed on, before the
-/// first step and after one that was taken back, the first rank has those that it knows; the next step makes them anew.
+/// Rows of the staggered table that this rank answers for. Where they are not those that ranks last agreed on, before
+/// the first step and after one that was taken back, the first rank has those that it knows; the next step makes them
+/// anew.
 std::vector<std::uint32_t> owned_rows(Communicator& ranks, World& world) {
   const auto& shared = world.resource<SiteExchange>();
   std::vector<std::uint32_t> rows(world.rows<Staggered>());

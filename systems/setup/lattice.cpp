@@ -67,8 +67,7 @@ class Inside {
 template <int Dim>
 using PartsToTry = std::array<std::array<int, 2>, static_cast<std::size_t>(Dim)>;
 template <int Dim>
-PartsToTry<Dim> parts_to_try(const ParticleScene& region,
-const Grid<Dim>& grid) {
+PartsToTry<Dim> parts_to_try(const ParticleScene& region, const Grid<Dim>& grid) {
   PartsToTry<Dim> range;
   const auto* shape = std::get_if<SharedShape<Dim>>(&region.shape);
   const Bounds<Dim> bounds = shape ? (*shape)->bounds() : Bounds<Dim>();

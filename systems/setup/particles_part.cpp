@@ -182,8 +182,8 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
     const ParticleScene& region = scene.particles[r];
     const bool is_cut = scene.facts.get<CutRegions>().is_cut[r];
-    const auto positions = lattice<Dim>(
-        region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside, layers);
+    const auto positions =
+        lattice<Dim>(region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside, layers);
     const std::string pointer = fmt::format("/particles/{}", r);
     if (sum_of_ranks(positions.size()) == 0) {
       problems.note(pointer + "/shape", "no particle inside", "a shape that holds at least one particle",

@@ -27,8 +27,8 @@ bool write_piece(MPI_File file, const Communicator::Piece& piece) {
   MPI_Type_commit(&row);
   const auto rows = static_cast<int>(piece.rows.size() / piece.row_bytes);
   MPI_Status status;
-  const int failed = MPI_File_write_at_all(file, static_cast<MPI_Offset>(piece.offset), piece.rows.data(), rows, row,
-                                           &status);
+  const int failed =
+      MPI_File_write_at_all(file, static_cast<MPI_Offset>(piece.offset), piece.rows.data(), rows, row, &status);
   int written = 0;
   MPI_Get_count(&status, row, &written);
   MPI_Type_free(&row);
