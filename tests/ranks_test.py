@@ -127,6 +127,16 @@ class Alike(unittest.TestCase):
                   "/transfer={\"scheme\": \"flip\"}"]
         self.check("flip", SCENES / "dam_break.json", [*DAM_BREAK, *scheme, "--set", "/time/end=0.2"], [3])
 
+    def test_filters_second_order_and_errors(self):
+        exact = ["--set", "/exact={\"velocity\": [\"x\", \"-y\"], \"pressure\": \"1000*9.81*(0.3-y)\", "
+                 "\"pressure_mean\": \"free\"}", "--set", "/time/end=0.08"]
+        for scheme in ("xpic", "fmpm", "tpic2"):
+            options = [*DAM_BREAK, *exact, "--set", f"/transfer={{\"scheme\": \"{scheme}\"}}"]
+            self.check(scheme, SCENES / "dam_break.json", options, [3])
+            ours, alone = history(WORK / f"{scheme}_3"), history(WORK / f"{scheme}_alone")
+            for column in ("error_velocity", "error_pressure"):
+                np.testing.assert_allclose(ours[column], alone[column], rtol=1e-7, err_msg=f"{scheme}: {column}")
+
     def test_around_a_periodic_axis(self):
         options = ["--set", "/walls={\"x\": \"periodic\", \"y\": \"slip\"}", "--set", "/time/end=0.2"]
         self.check("periodic", SCENES / "dam_break.json", [*DAM_BREAK, *options], [3])

@@ -42,11 +42,11 @@ template <int Dim>
 void FilterFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                       Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                                      Read<face::Velocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
-                                      Write<face::Smoothed<Dim>> smoothed,
+                                      Read<face::Velocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
+                                      Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
                                       Write<face::FilteredVelocity<Dim>> v_filtered) const {
-  filter_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), held.span(), order,
-                    v_f.span(), residue.span(), smoothed.span(), v_filtered.span());
+  filter_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
+                    held.span(), order, v_f.span(), residue.span(), smoothed.span(), v_filtered.span());
 }
 
 template <int Dim>
@@ -63,11 +63,11 @@ template <int Dim>
 void FilterFacesFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                       Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                                      Read<face::NewVelocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
-                                      Write<face::Smoothed<Dim>> smoothed,
+                                      Read<face::NewVelocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
+                                      Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
                                       Write<face::FilteredVelocity<Dim>> v_filtered) const {
-  filter_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), held.span(), order,
-                    v_f.span(), residue.span(), smoothed.span(), v_filtered.span());
+  filter_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
+                    held.span(), order, v_f.span(), residue.span(), smoothed.span(), v_filtered.span());
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include "engine/input.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 #include "systems/transfer/filter_series.hpp"
 
 namespace minamo {
@@ -24,8 +25,9 @@ struct FilterFacesXpic {
   explicit FilterFacesXpic(Input& input) : order(filter_order(input)) {}
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f,
-                  Read<face::Held> held, Read<face::Velocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
-                  Write<face::Smoothed<Dim>> smoothed, Write<face::FilteredVelocity<Dim>> v_filtered) const;
+                  Read<face::Held> held, Read<face::Velocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
+                  Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
+                  Write<face::FilteredVelocity<Dim>> v_filtered) const;
 };
 
 /// (E47) on faces: v_p = sum_f N_f (v*_f + v_f^{n+1} - v_f^n).
@@ -49,8 +51,9 @@ struct FilterFacesFmpm {
   explicit FilterFacesFmpm(Input& input) : order(filter_order(input)) {}
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f,
-                  Read<face::Held> held, Read<face::NewVelocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
-                  Write<face::Smoothed<Dim>> smoothed, Write<face::FilteredVelocity<Dim>> v_filtered) const;
+                  Read<face::Held> held, Read<face::NewVelocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
+                  Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
+                  Write<face::FilteredVelocity<Dim>> v_filtered) const;
 };
 
 /// (E66) on faces: v_p = sum_f N_f v*_f.

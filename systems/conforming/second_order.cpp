@@ -11,9 +11,9 @@ void P2GFacesTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
                                     Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                     Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                                     Read<particle::VelocityGradient<Dim>> grad_v_p,
-                                    Read<particle::VelocityCurvature<Dim>> h_p, Write<face::Mass<Dim>> m_f,
-                                    Write<face::Velocity<Dim>> v_f) const {
-  scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span()}, m_f.span(), v_f.span(),
+                                    Read<particle::VelocityCurvature<Dim>> h_p, Optional<Read<SiteExchange>> shared,
+                                    Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
+  scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(), v_f.span(),
                     [&](std::size_t p) {
                       return series::Quadratic<Dim>{v_p[p], grad_v_p[p], h_p[p]};
                     });

@@ -10,6 +10,7 @@
 #include "engine/input.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -21,8 +22,8 @@ struct P2GFacesTpic2 {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> grad_v_p,
-                  Read<particle::VelocityCurvature<Dim>> h_p, Write<face::Mass<Dim>> m_f,
-                  Write<face::Velocity<Dim>> v_f) const;
+                  Read<particle::VelocityCurvature<Dim>> h_p, Optional<Read<SiteExchange>> shared,
+                  Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const;
 };
 
 /// (E17), (E65), (E72) on faces.

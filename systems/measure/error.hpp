@@ -10,6 +10,7 @@
 #include "components/instant.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
+#include "engine/communicator.hpp"
 #include "engine/system.hpp"
 
 namespace minamo {
@@ -20,7 +21,7 @@ struct MeasureErrorVelocity {
   static constexpr std::string_view doc = "(E41) error of the velocity";
   void operator()(Read<exact::Velocity> exact, Read<Clock> clock, Optional<Read<ode::Values>> ode,
                   Read<particle::Volume> V_p, Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                  Update<measure::Columns> columns) const;
+                  Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const;
 };
 
 /// (E42)  error_pressure = sqrt(sum V_p (p_p - p_e(y_p))^2 / sum V_p p_e(y_p)^2), p_p of (E33): where and when the
@@ -32,7 +33,7 @@ struct MeasureErrorPressure {
   static constexpr std::string_view doc = "(E42) error of the pressure";
   void operator()(Read<exact::Pressure> exact, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Pressure> p_p,
-                  Update<measure::Columns> columns) const;
+                  Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const;
 };
 
 }  // namespace minamo

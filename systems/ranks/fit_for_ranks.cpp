@@ -11,11 +11,12 @@ const std::set<std::string, std::less<>> fit{
     // between ranks
     "migrate_particles", "find_ghost_cells", "plan_site_exchange", "solve_multipliers_petsc",
     // add up at sites that ranks share
-    "p2g_faces_pic", "p2g_faces_tpic", "p2g_face_acceleration_pic", "p2g_face_acceleration_tpic", "p2g_face_force",
-    "p2g_multipliers", "rub_faces", "add_face_inertia", "fill_parts", "recover_pressure",
+    "p2g_faces_pic", "p2g_faces_tpic", "p2g_faces_tpic2", "filter_faces_xpic", "filter_faces_fmpm",
+    "p2g_face_acceleration_pic", "p2g_face_acceleration_tpic", "p2g_face_force", "p2g_multipliers", "rub_faces",
+    "add_face_inertia", "fill_parts", "recover_pressure",
     // over all particles or faces
     "limit_particle_shift", "accept_step_on_faces", "measure_energy", "measure_momentum", "measure_max_speed",
-    "measure_face_divergence", "measure_multiplier_overlap",
+    "measure_error_velocity", "measure_error_pressure", "measure_face_divergence", "measure_multiplier_overlap",
     // the first rank writes
     "write_history", "flush_history", "write_frame", "write_xdmf",
     // of own particles, cells, and sites
@@ -24,10 +25,10 @@ const std::set<std::string, std::less<>> fit{
     "predict_faces_backward_euler", "predict_faces_newmark", "uniform_face_force", "find_fill", "find_cell_viscosity",
     "find_liquid_cells_by_multipliers", "find_mobility", "find_mobility_mixed", "assemble_multipliers", "face_source",
     "damp_face_divergence", "face_volume_source", "project_faces", "correct_faces_midpoint", "correct_faces_newmark",
-    "correct_faces_backward_euler", "g2p_faces_pic", "g2p_faces_flip", "g2p_faces_tpic", "g2p_faces_apic",
-    "g2p_face_acceleration_pic", "g2p_face_acceleration_tpic", "g2p_face_acceleration_apic", "limit_gradient",
-    "carry_gradient_by_faces", "g2p_face_force_gradient", "advect_by_faces", "stir_particles", "gather_face_shift",
-    "apply_particle_shift", "note_step"};
+    "correct_faces_backward_euler", "g2p_faces_pic", "g2p_faces_flip", "g2p_faces_tpic", "g2p_faces_tpic2",
+    "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm", "g2p_face_acceleration_pic", "g2p_face_acceleration_tpic",
+    "g2p_face_acceleration_apic", "limit_gradient", "carry_gradient_by_faces", "g2p_face_force_gradient",
+    "advect_by_faces", "stir_particles", "gather_face_shift", "apply_particle_shift", "note_step"};
 
 }  // namespace
 
