@@ -1,5 +1,6 @@
 #include "systems/bodies/fill.hpp"
 
+#include "systems/bodies/surface_level.hpp"
 #include "systems/conforming/sites_around.hpp"
 
 #include <algorithm>
@@ -93,8 +94,11 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
 }
 
 template <int Dim>
-void FindUncutMass<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<face::OpenVolume<Dim>> open_volume,
-                                    Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                    Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open_face,
+                                    Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+                                    Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill>,
                                     Read<face::Mass<Dim>> m_f, Write<face::UncutMass<Dim>> uncut) const {
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {
@@ -124,6 +128,24 @@ void FindUncutMass<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, R
       uncut[i][axis] /= std::max(open, least_open_liquid);
     }
   });
+  const double full_cell = fluid->density * std::pow(grid->spacing, Dim);
+  const std::size_t count = m_f.size();
+  std::vector<std::uint8_t> is_known(count);
+  std::vector<std::uint32_t> unknown;
+  std::vector<double> fill(count);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    unknown.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      is_known[i] = 0;
+      if (!splines->has_face(site[i], d)) continue;
+      fill[i] = uncut[i][axis] / (full_cell * splines->face_integral(site[i], d));
+      is_known[i] = open_volume[i][axis] == 1 ? 1 : 0;
+      if (is_known[i] == 0 && open_face[i][axis] > 0) unknown.push_back(static_cast<std::uint32_t>(i));
+    }
+    level_with_surface<Dim>(*splines, *rows, site.span(), {d, is_known, unknown, fill});
+    for (const std::uint32_t i : unknown) uncut[i][axis] = fill[i] * full_cell * splines->face_integral(site[i], d);
+  }
 }
 
 template struct FindUncutMass<2>;
