@@ -1,7 +1,9 @@
 #include "systems/bodies/fill.hpp"
 
 #include "systems/bodies/surface_level.hpp"
+#include "systems/conforming/fill.hpp"
 #include "systems/conforming/sites_around.hpp"
+#include "systems/grid/filled_nodes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +100,7 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
                                     Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                                     Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open_face,
                                     Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
-                                    Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill>,
+                                    Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least,
                                     Read<face::Mass<Dim>> m_f, Write<face::UncutMass<Dim>> uncut) const {
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {
@@ -129,22 +131,17 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
     }
   });
   const double full_cell = fluid->density * std::pow(grid->spacing, Dim);
-  const std::size_t count = m_f.size();
-  std::vector<std::uint8_t> is_known(count);
-  std::vector<std::uint32_t> unknown;
-  std::vector<double> fill(count);
   for (std::size_t d = 0; d < Dim; ++d) {
     const auto axis = static_cast<Eigen::Index>(d);
-    unknown.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-      is_known[i] = 0;
-      if (!splines->has_face(site[i], d)) continue;
-      fill[i] = uncut[i][axis] / (full_cell * splines->face_integral(site[i], d));
-      is_known[i] = open_volume[i][axis] == 1 ? 1 : 0;
-      if (is_known[i] == 0 && open_face[i][axis] > 0) unknown.push_back(static_cast<std::uint32_t>(i));
+    std::vector<std::uint32_t> cut;
+    for (std::size_t i = 0; i < m_f.size(); ++i) {
+      if (open_volume[i][axis] == 1 || open_face[i][axis] == 0 || !splines->has_face(site[i], d)) continue;
+      // Where the liquid fills the grid a face has the mass of a whole one, (E68).
+      if (filled_indicator(least_fill_of_face<Dim>(*splines, site[i], neighbour[i], least.span(), i, d)) < 1)
+        cut.push_back(static_cast<std::uint32_t>(i));
     }
-    level_with_surface<Dim>(*splines, *rows, site.span(), {d, is_known, unknown, fill});
-    for (const std::uint32_t i : unknown) uncut[i][axis] = fill[i] * full_cell * splines->face_integral(site[i], d);
+    level_with_surface<Dim>({*splines, *rows, site.span(), open_volume.span(), d, full_cell}, std::move(cut),
+                            uncut.span());
   }
 }
 

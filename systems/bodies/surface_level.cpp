@@ -1,9 +1,9 @@
 #include "systems/bodies/surface_level.hpp"
 
-#include "systems/conforming/sites_around.hpp"
+#include "engine/parallel.hpp"
 
 #include <cmath>
-#include <cstdlib>
+#include <optional>
 #include <vector>
 
 namespace minamo {
@@ -12,123 +12,147 @@ namespace {
 
 constexpr int reach = 2;
 constexpr int across = 2 * reach + 1;
-const double own_error = std::getenv("OWN") ? atof(std::getenv("OWN")) : 0.02;
-const double level_error = std::getenv("LEV") ? atof(std::getenv("LEV")) : 0.3;
-const double least_slope = std::getenv("SLO") ? atof(std::getenv("SLO")) : 0.02;
-const int passes = std::getenv("PAS") ? atoi(std::getenv("PAS")) : 8;
+/// Error of fill fractions by the particles that a body leaves.
+constexpr double own_error = 0.02;
+/// Error of those that are carried across levels, per step of the grid: F is no straight line.
+constexpr double level_error = 0.3;
+/// Slope of the fill fraction from which on there is a surface.
+constexpr double least_slope = 0.02;
+constexpr double least_weight = 0.05;
+/// Faces farther than this from whole ones keep what their own particles tell.
+constexpr int most_passes = 8;
 
+/// Fill fractions of the faces around one, x fastest.
 template <int Dim>
 struct Around {
   std::array<double, power(across, Dim)> fill;
   std::array<bool, power(across, Dim)> is_known{};
 };
 
+/// Which corners of a block of 2^d a place has, relative to its first.
 template <int Dim>
-std::optional<Vec<Dim>> slope_of(const Around<Dim>& around) {
-  Vec<Dim> slope = Vec<Dim>::Zero();
-  int count = 0;
-  for (std::size_t k = 0; k < power(across - 1, Dim); ++k) {
-    std::size_t first = 0;
-    std::array<std::size_t, static_cast<std::size_t>(Dim)> stride;
-    std::size_t rest = k;
-    for (std::size_t d = 0, s = 1; d < Dim; ++d, rest /= across - 1, s *= across) {
-      stride[d] = s;
-      first += s * (rest % (across - 1));
-    }
-    bool all = true;
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    for (std::size_t corner = 0; corner < power(2, Dim) && all; ++corner) {
-      std::size_t at = first;
-      for (std::size_t d = 0; d < Dim; ++d) at += (corner >> d & 1U) * stride[d];
-      all = around.is_known[at];
-      for (std::size_t d = 0; d < Dim; ++d)
-        sum[static_cast<Eigen::Index>(d)] += (corner >> d & 1U) != 0 ? around.fill[at] : -around.fill[at];
-    }
-    if (!all) continue;
-    slope += sum / static_cast<double>(power(2, Dim - 1));
-    ++count;
+constexpr std::array<std::size_t, power(2, Dim)> corners_of_block() {
+  std::array<std::size_t, power(2, Dim)> corners{};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    for (std::size_t d = 0; d < Dim; ++d) corners[k] += (k >> d & 1U) * power(across, static_cast<int>(d));
   }
-  if (count == 0) return {};
-  return Vec<Dim>(slope / count);
+  return corners;
 }
 
+/// Mean slope of the fill fraction over the blocks of 2^d known faces, per step of the grid. All its components are of
+/// the same blocks: the direction is right though the fraction is no straight line, and exact along the grid.
 template <int Dim>
-std::optional<double> levelled(const Around<Dim>& around, double own) {
-  const auto slope = slope_of<Dim>(around);
-  if (!slope) return {};
-  const double steepness = slope->norm();
+std::optional<Vec<Dim>> slope_of_fill(const Around<Dim>& around) {
+  constexpr auto corners = corners_of_block<Dim>();
+  Vec<Dim> slope = Vec<Dim>::Zero();
+  int blocks = 0;
+  for (std::size_t k = 0; k < power(across - 1, Dim); ++k) {
+    std::size_t first = 0;
+    std::size_t rest = k;
+    for (int d = 0; d < Dim; ++d, rest /= across - 1) first += rest % (across - 1) * power(across, d);
+    if (!std::all_of(corners.begin(), corners.end(), [&](std::size_t at) { return around.is_known[first + at]; }))
+      continue;
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+      const double fill = around.fill[first + corners[corner]];
+      for (int d = 0; d < Dim; ++d) slope[d] += (corner >> d & 1U) != 0 ? fill : -fill;
+    }
+    ++blocks;
+  }
+  if (blocks == 0) return {};
+  return Vec<Dim>(slope / (blocks * static_cast<double>(power(2, Dim - 1))));
+}
+
+/// What the faces around tell of the one in the middle, and how well; nothing where no surface is.
+struct OnLevel {
+  double fill;
+  double variance;
+};
+template <int Dim>
+std::optional<OnLevel> fill_on_level(const Around<Dim>& around, const Vec<Dim>& slope) {
+  const double steepness = slope.norm();
   if (steepness < least_slope) return {};
   double weights = 0;
   double sum = 0;
   double squares = 0;
-  double doubt = 0;
+  double levels = 0;
   for (std::size_t k = 0; k < power(across, Dim); ++k) {
     if (!around.is_known[k]) continue;
     Vec<Dim> r;
     std::size_t rest = k;
     for (int d = 0; d < Dim; ++d, rest /= across) r[d] = static_cast<double>(rest % across) - reach;
-    const double level = r.dot(*slope) / steepness;
+    const double level = r.dot(slope) / steepness;
     if (std::abs(level) >= 1) continue;
+    // Smooth to zero: else what is one step away counts at the least turn of the surface, and waves grow from rounding.
     const double inside = 1 - level * level;
     const double weight = inside * inside * inside / r.squaredNorm();
-    const double there = around.fill[k] - steepness * level;
+    const double fill = around.fill[k] - steepness * level;
     weights += weight;
-    sum += weight * there;
-    squares += weight * there * there;
-    doubt += weight * level * level;
+    sum += weight * fill;
+    squares += weight * fill * fill;
+    levels += weight * level * level;
   }
-  if (weights < 0.05) return {};
+  if (weights < least_weight) return {};
   const double mean = sum / weights;
-  const double variance =
-      std::max(0.0, squares / weights - mean * mean) + level_error * level_error * doubt / weights;
-  const double trust = own_error * own_error / (own_error * own_error + variance);
-  return own + trust * (mean - own);
+  const double scatter = std::max(0.0, squares / weights - mean * mean);
+  return OnLevel{mean, scatter + level_error * level_error * levels / weights};
+}
+
+/// Fill of a face that is cut, from what its own particles tell and from the known faces around, once they tell.
+template <int Dim>
+std::optional<double> find_fill(const Around<Dim>& around, double own) {
+  const auto slope = slope_of_fill<Dim>(around);
+  if (!slope) return {};
+  const auto on_level = fill_on_level<Dim>(around, *slope);
+  if (!on_level) return {};
+  constexpr double own_variance = own_error * own_error;
+  return own + own_variance / (own_variance + on_level->variance) * (on_level->fill - own);
 }
 
 }  // namespace
 
 template <int Dim>
-void level_with_surface(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
-                        std::span<const Index<Dim>> site, const FacesOfDirection& faces) {
-  std::vector<std::uint32_t> left(faces.unknown.begin(), faces.unknown.end());
-  for (int pass = 0; pass < passes && !left.empty(); ++pass) {
-    std::vector<std::optional<double>> found(left.size());
-    for_each_row(left.size(), [&](std::size_t t) {
-      Around<Dim> around;
-      std::size_t k = 0;
-      bool any = false;
-      for (std::size_t a = 0; a < power(across, Dim); ++a) {
-        Index<Dim> steps;
-        std::size_t rest = a;
-        for (std::size_t d = 0; d < Dim; ++d, rest /= across) steps[d] = static_cast<int>(rest % across) - reach;
-        k = a;
-        const auto other = splines.site_at(site[left[t]], steps);
-        if (!other) continue;
-        const auto row = rows.find(*other);
-        if (!row || faces.is_known[*row] == 0) continue;
-        around.is_known[k] = true;
-        around.fill[k] = faces.fill[*row];
-        any = true;
-      }
-      if (any) found[t] = levelled<Dim>(around, faces.fill[left[t]]);
-    });
-    std::vector<std::uint32_t> still;
-    for (std::size_t t = 0; t < left.size(); ++t) {
-      if (!found[t]) {
-        still.push_back(left[t]);
-        continue;
-      }
-      faces.fill[left[t]] = *found[t];
-      faces.is_known[left[t]] = 1;
+void level_with_surface(const FacesOnLevels<Dim>& faces, std::vector<std::uint32_t> cut, std::span<Vec<Dim>> mass) {
+  const auto d = static_cast<Eigen::Index>(faces.direction);
+  const auto full = [&](std::size_t i) {
+    return faces.full_cell * faces.splines.face_integral(faces.site[i], faces.direction);
+  };
+  std::vector<std::uint8_t> is_found(cut.empty() ? 0 : mass.size(), 0);
+  const auto around_face = [&](std::uint32_t row) {
+    Around<Dim> around;
+    for (std::size_t k = 0; k < power(across, Dim); ++k) {
+      Index<Dim> steps;
+      std::size_t rest = k;
+      for (std::size_t e = 0; e < Dim; ++e, rest /= across) steps[e] = static_cast<int>(rest % across) - reach;
+      const auto at = faces.splines.site_at(faces.site[row], steps);
+      if (!at || !faces.splines.has_face(*at, faces.direction)) continue;
+      const auto i = faces.rows.find(*at);
+      around.is_known[k] = i && (faces.open_volume[*i][d] == 1 || is_found[*i] != 0);
+      if (around.is_known[k]) around.fill[k] = mass[*i][d] / full(*i);
     }
-    if (still.size() == left.size()) break;
-    left = std::move(still);
+    return around;
+  };
+  std::vector<std::optional<double>> fill;
+  for (int pass = 0; pass < most_passes && !cut.empty(); ++pass) {
+    fill.assign(cut.size(), {});
+    for_each_row(cut.size(), [&](std::size_t t) {
+      fill[t] = find_fill<Dim>(around_face(cut[t]), mass[cut[t]][d] / full(cut[t]));
+    });
+    std::size_t left = 0;
+    for (std::size_t t = 0; t < cut.size(); ++t) {
+      const std::uint32_t i = cut[t];
+      if (fill[t]) {
+        mass[i][d] = *fill[t] * full(i);
+        is_found[i] = 1;
+      } else {
+        cut[left++] = i;
+      }
+    }
+    if (left == cut.size()) return;
+    cut.resize(left);
   }
 }
 
-template void level_with_surface<2>(const Splines<2>&, const StaggeredIndex<2>&, std::span<const Index<2>>,
-                                    const FacesOfDirection&);
-template void level_with_surface<3>(const Splines<3>&, const StaggeredIndex<3>&, std::span<const Index<3>>,
-                                    const FacesOfDirection&);
+template void level_with_surface<2>(const FacesOnLevels<2>&, std::vector<std::uint32_t>, std::span<Vec<2>>);
+template void level_with_surface<3>(const FacesOnLevels<3>&, std::vector<std::uint32_t>, std::span<Vec<3>>);
 
 }  // namespace minamo

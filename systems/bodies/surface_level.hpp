@@ -1,23 +1,31 @@
 #pragma once
 /// \file
-/// (E122) How full faces beside bodies would be if nothing were cut away, by those on the same level of the surface.
+/// (E122) Mass of faces beside bodies near the free surface. Water rests only if faces on the same level of its surface
+/// are equally full: what is left of gravity turns it around for ever. Particles in what a body leaves of a face tell
+/// that to a tenth, those of whole faces nearby tell it exactly.
 
+#include "components/body.hpp"
 #include "components/staggered.hpp"
 #include "systems/conforming/splines.hpp"
 
 namespace minamo {
 
-/// Fill fractions of the faces of one direction, by row.
-struct FacesOfDirection {
+/// The faces of one direction.
+template <int Dim>
+struct FacesOnLevels {
+  const Splines<Dim>& splines;
+  const SiteRows<Dim>& rows;
+  std::span<const Index<Dim>> site;
+  std::span<const Vec<Dim>> open_volume;
   std::size_t direction;
-  std::span<std::uint8_t> is_known;         ///< nothing is cut away
-  std::span<const std::uint32_t> unknown;   ///< rows of faces to find
-  std::span<double> fill;                   ///< of unknown ones the estimate by their own particles [1]
+  double full_cell;  ///< mass of a cell full of liquid [kg]
 };
 
 /// (E122)
+/// \param cut   rows of faces that bodies cut
+/// \param mass  by row and direction; that of faces that are cut as if they were whole, estimated from their own
+///              particles before, from the whole faces on their level after [kg]
 template <int Dim>
-void level_with_surface(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
-                        std::span<const Index<Dim>> site, const FacesOfDirection& faces);
+void level_with_surface(const FacesOnLevels<Dim>& faces, std::vector<std::uint32_t> cut, std::span<Vec<Dim>> mass);
 
 }  // namespace minamo
