@@ -140,8 +140,8 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
       if (filled_indicator(least_fill_of_face<Dim>(*splines, site[i], neighbour[i], least.span(), i, d)) < 1)
         cut.push_back(static_cast<std::uint32_t>(i));
     }
-    level_with_surface<Dim>({*splines, *rows, site.span(), open_volume.span(), d, full_cell}, std::move(cut),
-                            uncut.span());
+    level_with_surface<Dim>({*splines, *rows, site.span(), open_volume.span(), share.span(), d, full_cell},
+                            std::move(cut), uncut.span());
   }
 }
 

@@ -277,7 +277,12 @@ class PressureOfFewParticles {
                          std::span<const Index<Dim>> site, std::span<const double> lambda,
                          std::span<const double> open_shares, std::span<const double> volume,
                          std::vector<Vec<Dim>> middle)
-      : splines_(splines), rows_(rows), site_(site), open_share_(open_shares), volume_(volume), middle_(std::move(middle)) {
+      : splines_(splines),
+        rows_(rows),
+        site_(site),
+        open_share_(open_shares),
+        volume_(volume),
+        middle_(std::move(middle)) {
     cell_volume_ = std::pow(grid.spacing, Dim);
     lumped_.assign(lambda.size(), 0);
     has_few_.assign(lambda.size(), false);
@@ -392,10 +397,9 @@ void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
                                      of_ranks(shared));
     std::vector<double> force(lambda.begin(), lambda.end());
     std::vector<double> known(lambda.size(), 0);
-    const PressureOfFewParticles<Dim> of_few(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),
-                                             mass.volume(),
-                                             open_share ? mass.middles(*grid, *splines, y_p.span())
-                                                        : std::vector<Vec<Dim>>());
+    const PressureOfFewParticles<Dim> of_few(
+        *grid, *splines, *rows, site.span(), lambda.span(), open_share.span(), mass.volume(),
+        open_share ? mass.middles(*grid, *splines, y_p.span()) : std::vector<Vec<Dim>>());
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (!of_few.is_known(i)) continue;
       known[i] = of_few(i);
