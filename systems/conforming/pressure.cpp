@@ -286,25 +286,33 @@ class PressureOfFewParticles {
     cell_volume_ = std::pow(grid.spacing, Dim);
     lumped_.assign(lambda.size(), 0);
     has_few_.assign(lambda.size(), false);
+    tells_.assign(lambda.size(), false);
     std::vector<std::size_t> at_surface;
     for (std::size_t i = 0; i < lambda.size(); ++i) {
       if (lambda[i] == 0) continue;
       has_few_[i] = has_few(i);
       double filled = filled_share(i, has_few_[i] ? 0 : 2);
-      if (open_share(i) < 1 && filled < full_from) at_surface.push_back(i);
+      tells_[i] = is_whole(i);
       if (is_whole(i)) {
         filled = volume_[i] / whole_volume(i);
         if (filled > full_from) {
           filled = 1;
           middle_[i].setZero();
         }
+      } else if (open_share(i) < 1) {
+        tells_[i] = full_share(i) == 1;
+        if (tells_[i]) filled = 1;
+        if (!tells_[i]) at_surface.push_back(i);
       }
       lumped_[i] = lambda[i] / (filled * whole_volume(i));
     }
-    // That of whole ones first: no value is made of another of its kind.
+    // All before any changes: no value is made of another of its kind.
     std::vector<double> levelled;
-    for (const std::size_t i : at_surface)
-      levelled.push_back(continued(i, [&](std::size_t j) { return is_whole(j); }).value_or(lumped_[i]));
+    for (const std::size_t i : at_surface) {
+      const double full = full_share(i);
+      const double of_level = continued(i, [&](std::size_t j) { return tells_[j]; }).value_or(lumped_[i]);
+      levelled.push_back(full * lambda[i] / whole_volume(i) + (1 - full) * of_level);
+    }
     for (std::size_t k = 0; k < at_surface.size(); ++k) lumped_[at_surface[k]] = levelled[k];
   }
 
@@ -338,6 +346,19 @@ class PressureOfFewParticles {
       open += open_share(*j) * whole_volume(*j);
     }
     return filled < open && filled > 0 ? filled / open : 1;
+  }
+  /// How far the liquid fills the space around a multiplier, and those beside it that bodies leave enough of, as (E68)
+  /// has it for the mass of faces.
+  double full_share(std::size_t i) const {
+    constexpr double telling_from = 0.4;
+    double least = open_share(i) < telling_from ? 1 : filled_share(i, 2);
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (splines_.ends_at(site_[i], side)) continue;
+      const auto j = beside(i, side);
+      if (!j || open_share(*j) < telling_from) continue;
+      least = std::min(least, open_share(*j) == 1 ? volume_[*j] / whole_volume(*j) : filled_share(*j, 2));
+    }
+    return filled_indicator(least);
   }
   /// At the site i the linear function nearest to the pressures within two cells, each in the middle of its liquid, by
   /// least squares with weights 1/r^4.
@@ -381,6 +402,7 @@ class PressureOfFewParticles {
   double cell_volume_;
   std::vector<double> lumped_;
   std::vector<bool> has_few_;  ///< of those that carry a force
+  std::vector<bool> tells_;    ///< of multipliers: their pressure is what lumped_ says, beside a body, too
 };
 
 }  // namespace
