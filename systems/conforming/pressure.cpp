@@ -265,8 +265,9 @@ Values solve_mass(const Mass& mass, std::span<const double> b, const Products& p
   return x;
 }
 
-/// (E75)  Beside bodies p_l = lambda_l/(phi_l V_l), for there are too few particles to tell. Multipliers inside of a
-/// body carry no force; theirs continues that of the multipliers around.
+/// (E75)  Beside bodies p_l = lambda_l/V_l where the liquid fills the grid, for there are too few particles to tell;
+/// near its surface, and inside of a body, where multipliers carry no force, it continues that of the multipliers
+/// around.
 template <int Dim>
 class PressureOfFewParticles {
  public:
@@ -301,8 +302,11 @@ class PressureOfFewParticles {
         }
       } else if (open_share(i) < 1) {
         tells_[i] = full_share(i) == 1;
-        if (tells_[i]) filled = 1;
-        if (!tells_[i]) at_surface.push_back(i);
+        if (tells_[i]) {
+          filled = 1;
+        } else {
+          at_surface.push_back(i);
+        }
       }
       lumped_[i] = lambda[i] / (filled * whole_volume(i));
     }
