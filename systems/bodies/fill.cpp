@@ -1,6 +1,9 @@
 #include "systems/bodies/fill.hpp"
 
+#include "systems/bodies/surface_level.hpp"
+#include "systems/conforming/fill.hpp"
 #include "systems/conforming/sites_around.hpp"
+#include "systems/grid/filled_nodes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,8 +96,11 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
 }
 
 template <int Dim>
-void FindUncutMass<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<face::OpenVolume<Dim>> open_volume,
-                                    Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                    Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open_face,
+                                    Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+                                    Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least,
                                     Read<face::Mass<Dim>> m_f, Write<face::UncutMass<Dim>> uncut) const {
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {
@@ -124,6 +130,19 @@ void FindUncutMass<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, R
       uncut[i][axis] /= std::max(open, least_open_liquid);
     }
   });
+  const double full_cell = fluid->density * std::pow(grid->spacing, Dim);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    std::vector<std::uint32_t> cut;
+    for (std::size_t i = 0; i < m_f.size(); ++i) {
+      if (open_volume[i][axis] == 1 || open_face[i][axis] == 0 || !splines->has_face(site[i], d)) continue;
+      // Where the liquid fills the grid a face has the mass of a whole one, (E68).
+      if (filled_indicator(least_fill_of_face<Dim>(*splines, site[i], neighbour[i], least.span(), i, d)) < 1)
+        cut.push_back(static_cast<std::uint32_t>(i));
+    }
+    level_with_surface<Dim>({*splines, *rows, site.span(), open_volume.span(), share.span(), d, full_cell},
+                            std::move(cut), uncut.span());
+  }
 }
 
 template struct FindUncutMass<2>;

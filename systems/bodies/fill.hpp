@@ -3,6 +3,7 @@
 /// (E86) How full the grid is beside bodies.
 
 #include "components/body.hpp"
+#include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/cut.hpp"
@@ -24,12 +25,15 @@ struct FillBesideBodies {
 };
 
 /// (E86)  m_f over what bodies leave open of the liquid around a face; where that is little, with that of the faces
-/// beside it.
+/// beside it. (E122) near the free surface.
 template <int Dim>
 struct FindUncutMass {
   static constexpr std::string_view doc = "(E86) mass of faces, were nothing cut away";
-  void operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<face::OpenVolume<Dim>> open_volume,
-                  Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi, Read<face::Mass<Dim>> m_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                  Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
+                  Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+                  Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
                   Write<face::UncutMass<Dim>> uncut) const;
 };
 

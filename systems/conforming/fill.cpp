@@ -153,17 +153,11 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
                                         Optional<Read<face::Density<Dim>>> rho_f,
                                         Write<face::Mobility<Dim>> mobility) const {
   const auto of_particles = uncut ? uncut.span() : m_f.span();
-  // Of the multipliers below and above a face; at a wall there is one.
-  const auto fill_of_face = [&](std::size_t i, std::size_t d) {
-    const double above = splines->has_multiplier(site[i]) ? least[i] : 1;
-    if (splines->ends_at(site[i], 2 * d)) return above;
-    const std::int32_t below = neighbour[i][2 * d];
-    return below == staggered::none ? 0 : std::min(above, least[static_cast<std::size_t>(below)]);
-  };
   invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
                      [&](std::size_t i, std::size_t d, double full) {
                        const auto axis = static_cast<Eigen::Index>(d);
-                       const double theta = filled_indicator(fill_of_face(i, d));
+                       const double theta = filled_indicator(
+                           least_fill_of_face<Dim>(*splines, site[i], neighbour[i], least.span(), i, d));
                        const double whole = rho_f ? rho_f[i][axis] / fluid->density * full : full;
                        return (1 - theta) * of_particles[i][axis] + theta * whole;
                      });

@@ -26,6 +26,17 @@ struct P2GMultipliers {
                   Write<multiplier::Volume> v_l, Write<multiplier::Curvature> curvature) const;
 };
 
+/// The least fill of the multipliers below and above a face; at a wall there is one.
+template <int Dim>
+double least_fill_of_face(const Splines<Dim>& splines, const Index<Dim>& site,
+                          const typename staggered::Neighbour<Dim>::value_type& neighbour,
+                          std::span<const double> least, std::size_t row, std::size_t direction) {
+  const double above = splines.has_multiplier(site) ? least[row] : 1;
+  if (splines.ends_at(site, 2 * direction)) return above;
+  const std::int32_t below = neighbour[2 * direction];
+  return below == staggered::none ? 0 : std::min(above, least[static_cast<std::size_t>(below)]);
+}
+
 /// phi_l = V~_l/V_l, and the least of a multiplier and its neighbours; beyond walls there are none.
 template <int Dim>
 struct FindFill {

@@ -104,21 +104,44 @@ TEST_CASE("an accelerated disc has the added mass of potential flow", "[verifica
 }
 
 TEST_CASE("water in a tilted tank rests", "[verification]") {
-  const int degree = GENERATE(2, 3);
+  // Rounding; 4.6e-3 m/s with degree 3, where the shift (E37) moves particles beside the walls. 4e-2 and 1.6e-2 m/s
+  // where faces beside the walls are not as full as others on their level.
+  const auto [degree, most] = GENERATE(table<int, double>({{2, 1e-9}, {3, 1e-2}}));
   CAPTURE(degree);
   SceneRun run(tilted_tank(40, degree));
   run.step(100);
-  CHECK(fastest(run.world()) < 0.1);  // 0.03 and 0.05 measured, from the corners of the surface
+  CHECK(fastest(run.world()) < most);
+}
+
+TEST_CASE("water rests in a tank that is tilted in space", "[verification]") {
+  SceneRun run(Json::parse(R"json({"dimension": 3,
+    "grid": {"low": [-0.45, -0.45, -0.45], "high": [0.45, 0.45, 0.45], "cells": [18, 18, 18]},
+    "fluid": {"density": 1000, "viscosity": 0}, "body_force": [0, 0, -9.81],
+    "particles": [{"shape": {"where": "z < 0"}, "per_cell": 2}],
+    "bodies": [{"name": "tank", "shape": {"invert": {"box": {"low": [-0.25, -0.25, -0.25], "high": [0.25, 0.25, 0.25],
+                                                             "axis": [1, 2, 0.5], "angle": 25}}}}],
+    "time": {"end": 1, "step": 0.002}, "exact": {"velocity": [0, 0, 0], "pressure": "z < 0 ? -9810*z : 0"}})json"));
+  run.step(20);
+  CHECK(fastest(run.world()) < 1e-8);                     // 4e-11 m/s, 2e-2 without levels
+  CHECK(measured(run.world(), "error_pressure") < 1e-2);  // 5.7e-3, 2.7e-2 where each multiplier is on its own
+}
+
+TEST_CASE("a wave in a tilted tank drives no whirls", "[verification][long]") {
+  Json scene = tilted_tank(40, 2);
+  scene["body_force"] = {"t < 0.1 ? 0.1 : 0", -9.81};
+  SceneRun run(scene);
+  run.step(2000);
+  CHECK(fastest(run.world()) < 0.03);  // 0.01 to 0.02 m/s at any time; with whirls in its corners 0.1 after 4 s
 }
 
 TEST_CASE("the pressure beside walls across the grid is that of water at rest", "[verification]") {
-  const auto [degree, measured_error] = GENERATE(table<int, double>({{2, 2.6e-3}, {3, 8.6e-3}}));
+  const auto [degree, measured_error] = GENERATE(table<int, double>({{2, 1.5e-3}, {3, 8.3e-3}}));
   CAPTURE(degree);
   Json scene = tilted_tank(40, degree);
   scene["exact"] = {{"velocity", {0, 0}}, {"pressure", "y < 0 ? -9810*y : 0"}};
   SceneRun run(scene);
   run.step(2);
-  CHECK(measured(run.world(), "error_pressure") < 2 * measured_error);
+  CHECK(measured(run.world(), "error_pressure") < 1.3 * measured_error);
 }
 
 TEST_CASE("liquid that flows around a body stays spread along it", "[verification][long]") {
