@@ -8,6 +8,7 @@
 #include "engine/step_control.hpp"
 #include "systems/measure/acceptance.hpp"
 #include "systems/output/history.hpp"
+#include "systems/time/turns.hpp"
 #include "tools/version.hpp"
 
 #include "minamo_version.hpp"
@@ -109,6 +110,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
                   {"unknowns_max", steps.unknowns_max},
                   {"peak_memory_bytes", peak_memory()},
                   {"systems", system_rows(profiler, wall)}});
+  if (world.has<Turns>()) summary["pressure_turns"] = world.resource<Turns>().longest;
   const bool in_plane = world.has<Grid<2>>();
   if (Communicator* ranks = all_ranks()) {
     const auto sent = ranks->traffic();

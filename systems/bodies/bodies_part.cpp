@@ -210,7 +210,8 @@ void seed_bodies(BodySet<Dim> set, World& world) {
 
 void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
   const bool rubs = finds_friction(bodies, scene);
-  recipe.add("sort", "place_bodies");
+  recipe.add("configure", "place_bodies", When::step);
+  recipe.add("sort", "place_bodies", When::standing);
   recipe.add("sort", "cut_faces");
   recipe.add("sort", "find_face_extension");
   if (rubs) recipe.add("sort", "find_cut_friction");
@@ -280,6 +281,7 @@ Contribution read_bodies(Input& input, Scene& scene) {
 Contribution read_nothing(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
     if (!scene.facts.find<BodiesOfScene>()) return;
+    recipe.add("configure", "stop_at_plates", When::step);
     recipe.add("solve", "require_room", When::step);
     recipe.add("solve", "extend_balance_velocity");
     recipe.add("measure", "measure_energy_balance");
@@ -315,6 +317,7 @@ void add_bodies(SystemRegistry& registry) {
 }
 
 void add_behind_bodies(SystemRegistry& registry) {
+  registry.add<StopAtPlates>("stop_at_plates");
   registry.add<RequireRoom>("require_room");
   registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
   registry.add<MeasureEnergyBalance>("measure_energy_balance");

@@ -1,6 +1,5 @@
 #include "systems/bodies/keep_out.hpp"
 
-#include "systems/bodies/clip.hpp"
 #include "systems/grid/support.hpp"
 #include "systems/setup/lattice.hpp"
 #include "systems/transfer/advect.hpp"
@@ -32,85 +31,169 @@ Vec<Dim> way_out(const Vec<Dim>& n, double depth, const std::optional<Vec<Dim>>&
   return std::min(depth, most / way.norm()) * way;
 }
 
-/// The last point outside of a way that leads into a plate, or through it to its other side; none of other ways. From a
-/// thick body a particle finds out by itself, on the side that it came from.
+/// A point inside the box: one that lies beyond a side of it comes back along the wall with normal n, or it would go
+/// through a plate.
+template <int Dim>
+Placed<Dim> back_along_wall(const Grid<Dim>& grid, const Vec<Dim>& n, const Vec<Dim>& x) {
+  Vec<Dim> back = x;
+  for (int d = 0; d < Dim; ++d) {
+    if (grid.periodic[static_cast<std::size_t>(d)]) continue;
+    const double margin = off_wall * grid.spacing;
+    const double below = grid.low[d] + margin - back[d];
+    const double above = back[d] - grid.high[d] + margin;
+    if (below > 0) back += way_out<Dim>(Vec<Dim>::Unit(d), below, n, grid.spacing);
+    if (above > 0) back += way_out<Dim>(-Vec<Dim>::Unit(d), above, n, grid.spacing);
+  }
+  return {put_inside_box<Dim>(grid, back).x, back != x};
+}
+
+/// From one point to another, across the ends of periodic axes where that is shorter. [m]
+template <int Dim>
+Vec<Dim> way_between(const Grid<Dim>& grid, const Vec<Dim>& from, const Vec<Dim>& to) {
+  Vec<Dim> way = to - from;
+  for (int d = 0; d < Dim; ++d) {
+    const double length = grid.high[d] - grid.low[d];
+    if (grid.periodic[static_cast<std::size_t>(d)]) way[d] -= length * std::round(way[d] / length);
+  }
+  return way;
+}
+
+/// The farthest that bodies carry a point of the grid from one of their places to another: a corner, as no way of a
+/// rigid motion is longer than those of the corners around it. [m]
+template <int Dim>
+double farthest_move(const Grid<Dim>& grid, std::size_t bodies, const PlacedBodies<Dim>& from,
+                     const PlacedBodies<Dim>& to) {
+  double farthest = 0;
+  for (std::size_t b = 0; b < bodies; ++b) {
+    for (unsigned corner = 0; corner < (1U << static_cast<unsigned>(Dim)); ++corner) {
+      Vec<Dim> x = grid.low;
+      for (int d = 0; d < Dim; ++d) {
+        if ((corner >> static_cast<unsigned>(d) & 1U) != 0) x[d] = grid.high[d];
+      }
+      farthest = std::max(farthest, (to.placement(b).to_world(from.placement(b).to_body(x)) - x).norm());
+    }
+  }
+  return farthest;
+}
+
+/// Whether the piece of a way from one point to another leads into a body or, thinner than pieces are, through it.
+template <int Dim>
+bool leads_into(const Shape<Dim>& shape, const Vec<Dim>& from, const Vec<Dim>& to, int halvings) {
+  const double at_from = shape.distance(from);
+  const double at_to = shape.distance(to);
+  if (at_from <= 0 || at_to <= 0) return true;
+  if (at_from + at_to >= (to - from).norm()) return false;
+  if (halvings == 0) return shape.gradient(from).dot(shape.gradient(to)) < 0;
+  const Vec<Dim> middle = 0.5 * (from + to);
+  return leads_into<Dim>(shape, from, middle, halvings - 1) || leads_into<Dim>(shape, middle, to, halvings - 1);
+}
+
+/// Where a way ends that leads into a plate and beyond its middle, or through it: at the last point outside, or at the
+/// surface that a point inside is nearest to. None of other ways: from a thick body a particle finds out by itself, on
+/// the side that it came from.
 template <int Dim>
 std::optional<Vec<Dim>> end_before_plate(const Shape<Dim>& shape, const Vec<Dim>& from, const Vec<Dim>& to) {
-  const auto distance = [&](const Vec<Dim>& x) { return shape.distance(x); };
-  const double at_from = distance(from);
-  const double at_to = distance(to);
-  if (at_from <= 0 || at_from + at_to >= (to - from).norm()) return {};
-  if (shape.gradient(from).dot(shape.gradient(to)) > 0) return {};
+  const double at_from = shape.distance(from);
+  if (at_from + shape.distance(to) >= (to - from).norm()) return {};
+  const Vec<Dim> side = shape.gradient(from);
+  const double to_other_side = side.dot(shape.gradient(to));
+  if (at_from <= 0) {
+    if (to_other_side >= 0) return {};
+    return from - at_from / side.squaredNorm() * side;
+  }
+  if (to_other_side > 0) return {};
   constexpr int steps = 16;
   constexpr int halvings_of_step = 4;
   Vec<Dim> before = from;
   for (int k = 1; k <= steps; ++k) {
     const Vec<Dim> x = from + (static_cast<double>(k) / steps) * (to - from);
-    if (passes_through<Dim>(before, x, distance(before), distance(x), halvings_of_step, distance)) return before;
+    if (leads_into<Dim>(shape, before, x, halvings_of_step)) return before;
     before = x;
   }
   return {};
 }
 
+/// The body nearest to a point, if one may be within `reach` of it.
+template <int Dim>
+typename PlacedBodies<Dim>::Nearest nearest_within(const Grid<Dim>& grid, const StaticCut<Dim>& at_rest,
+                                                   const PlacedBodies<Dim>& bodies, const Vec<Dim>& x, double reach) {
+  typename PlacedBodies<Dim>::Nearest nearest;
+  if (at_rest.clearance_of(grid, cell_of<Dim>(grid, x)) <= reach) nearest = bodies.nearest(x, false);
+  if (!bodies.may_be_near(x, reach)) return nearest;
+  const auto moving = bodies.nearest(x, true);
+  return moving.distance < nearest.distance ? moving : nearest;
+}
+
+/// (E89)  Takes the part of a velocity that approaches a wall. \param n  unit normal, out of the wall
+template <int Dim>
+void stop_approach(const Vec<Dim>& wall, const Vec<Dim>& n, Vec<Dim>& v) {
+  const double approach = (v - wall).dot(n);
+  if (approach < 0) v -= approach * n;
+}
+
 }  // namespace
 
 template <int Dim>
-void KeepOutOfBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
-                                      Read<StaticCut<Dim>> at_rest, Read<GridCells<Dim>> cells,
-                                      Read<body::MiddlePosition<Dim>> c_middle,
+void StopAtPlates<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
+                                   Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b,
+                                   Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,
+                                   Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle,
+                                   Read<particle::Position<Dim>> x_p, Update<particle::QuadraturePosition<Dim>> y_p,
+                                   Update<particle::Velocity<Dim>> v_p) const {
+  const PlacedBodies<Dim> at_start(*set, c_b.span(), R_b.span());
+  const PlacedBodies<Dim> in_middle(*set, c_middle.span(), R_middle.span());
+  const double move = farthest_move<Dim>(*grid, set->bodies.size(), at_start, in_middle);
+  for_each_row(x_p.size(), [&](std::size_t p) {
+    const Vec<Dim> way = way_between<Dim>(*grid, x_p[p], y_p[p]);
+    const auto nearest = nearest_within<Dim>(*grid, *at_rest, at_start, x_p[p], way.norm() + move);
+    if (nearest.body < 0 || nearest.distance <= 0) return;
+    const auto b = static_cast<std::size_t>(nearest.body);
+    const Shape<Dim>& shape = *set->bodies[b].shape;
+    const Placement<Dim>& middle = in_middle.placement(b);
+    const Vec<Dim> from = at_start.placement(b).to_body(x_p[p]);
+    const auto end = end_before_plate<Dim>(shape, from, middle.to_body(x_p[p] + way));
+    if (!end) return;
+    const Vec<Dim> n = middle.direction_to_world(shape.gradient(*end)).stableNormalized();
+    y_p[p] = fold<Dim>(*grid, back_along_wall<Dim>(*grid, n, middle.to_world(*end)).x);
+    stop_approach<Dim>(rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b])), n, v_p[p]);
+  });
+}
+
+template <int Dim>
+void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
+                                      Read<GridCells<Dim>> cells, Read<body::MiddlePosition<Dim>> c_middle,
                                       Read<body::MiddleRotation<Dim>> R_middle, Read<body::Position<Dim>> c_b,
                                       Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
                                       Read<body::Spin<Dim>> omega_b, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Update<particle::Position<Dim>> x_p, Update<particle::Velocity<Dim>> v_p,
                                       Update<Clamped> clamped) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
-  const double least = gap * grid->spacing;
-  const auto nearest_to = [&](const PlacedBodies<Dim>& at, const Vec<Dim>& x, double reach) {
-    typename PlacedBodies<Dim>::Nearest nearest;
-    if (at_rest->is_near(*grid, cell_of<Dim>(*grid, x))) nearest = at.nearest(x, false);
-    if (!at.may_be_near(x, reach)) return nearest;
-    const auto moving = at.nearest(x, true);
-    return moving.distance < nearest.distance ? moving : nearest;
-  };
-  /// (E89)  v_p without the part that approaches a body at x_p.
-  const auto stop_approach = [&](std::size_t p, std::size_t b, const Vec<Dim>& n) {
-    const Vec<Dim> wall = rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b]));
-    const double approach = (v_p[p] - wall).dot(n);
-    if (approach < 0) v_p[p] -= approach * n;
-  };
   const PlacedBodies<Dim> in_middle(*set, c_middle.span(), R_middle.span());
+  const double move = farthest_move<Dim>(*grid, set->bodies.size(), in_middle, bodies);
+  const double least = gap * grid->spacing;
+  const auto stop_at_body = [&](std::size_t p, std::size_t b, const Vec<Dim>& n) {
+    stop_approach<Dim>(rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b])), n, v_p[p]);
+  };
   const auto stop_before_plate = [&](std::size_t p) {
-    const auto nearest = nearest_to(in_middle, y_p[p], grid->spacing);
-    if (nearest.body < 0 || nearest.distance <= 0) return false;
+    const Vec<Dim> way = way_between<Dim>(*grid, y_p[p], x_p[p]);
+    const auto nearest = nearest_within<Dim>(*grid, *at_rest, in_middle, y_p[p], way.norm() + move);
+    if (nearest.body < 0) return false;
     const auto b = static_cast<std::size_t>(nearest.body);
     const Shape<Dim>& shape = *set->bodies[b].shape;
     const Vec<Dim> from = in_middle.placement(b).to_body(y_p[p]);
-    const auto end = end_before_plate<Dim>(shape, from, bodies.placement(b).to_body(x_p[p]));
+    const auto end = end_before_plate<Dim>(shape, from, bodies.placement(b).to_body(y_p[p] + way));
     if (!end) return false;
-    x_p[p] = put_inside_box<Dim>(*grid, bodies.placement(b).to_world(*end)).x;
-    stop_approach(p, b, bodies.placement(b).direction_to_world(shape.gradient(*end)).stableNormalized());
+    const Vec<Dim> n = bodies.placement(b).direction_to_world(shape.gradient(*end)).stableNormalized();
+    x_p[p] = back_along_wall<Dim>(*grid, n, bodies.placement(b).to_world(*end)).x;
+    stop_at_body(p, b, n);
     return true;
-  };
-  // Or it would take the first half of the next step through the plate, which the grid does not see.
-  const auto stop_at_plate = [&](std::size_t p, const typename PlacedBodies<Dim>::Nearest& nearest) {
-    if (nearest.body < 0) return;
-    const auto b = static_cast<std::size_t>(nearest.body);
-    const Vec<Dim> wall = rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b]));
-    const Vec<Dim> ahead = 0.5 * clock->step * (v_p[p] - wall);
-    if (ahead.norm() <= nearest.distance) return;
-    const Shape<Dim>& shape = *set->bodies[b].shape;
-    const Placement<Dim>& placement = bodies.placement(b);
-    const Vec<Dim> from = placement.to_body(x_p[p]);
-    if (!end_before_plate<Dim>(shape, from, from + placement.direction_to_body(ahead))) return;
-    stop_approach(p, b, placement.direction_to_world(shape.gradient(from)).stableNormalized());
   };
   std::atomic<std::int64_t> count = 0;
   const auto keep_out = [&](std::size_t p) {
     bool was_inside = stop_before_plate(p);
     std::optional<Vec<Dim>> held_by;
-    typename PlacedBodies<Dim>::Nearest nearest;
     for (int k = 0; k < most_tries; ++k) {
-      nearest = nearest_to(bodies, x_p[p], least);
+      const auto nearest = nearest_within<Dim>(*grid, *at_rest, bodies, x_p[p], least);
       if (nearest.distance >= least) break;
       const auto b = static_cast<std::size_t>(nearest.body);
       const Vec<Dim> gradient = bodies.placement(b).gradient(*set->bodies[b].shape, x_p[p]);
@@ -119,18 +202,17 @@ void KeepOutOfBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, R
       const Vec<Dim> n = gradient / steepness;
       const Vec<Dim> away =
           x_p[p] + way_out<Dim>(n, (1.01 * least - nearest.distance) / steepness, held_by, grid->spacing);
-      const Placed<Dim> placed = put_inside_box<Dim>(*grid, away);
+      const Placed<Dim> placed = back_along_wall<Dim>(*grid, n, away);
       x_p[p] = placed.x;
       held_by = placed.clamped ? Vec<Dim>((placed.x - away).normalized()) : n;
       if (nearest.distance >= 0) continue;
       was_inside = true;
-      stop_approach(p, b, n);
+      stop_at_body(p, b, n);
     }
-    stop_at_plate(p, nearest);
     if (was_inside) ++count;
   };
   // Most cells are so far from bodies that no particle of them gets there within a step.
-  const double within = grid->spacing;  // that no moving body is
+  const double within = std::max(grid->spacing, move);  // that no moving body is
   const double half_diagonal = 0.5 * grid->spacing * std::sqrt(static_cast<double>(Dim));
   const double reach = 1.1 * (within + half_diagonal);
   const bool any_moves = set->any_moves();
@@ -148,6 +230,8 @@ void KeepOutOfBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, R
   clamped->count += count;
 }
 
+template struct StopAtPlates<2>;
+template struct StopAtPlates<3>;
 template struct KeepOutOfBodies<2>;
 template struct KeepOutOfBodies<3>;
 

@@ -7,20 +7,31 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
-#include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/cut.hpp"
 
 namespace minamo {
 
+/// (E89)  A particle whose way to the middle of the step leads through a plate, or beyond the middle of one, stays on
+/// its side and loses the part of its velocity that approaches the plate. The grid does not see that way.
+template <int Dim>
+struct StopAtPlates {
+  static constexpr std::string_view doc = "(E89) no particle takes the first half of a step through a plate";
+  void operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
+                  Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
+                  Read<body::Spin<Dim>> omega_b, Read<body::MiddlePosition<Dim>> c_middle,
+                  Read<body::MiddleRotation<Dim>> R_middle, Read<particle::Position<Dim>> x_p,
+                  Update<particle::QuadraturePosition<Dim>> y_p, Update<particle::Velocity<Dim>> v_p) const;
+};
+
 /// (E89)  A particle less than 1e-3 h from a body goes to that distance, along the normal; one that was inside loses
 /// the part of its velocity that approaches the body. Out of a corner it goes along the wall that held it before, and
-/// from a plate that it went into, or through, back to where it was in the middle of the step. What the balance of mass
+/// from a plate that it went into beyond its middle, or through, back to its side. What the balance of mass
 /// leaves open in cut cells, and steps that are long for a curved wall, carry particles there.
 template <int Dim>
 struct KeepOutOfBodies {
   static constexpr std::string_view doc = "(E89) particles stay outside of bodies";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
+  void operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
                   Read<GridCells<Dim>> cells, Read<body::MiddlePosition<Dim>> c_middle,
                   Read<body::MiddleRotation<Dim>> R_middle, Read<body::Position<Dim>> c_b,
                   Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E122) Mass of faces beside bodies near the free surface. Water rests only if faces on the same level of its surface
+/// (E123) Mass of faces beside bodies near the free surface. Water rests only if faces on the same level of its surface
 /// are equally full, or gravity drives a whirl in the corner of surface and wall. Particles in what a body leaves of a
 /// face tell how full it is to some hundredths, whole faces nearby tell it exactly.
 
@@ -22,7 +22,7 @@ struct FacesOnLevels {
   double full_cell;  ///< mass of a cell full of liquid [kg]
 };
 
-/// (E122)
+/// (E123)
 /// \param cut   rows of faces of which a body takes a part
 /// \param mass  by row and direction, of faces that are cut as if they were whole: before by their own particles, after
 ///              by the whole faces on their level, too [kg]

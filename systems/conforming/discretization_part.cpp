@@ -15,6 +15,7 @@
 #include "systems/grid/bin.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
+#include "systems/time/turns.hpp"
 
 namespace minamo {
 
@@ -97,6 +98,7 @@ void add_discretization(SystemRegistry& registry) {
   registry.add<SolveFrictionUmfpack>("solve_face_friction_umfpack");
   registry.add<CorrectFacesMidpoint>("correct_faces_midpoint");
   registry.add<CorrectFacesNewmark>("correct_faces_newmark");
+  registry.add<WatchTurnsOfFaces>("watch_turns_of_faces");
   registry.add<CorrectFacesBackwardEuler>("correct_faces_backward_euler");
   registry.add<G2PFaceForceGradient>("g2p_face_force_gradient");
   registry.add<FillParts>("fill_parts");

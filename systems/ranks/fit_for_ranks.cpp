@@ -25,10 +25,11 @@ const std::set<std::string, std::less<>> fit{
     "predict_faces_backward_euler", "predict_faces_newmark", "uniform_face_force", "find_fill", "find_cell_viscosity",
     "find_liquid_cells_by_multipliers", "find_mobility", "find_mobility_mixed", "assemble_multipliers", "face_source",
     "damp_face_divergence", "face_volume_source", "project_faces", "correct_faces_midpoint", "correct_faces_newmark",
-    "correct_faces_backward_euler", "g2p_faces_pic", "g2p_faces_flip", "g2p_faces_tpic", "g2p_faces_tpic2",
-    "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm", "g2p_face_acceleration_pic", "g2p_face_acceleration_tpic",
-    "g2p_face_acceleration_apic", "limit_gradient", "carry_gradient_by_faces", "g2p_face_force_gradient",
-    "advect_by_faces", "stir_particles", "gather_face_shift", "apply_particle_shift", "note_step"};
+    "watch_turns_of_faces", "correct_faces_backward_euler", "g2p_faces_pic", "g2p_faces_flip", "g2p_faces_tpic",
+    "g2p_faces_tpic2", "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm", "g2p_face_acceleration_pic",
+    "g2p_face_acceleration_tpic", "g2p_face_acceleration_apic", "limit_gradient", "carry_gradient_by_faces",
+    "g2p_face_force_gradient", "advect_by_faces", "stir_particles", "gather_face_shift", "apply_particle_shift",
+    "note_step"};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "systems/time/midpoint.hpp"
 #include "systems/time/newmark.hpp"
 #include "systems/time/quadrature_position.hpp"
+#include "systems/time/turns.hpp"
 #include "systems/transfer/scheme.hpp"
 
 namespace minamo {
@@ -40,7 +41,8 @@ Contribution read_newmark(Input& input, Scene& scene) {
                 When::step);
     add_systems(of, recipe, "predict", {{"predict_newmark"}, {"predict_faces_newmark"}}, When::step);
     add_systems(of, recipe, "predict", standing_prediction, When::standing);
-    add_systems(of, recipe, "correct", {{"correct_newmark"}, {"correct_faces_newmark"}}, When::step);
+    add_systems(of, recipe, "correct",
+                {{"correct_newmark", "watch_turns"}, {"correct_faces_newmark", "watch_turns_of_faces"}}, When::step);
     for (const System& system : acceleration.g2p) recipe.add("g2p", system, When::step);
     std::vector<System> after{
         recipe.make(is_conforming(of) ? "correct_faces_backward_euler" : "correct_backward_euler")};
@@ -63,6 +65,7 @@ void add_integrator(SystemRegistry& registry) {
   registry.add<PredictBackwardEuler>("predict_backward_euler");
   registry.add<DampDivergence>("damp_divergence");
   registry.add<CorrectNewmark>("correct_newmark");
+  registry.add<WatchTurns>("watch_turns");
   registry.add<CorrectMidpoint>("correct_midpoint");
   registry.add<CorrectBackwardEuler>("correct_backward_euler");
   registry.add<CorrectBackwardEulerVelocity>("correct_backward_euler_velocity");

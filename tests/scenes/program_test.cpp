@@ -265,6 +265,28 @@ TEST_CASE("a run that gains energy says so at its end", "[scene]") {
   CHECK_THAT(end.output, Catch::Contains("energy rose by"));
 }
 
+TEST_CASE("a run whose pressure turns over from step to step says so at its end", "[scene]") {
+  const Folder folder;
+  // Water that falls flat on the floor of a shaft, and rests there.
+  const auto fall = [&](const std::string& integrator) {
+    const ProgramEnd end = run_program(
+        dam_break(folder / "out", {"--set", R"(/grid={"low": [0, 0], "high": [0.1, 1], "cells": [4, 40]})", "--set",
+                                   R"(/particles/0/shape={"box": {"low": [0, 0.1], "high": [0.1, 0.6]}})", "--set",
+                                   "/integrator=" + integrator, "--set", "/time/step=0.004", "--steps", "100"}));
+    CHECK(end.code == 0);
+    return std::pair(json_of(folder / "out/summary.json"), end.output);
+  };
+  const auto [undamped, warning] = fall(R"({"scheme": "newmark"})");
+  CHECK(undamped["pressure_turns"] > 50);
+  CHECK_THAT(warning, Catch::Contains("pressure turned over"));
+
+  const auto [damped, nothing] = fall(R"({"scheme": "newmark", "gamma": 0.6})");
+  CHECK(damped["pressure_turns"] < 20);
+  CHECK(nothing.empty());
+
+  CHECK_FALSE(fall(R"({"scheme": "midpoint"})").first.contains("pressure_turns"));
+}
+
 TEST_CASE("a run that keeps its energy says nothing of it", "[scene]") {
   const Folder folder;
   const ProgramEnd end = run_program(dam_break(folder / "out", {"--set", "/time/step=0.01", "--steps", "60"}));

@@ -146,6 +146,44 @@ TEST_CASE("a plate much thinner than a cell keeps the water on its side", "[veri
   CHECK(*run.world().resource<measure::Columns>().find("plate_force_x") == Approx(0.5 * 9810 * 0.25).epsilon(0.05));
 }
 
+TEST_CASE("water thrown at a plate stays on its side", "[verification]") {
+  const double angle = GENERATE(-75.0, -51.0, 22.0);
+  const double thickness = GENERATE(0.01, 0.05, 0.5);  // [h]
+  const bool moves = GENERATE(false, true);
+  CAPTURE(angle, thickness, moves);
+  // Through (0.5, 0.5) from side to side; a ball of water above it at a CFL number of 1.
+  constexpr double h = 1.0 / 24;
+  const double radians = angle * 3.14159265358979 / 180;
+  const Vec<2> n(-std::sin(radians), std::cos(radians));
+  const auto at = [&](double along, double off) {
+    const Vec<2> x = along * Vec<2>(n[1], -n[0]) + off * n;
+    return Json{x[0], x[1]};
+  };
+  Json scene = Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [-0.5, -0.5], "high": [0.5, 0.5], "cells": [24, 24]}, "fluid": {"density": 1000, "viscosity": 1e-3},
+    "body_force": [0, -9.81], "particles": [{"per_cell": 2}], "bodies": [{"name": "plate"}],
+    "volume": {"scheme": "none"}, "time": {"end": 1, "step": 0.01}})json");
+  scene["particles"][0]["shape"]["ball"] = {{"center", at(0, 0.25)}, {"radius", 0.17}};
+  scene["particles"][0]["velocity"] = at(2, -3);
+  scene["bodies"][0]["shape"]["box"] = {
+      {"low", {-2, -thickness * h / 2}}, {"high", {2, thickness * h / 2}}, {"angle", angle}};
+  if (moves) {
+    const std::string swing = "*sin(20*t)";
+    scene["bodies"][0]["motion"]["prescribed"]["velocity"] = {fmt::format("{}{}", n[0], swing),
+                                                              fmt::format("{}{}", n[1], swing)};
+  }
+  SceneRun run(scene);
+  std::size_t most = 0;
+  for (int k = 0; k < 50; ++k) {
+    run.step();
+    const Vec<2> middle = run.world().column<body::Position<2>>()[0];
+    std::size_t beyond = 0;
+    for (const Vec<2>& x : run.world().column<particle::Position<2>>()) beyond += n.dot(x - middle) < 0;
+    most = std::max(most, beyond);
+  }
+  CHECK(most == 0);
+}
+
 TEST_CASE("a piston does not squeeze water that fills a closed box", "[verification]") {
   Json scene = Json::parse(R"json({"dimension": 2,
     "grid": {"low": [0, 0], "high": [1, 0.5], "cells": [20, 10]}, "fluid": {"density": 1000, "viscosity": 0},
