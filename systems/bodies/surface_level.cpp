@@ -13,8 +13,8 @@ namespace {
 
 /// Error of the fill fraction that a face's own particles tell.
 constexpr double own_error = 0.03;
-/// Error of one that is carried over a step of the grid across the levels, where it is taken for a straight line.
-constexpr double error_across = 0.3;
+/// Error of one that is carried over a step of the grid across the levels: the fill is no straight line there.
+constexpr double error_across = 1;
 /// Slope of the fill fraction, per step of the grid, from which on there is a surface.
 constexpr double least_slope = 0.02;
 /// Weight of known faces from which on they tell.
@@ -70,10 +70,11 @@ bool is_whole(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
   return true;
 }
 
-/// Fill fractions of the faces around one.
+/// Fill fractions of the faces around one, and their variances.
 template <int Dim>
 struct FillAround {
   std::array<double, count_around<Dim>> fill;
+  std::array<double, count_around<Dim>> variance;
   std::array<bool, count_around<Dim>> is_known;
 };
 
@@ -119,6 +120,7 @@ std::optional<Estimate> fill_on_level(const FillAround<Dim>& around) {
   double sum = 0;
   double squares = 0;
   double off_level = 0;
+  double inherited = 0;
   for (std::size_t k = 0; k < around.fill.size(); ++k) {
     if (!around.is_known[k]) continue;
     const Index<Dim> steps = steps_to<Dim>(k);
@@ -134,17 +136,19 @@ std::optional<Estimate> fill_on_level(const FillAround<Dim>& around) {
     sum += weight * fill;
     squares += weight * fill * fill;
     off_level += weight * level * level;
+    inherited += weight * around.variance[k];
   }
   if (weights < least_weight) return {};
   const double mean = sum / weights;
   const double scatter = std::max(0.0, squares / weights - mean * mean);
-  return Estimate{mean, scatter + error_across * error_across * off_level / weights};
+  return Estimate{mean, scatter + (error_across * error_across * off_level + inherited) / weights};
 }
 
 /// The best mean of two estimates, by their variances.
-double best_of(double own, const Estimate& on_level) {
+Estimate best_of(double own, const Estimate& on_level) {
   constexpr double own_variance = own_error * own_error;
-  return own + own_variance / (own_variance + on_level.variance) * (on_level.fill - own);
+  const double share = own_variance / (own_variance + on_level.variance);
+  return {own + share * (on_level.fill - own), share * on_level.variance};
 }
 
 }  // namespace
@@ -186,12 +190,14 @@ void level_with_surface(const FacesOnLevels<Dim>& faces, std::vector<std::uint32
   const auto full = [&](std::size_t i) {
     return faces.full_cell * faces.splines.face_integral(faces.site[i], faces.direction);
   };
+  std::vector<double> variance(mass.size(), 0);  // of faces without a body: they tell exactly
   const auto look = [&](const RowsAround<Dim>& rows) {
     FillAround<Dim> fill;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto i = static_cast<std::size_t>(rows[k]);
       fill.is_known[k] = rows[k] != staggered::none && is[i] == known;
       fill.fill[k] = fill.is_known[k] ? mass[i][d] / full(i) : 0;
+      fill.variance[k] = fill.is_known[k] ? variance[i] : 0;
     }
     return fill;
   };
@@ -203,7 +209,9 @@ void level_with_surface(const FacesOnLevels<Dim>& faces, std::vector<std::uint32
     for (std::size_t t = 0; t < cut.size(); ++t) {
       const std::uint32_t i = cut[t];
       if (found[t]) {
-        mass[i][d] = best_of(mass[i][d] / full(i), *found[t]) * full(i);
+        const Estimate best = best_of(mass[i][d] / full(i), *found[t]);
+        mass[i][d] = best.fill * full(i);
+        variance[i] = best.variance;
         is[i] = known;
       } else {
         cut[left] = i;

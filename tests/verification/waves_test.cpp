@@ -71,7 +71,7 @@ Eigen::Vector4cd amplitudes(double h) {
 
 TEST_CASE("a paddle makes waves of the height of first-order theory", "[verification][long]") {
   const double k = wave_number_of_paddle();
-  const Eigen::Vector4cd z = amplitudes(0.05);
+  const Eigen::Vector4cd z = amplitudes(0.025);
   Eigen::Matrix<Complex, 4, 2> waves;
   for (Eigen::Index j = 0; j < 4; ++j) {
     const double x = gauges[static_cast<std::size_t>(j)];
@@ -80,6 +80,6 @@ TEST_CASE("a paddle makes waves of the height of first-order theory", "[verifica
   const Eigen::Vector2cd both = waves.colPivHouseholderQr().solve(z);
   const double kd2 = 2 * k * depth_of_tank;
   const double exact = 2 * stroke * 2 * (std::cosh(kd2) - 1) / (std::sinh(kd2) + kd2);
-  CHECK(2 * std::abs(both[0]) == Approx(exact).epsilon(0.06));  // 1 % too low
-  CHECK(std::abs(both[1]) < 0.07 * std::abs(both[0]));          // 5 %
+  CHECK(2 * std::abs(both[0]) == Approx(exact).epsilon(0.045));  // 2 % too high
+  CHECK(std::abs(both[1]) < 0.06 * std::abs(both[0]));           // 3 %
 }
