@@ -127,6 +127,10 @@ class Alike(unittest.TestCase):
                   "/transfer={\"scheme\": \"flip\"}"]
         self.check("flip", SCENES / "dam_break.json", [*DAM_BREAK, *scheme, "--set", "/time/end=0.2"], [3])
 
+    def test_newmark(self):
+        options = ["--set", "/integrator={\"scheme\": \"newmark\"}", "--set", "/time={\"end\": 0.1, \"step\": 0.002}"]
+        self.check("newmark", SCENES / "dam_break.json", [*DAM_BREAK, *options], [2])
+
     def test_filters_second_order_and_errors(self):
         exact = ["--set", "/exact={\"velocity\": [\"x\", \"-y\"], \"pressure\": \"1000*9.81*(0.3-y)\", "
                  "\"pressure_mean\": \"free\"}", "--set", "/time/end=0.08"]
