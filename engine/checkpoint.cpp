@@ -73,7 +73,7 @@ Stored read_component(const Hdf5File& file, Storage& storage, const ShareOfTable
   if (bytes % storage.value_bytes() != 0 || (is_resource && rows != 1)) {
     throw std::runtime_error(file.path() + ": dataset " + dataset_of(storage) + " has another size");
   }
-  if (is_resource || storage.table() != share.table) return {&storage, file.read_bytes(dataset_of(storage))};
+  if (is_resource || storage.table() != share.table) return {&storage, file.read_bytes(dataset_of(storage), 0, bytes)};
   const auto bytes_before = [&](std::size_t rank) { return rank * rows / share.ranks * storage.value_bytes(); };
   return {&storage, file.read_bytes(dataset_of(storage), bytes_before(share.rank), bytes_before(share.rank + 1))};
 }

@@ -92,15 +92,17 @@ double open_piece(const Vec<3>& low, const Vec<3>& along, const Vec<3>& across, 
 }
 
 /// Whether a segment with ends outside passes through something that is inside, as thin as it may be.
-template <int Dim, class Distance>
+/// \param last  says so of the ends of the shortest pieces, if their distances do not
+template <int Dim, class Distance, class Last>
 bool passes_through(const Vec<Dim>& low, const Vec<Dim>& high, double at_low, double at_high, int more_halvings,
-                    const Distance& distance) {
+                    const Distance& distance, const Last& last) {
   if (at_low <= 0 || at_high <= 0) return true;
-  if (at_low + at_high >= (high - low).norm() || more_halvings == 0) return false;
+  if (at_low + at_high >= (high - low).norm()) return false;
+  if (more_halvings == 0) return last(low, high);
   const Vec<Dim> middle = 0.5 * (low + high);
   const double at_middle = distance(middle);
-  return passes_through<Dim>(low, middle, at_low, at_middle, more_halvings - 1, distance) ||
-         passes_through<Dim>(middle, high, at_middle, at_high, more_halvings - 1, distance);
+  return passes_through<Dim>(low, middle, at_low, at_middle, more_halvings - 1, distance, last) ||
+         passes_through<Dim>(middle, high, at_middle, at_high, more_halvings - 1, distance, last);
 }
 
 /// Share of a face of direction d that lies where `distance` is positive: a segment in the plane, a rectangle in space.

@@ -145,7 +145,9 @@ bool is_parted(const SitePlaces<Dim>& places, const Index<Dim>& site, std::size_
   const double at_low = distance(low);
   const double at_high = distance(high);
   constexpr int sixtyfourth = 6;
-  if (!passes_through<Dim>(low, high, at_low, at_high, sixtyfourth, distance)) return false;
+  if (!passes_through<Dim>(low, high, at_low, at_high, sixtyfourth, distance,
+                           [](const Vec<Dim>&, const Vec<Dim>&) { return false; }))
+    return false;
   if (is_in_plate<Dim>(low, at_low, h, distance) || is_in_plate<Dim>(high, at_high, h, distance)) return true;
   const double over = 1e-6 * h;
   return normal_at<Dim>(low, at_low, over, distance).dot(normal_at<Dim>(high, at_high, over, distance)) < -0.5;

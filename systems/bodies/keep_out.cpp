@@ -1,5 +1,6 @@
 #include "systems/bodies/keep_out.hpp"
 
+#include "systems/bodies/clip.hpp"
 #include "systems/grid/support.hpp"
 #include "systems/setup/lattice.hpp"
 #include "systems/transfer/advect.hpp"
@@ -76,18 +77,6 @@ double farthest_move(const Grid<Dim>& grid, std::size_t bodies, const PlacedBodi
   return farthest;
 }
 
-/// Whether the piece of a way from one point to another leads into a body or, thinner than pieces are, through it.
-template <int Dim>
-bool leads_into(const Shape<Dim>& shape, const Vec<Dim>& from, const Vec<Dim>& to, int halvings) {
-  const double at_from = shape.distance(from);
-  const double at_to = shape.distance(to);
-  if (at_from <= 0 || at_to <= 0) return true;
-  if (at_from + at_to >= (to - from).norm()) return false;
-  if (halvings == 0) return shape.gradient(from).dot(shape.gradient(to)) < 0;
-  const Vec<Dim> middle = 0.5 * (from + to);
-  return leads_into<Dim>(shape, from, middle, halvings - 1) || leads_into<Dim>(shape, middle, to, halvings - 1);
-}
-
 /// Where a way ends that leads into a plate and beyond its middle, or through it: at the last point outside, or at the
 /// surface that a point inside is nearest to. None of other ways: from a thick body a particle finds out by itself, on
 /// the side that it came from.
@@ -104,11 +93,19 @@ std::optional<Vec<Dim>> end_before_plate(const Shape<Dim>& shape, const Vec<Dim>
   if (to_other_side > 0) return {};
   constexpr int steps = 16;
   constexpr int halvings_of_step = 4;
+  const auto distance = [&](const Vec<Dim>& x) { return shape.distance(x); };
+  // A plate thinner than pieces are lies between its sides.
+  const auto changes_side = [&](const Vec<Dim>& a, const Vec<Dim>& b) {
+    return shape.gradient(a).dot(shape.gradient(b)) < 0;
+  };
   Vec<Dim> before = from;
+  double at_before = at_from;
   for (int k = 1; k <= steps; ++k) {
     const Vec<Dim> x = from + (static_cast<double>(k) / steps) * (to - from);
-    if (leads_into<Dim>(shape, before, x, halvings_of_step)) return before;
+    const double at_x = distance(x);
+    if (passes_through<Dim>(before, x, at_before, at_x, halvings_of_step, distance, changes_side)) return before;
     before = x;
+    at_before = at_x;
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #include "systems/bodies/surface_level.hpp"
 
 #include "engine/parallel.hpp"
+#include "systems/conforming/sites_around.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,11 +31,19 @@ constexpr int across = 2 * reach + 1;
 template <int Dim>
 constexpr std::size_t count_around = power(across, Dim);
 
+/// To the k-th of them, and back.
 template <int Dim>
 Index<Dim> steps_to(std::size_t k) {
   Index<Dim> steps;
   for (std::size_t d = 0; d < Dim; ++d, k /= across) steps[d] = static_cast<int>(k % across) - reach;
   return steps;
+}
+
+template <int Dim>
+std::size_t place_of(const Index<Dim>& steps) {
+  std::size_t k = 0;
+  for (std::size_t d = Dim; d-- > 0;) k = across * k + static_cast<std::size_t>(steps[d] + reach);
+  return k;
 }
 
 /// Their rows, or none.
@@ -44,12 +53,13 @@ using RowsAround = std::array<std::int32_t, count_around<Dim>>;
 template <int Dim>
 RowsAround<Dim> rows_around(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
   RowsAround<Dim> around;
-  for (std::size_t k = 0; k < around.size(); ++k) {
-    around[k] = staggered::none;
-    const auto site = faces.splines.site_at(faces.site[row], steps_to<Dim>(k));
-    if (!site || !faces.splines.has_face(*site, faces.direction)) continue;
-    if (const auto i = faces.rows.find(*site)) around[k] = static_cast<std::int32_t>(*i);
-  }
+  around.fill(staggered::none);
+  for_each_site_around<Dim, reach>(faces.splines, faces.site[row],
+                                   [&](const Index<Dim>& site, const Index<Dim>& steps) {
+                                     if (!faces.splines.has_face(site, faces.direction)) return;
+                                     if (const auto i = faces.rows.find(site))
+                                       around[place_of<Dim>(steps)] = static_cast<std::int32_t>(*i);
+                                   });
   return around;
 }
 
@@ -58,16 +68,16 @@ RowsAround<Dim> rows_around(const FacesOnLevels<Dim>& faces, std::uint32_t row) 
 template <int Dim>
 bool is_whole(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
   if (faces.open_volume[row][static_cast<Eigen::Index>(faces.direction)] != 1) return false;
-  for (std::size_t k = 0; k < count_around<Dim>; ++k) {
-    const Index<Dim> steps = steps_to<Dim>(k);
-    bool is_near = true;
-    for (std::size_t d = 0; d < Dim; ++d) is_near = is_near && steps[d] < 2 && (steps[d] > -2 || d == faces.direction);
-    if (!is_near) continue;
-    const auto site = faces.splines.site_at(faces.site[row], steps);
-    if (!site) continue;
-    if (const auto i = faces.rows.find(*site); i && faces.open_share[*i] < outside_from) return false;
-  }
-  return true;
+  bool is_whole = true;
+  for_each_site_around<Dim, reach>(faces.splines, faces.site[row],
+                                   [&](const Index<Dim>& site, const Index<Dim>& steps) {
+                                     for (std::size_t d = 0; d < Dim; ++d) {
+                                       if (steps[d] == reach || (steps[d] == -reach && d != faces.direction)) return;
+                                     }
+                                     if (const auto i = faces.rows.find(site); i && faces.open_share[*i] < outside_from)
+                                       is_whole = false;
+                                   });
+  return is_whole;
 }
 
 /// Fill fractions of the faces around one, and their variances.

@@ -3,7 +3,6 @@
 #include "systems/conforming/support.hpp"
 
 #include <map>
-#include <numeric>
 #include <optional>
 
 namespace minamo {
@@ -53,9 +52,7 @@ void cut_together(Communicator& ranks, std::span<const BlockLoad> own, double fu
   }
   begin = ranks.broadcast(begin, 0);
   if (begin.empty()) return;
-  map.begin = from_bytes<std::uint64_t>(std::as_bytes(std::span(begin)));
-  map.rank.resize(map.begin.size());
-  std::iota(map.rank.begin(), map.rank.end(), 0);
+  map.set_in_order(from_bytes<std::uint64_t>(std::as_bytes(std::span(begin))));
 }
 
 /// Particles at y_p go to their ranks.

@@ -6,24 +6,29 @@
 
 namespace minamo {
 
+void RankMap::set_in_order(std::vector<std::uint64_t> pieces) {
+  begin = std::move(pieces);
+  rank.resize(begin.size());
+  std::iota(rank.begin(), rank.end(), 0);
+}
+
 RankMap cut_curve(std::span<const BlockLoad> loads, int ranks) {
   std::uint64_t all = 0;
   for (const BlockLoad& load : loads) all += load.particles;
-  RankMap map;
-  map.begin.push_back(0);
+  std::vector<std::uint64_t> begin{0};
   std::uint64_t before = 0;
   for (const BlockLoad& load : loads) {
     // A piece begins where what lies before is nearest to its share.
-    while (static_cast<int>(map.begin.size()) < ranks &&
-           2 * before + load.particles > 2 * all * map.begin.size() / static_cast<std::uint64_t>(ranks)) {
-      map.begin.push_back(load.key);
+    while (static_cast<int>(begin.size()) < ranks &&
+           2 * before + load.particles > 2 * all * begin.size() / static_cast<std::uint64_t>(ranks)) {
+      begin.push_back(load.key);
     }
     before += load.particles;
   }
   // More ranks than blocks: the last ones have nothing.
-  map.begin.resize(static_cast<std::size_t>(ranks), std::uint64_t{1} << 63);
-  map.rank.resize(map.begin.size());
-  std::iota(map.rank.begin(), map.rank.end(), 0);
+  begin.resize(static_cast<std::size_t>(ranks), std::uint64_t{1} << 63);
+  RankMap map;
+  map.set_in_order(std::move(begin));
   return map;
 }
 

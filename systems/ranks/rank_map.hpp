@@ -32,6 +32,8 @@ struct RankMap {
   double most_imbalance = 1.2;  ///< with so many times the mean on a rank the curve is cut anew
   static constexpr ComponentInfo info{"ranks.map", "", "1", Lifetime::cache};
 
+  /// Every rank has the piece of its number.
+  void set_in_order(std::vector<std::uint64_t> pieces);
   int owner(std::uint64_t key) const {
     return rank[static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), key) - begin.begin()) - 1];
   }

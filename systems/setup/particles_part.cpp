@@ -120,16 +120,10 @@ Vec<Dim> moved_at_walls(const Scene& scene, const Grid<Dim>& grid, int per_cell,
   }
 }
 
-/// Of all ranks.
-std::int64_t sum_of_ranks(std::size_t count) {
-  const auto own = static_cast<std::int64_t>(count);
-  return all_ranks() == nullptr ? own : all_ranks()->sum(own);
-}
-
 /// Whether any rank has any.
 template <int Dim>
 bool is_any(const Seeds<Dim>& seeds) {
-  return sum_of_ranks(seeds.position.size()) > 0;
+  return sum_over_ranks(static_cast<std::int64_t>(seeds.position.size())) > 0;
 }
 
 /// Layers that this rank fills: its share of those with liquid. Whoever cuts parts looks at the cells around; that is
@@ -185,7 +179,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
     const auto positions =
         lattice<Dim>(region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside, layers);
     const std::string pointer = fmt::format("/particles/{}", r);
-    if (sum_of_ranks(positions.size()) == 0) {
+    if (sum_over_ranks(static_cast<std::int64_t>(positions.size())) == 0) {
       problems.note(pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
                     fmt::format("none at {} per cell and direction", region.per_cell));
     }
@@ -223,7 +217,7 @@ std::vector<std::int64_t> numbers_of(std::span<const std::size_t> region, std::s
   for (std::int64_t& count : next) {
     const std::int64_t own = count;
     count = before + (all_ranks() == nullptr ? 0 : all_ranks()->sum_below(own));
-    before += sum_of_ranks(static_cast<std::size_t>(own));
+    before += sum_over_ranks(own);
   }
   std::vector<std::int64_t> numbers;
   for (const std::size_t r : region) numbers.push_back(next[r]++);
