@@ -31,7 +31,7 @@ std::string as_test_spec(std::string_view name) {
 #if defined(__SANITIZE_THREAD__)
 constexpr bool looks_for_races = true;
 constexpr bool is_sanitized = true;
-#elif defined(__SANITIZE_ADDRESS__)
+#elif defined(MINAMO_ADDRESS_SANITIZER)
 constexpr bool looks_for_races = false;
 constexpr bool is_sanitized = true;
 #else

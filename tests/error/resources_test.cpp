@@ -121,7 +121,7 @@ TEST_CASE("a full disk behind stdout is one message and 3", "[error]") {
   CHECK_THAT(text_of(folder / "err"), Catch::Contains("stdout: cannot be written"));
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which needs more address space than any limit leaves
+#ifndef MINAMO_ADDRESS_SANITIZER  // which needs more address space than any limit leaves
 TEST_CASE("a run that has too little memory is refused, or ends with 3 and a message, and never crashes", "[error]") {
   const Folder folder;
   const std::string solver = GENERATE("block", "umfpack");

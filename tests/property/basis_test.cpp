@@ -1,7 +1,7 @@
 #include "support/extremes.hpp"
+#include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 
-#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 using namespace minamo;
@@ -64,7 +64,7 @@ std::vector<double> moment_matrix_weights(const Grid<Dim>& grid, const Vec<Dim>&
     terms.push_back(multilinear<Dim>(r));
     moments += n * terms.back() * terms.back().transpose();
   }
-  const Eigen::VectorXd correction = moments.fullPivLu().solve(multilinear<Dim>(Vec<Dim>::Zero()));
+  const Eigen::VectorXd correction = dense::solve(moments, multilinear<Dim>(Vec<Dim>::Zero()));
   for (std::size_t i = 0; i < spline.size(); ++i) spline[i] *= terms[i].dot(correction);
   return spline;
 }

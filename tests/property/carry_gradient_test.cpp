@@ -1,8 +1,8 @@
+#include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 
 #include "systems/transfer/carry_gradient.hpp"
 
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
 using namespace minamo;
@@ -20,7 +20,7 @@ Mat<Dim> gradient_over(const std::vector<Vec<Dim>>& places, const std::vector<Ve
     x.row(r) << places[static_cast<std::size_t>(r)].transpose(), 1;
     v.row(r) = velocities[static_cast<std::size_t>(r)].transpose();
   }
-  return x.colPivHouseholderQr().solve(v).topRows(Dim).transpose();
+  return dense::least_squares(x, v).topRows(Dim).transpose();
 }
 
 template <int Dim>

@@ -4,11 +4,11 @@
 #include "components/measure.hpp"
 #include "components/staggered.hpp"
 #include "support/extremes.hpp"
+#include "support/factorizations.hpp"
 #include "support/scenes.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/conforming/volume.hpp"
 
-#include <Eigen/Dense>
 #include <oneapi/tbb/global_control.h>
 
 #include <functional>
@@ -102,7 +102,7 @@ struct DenseStep {
       b[at] = matrix(at, at) * q(faces[f].first, faces[f].second);
     }
     for (std::size_t l = 0; l < multipliers; ++l) b[static_cast<Eigen::Index>(n + l)] = divergence(l);
-    return matrix.fullPivLu().solve(b);
+    return dense::solve_with_full_pivots(matrix, b).x;
   }
 };
 

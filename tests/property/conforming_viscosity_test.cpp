@@ -1,3 +1,4 @@
+#include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 #include "support/scene_run.hpp"
 
@@ -8,7 +9,6 @@
 #include "systems/conforming/solve_friction.hpp"
 #include "systems/measure/conservation.hpp"
 
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
@@ -129,7 +129,7 @@ void check_matrices() {
   CHECK((matrix - by_quadrature<Dim, K>(frame)).norm() <= 1e-13 * matrix.norm());
   CHECK(matrix == matrix.transpose());
 
-  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues();
+  const Eigen::VectorXd eigenvalues = dense::symmetric_eigenvalues(matrix);
   const double none = 1e-12 * eigenvalues.maxCoeff();
   CHECK(eigenvalues.minCoeff() >= -none);
   CHECK((eigenvalues.array() <= none).count() == Dim + rotations<Dim>);
@@ -144,7 +144,7 @@ void check_matrices() {
   const Eigen::Map<const Eigen::VectorXd> bound(matrices.bounds_of(splines, cell), matrix.rows());
   const Eigen::VectorXd per_root = bound.array().rsqrt();
   const Eigen::MatrixXd scaled = per_root.asDiagonal() * matrix * per_root.asDiagonal();
-  CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues().maxCoeff() <= 1 + 1e-12);
+  CHECK(dense::symmetric_eigenvalues(scaled).maxCoeff() <= 1 + 1e-12);
 }
 
 /// Liquid in a corner between slip and no-slip walls, scattered, a surface, and a far particle of 1/256 of a cell.
@@ -271,7 +271,7 @@ void check_balances(int degree) {
   whole.topRightCorner(n, rows) = -coupling.transpose();
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n + rows);
   right.head(n) = per_root.cwiseProduct(f);
-  const Eigen::VectorXd x = Eigen::PartialPivLU<Eigen::MatrixXd>(whole).solve(right);
+  const Eigen::VectorXd x = dense::solve(whole, right);
   const Eigen::VectorXd v = per_root.cwiseProduct(x.head(n));
   const Eigen::VectorXd computed = values<face::BalanceVelocity<Dim>>(world);
   const double largest = v.cwiseAbs().maxCoeff();
@@ -312,7 +312,7 @@ void check_rubbing(int degree) {
   CHECK((computed - change).norm() <= 1e-12 * (change.norm() + 1e-3 * v.norm()));
   const Eigen::VectorXd root = dense.mobility.cwiseSqrt();
   const Eigen::MatrixXd scaled = 2 * tau * root.asDiagonal() * dense.friction * root.asDiagonal();
-  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues();
+  const Eigen::VectorXd eigenvalues = dense::symmetric_eigenvalues(scaled);
   CHECK(eigenvalues.minCoeff() >= -1e-12);
   CHECK(eigenvalues.maxCoeff() <= 1 + 1e-12);
 }

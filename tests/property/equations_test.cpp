@@ -1,5 +1,6 @@
 #include "support/dense_equations.hpp"
 #include "support/extremes.hpp"
+#include "support/factorizations.hpp"
 
 #include "components/fluid.hpp"
 #include "components/matrix.hpp"
@@ -144,10 +145,10 @@ Eigen::VectorXd dense_solution(const dense::Equations& equations) {
   const Eigen::VectorXd of_row = equations.matrix.cwiseAbs().rowwise().maxCoeff().cwiseInverse();
   const Eigen::MatrixXd rows_scaled = of_row.asDiagonal() * equations.matrix;
   const Eigen::VectorXd of_column = rows_scaled.cwiseAbs().colwise().maxCoeff().cwiseInverse();
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(rows_scaled * of_column.asDiagonal());
-  lu.setThreshold(1e-15);
-  REQUIRE(lu.isInvertible());
-  return of_column.cwiseProduct(lu.solve(of_row.cwiseProduct(equations.right_hand_side)));
+  const auto [x, is_regular] = dense::solve_with_full_pivots(rows_scaled * of_column.asDiagonal(),
+                                                             of_row.cwiseProduct(equations.right_hand_side), 1e-15);
+  REQUIRE(is_regular);
+  return of_column.cwiseProduct(x);
 }
 
 TEMPLATE_TEST_CASE_SIG("the solution is that of dense Gauss elimination with full pivoting", "[property]",

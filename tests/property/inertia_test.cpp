@@ -28,9 +28,9 @@ Json lump(bool at_wall) {
   if constexpr (Dim == 3) {
     scene["dimension"] = 3;
     scene["grid"] = Json::parse(R"({"low": [0, 0, 0], "high": [1, 1, 0.8], "cells": [10, 10, 8]})");
-    scene["body_force"] = {0, -3, 1};
+    scene["body_force"] = Json({0, -3, 1});
     auto& particles = scene["particles"][0];
-    particles["velocity"] = {"-3*y + x*x", "3*x - y*y", "z*x"};
+    particles["velocity"] = Json({"-3*y + x*x", "3*x - y*y", "z*x"});
     particles["shape"]["box"]["low"].push_back(0.3);
     particles["shape"]["box"]["high"].push_back(0.5);
   }

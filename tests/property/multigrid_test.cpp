@@ -1,8 +1,8 @@
+#include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 
 #include "systems/conforming/multigrid.hpp"
 
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>
 
@@ -240,7 +240,7 @@ TEMPLATE_TEST_CASE_SIG("the staggered matrix: the direct solver solves it", "[pr
   kernels::Random random(1);
   const StaggeredSystem<Dim> s = assemble(irregular<Dim>(decades, is_periodic, random));
   const std::vector<Sources> b = random_sources(s.site.size());
-  const Eigen::MatrixXd exact = dense_matrix(s).llt().solve(as_matrix(b));
+  const Eigen::MatrixXd exact = dense::solve(dense_matrix(s), as_matrix(b));
   // Conductances 1e6 apart, and distances to the surface, make conditions beyond 1e7; times rounding.
   CHECK((as_matrix(solve_directly(s, b)) - exact).norm() < 1e-7 * exact.norm());
 }
@@ -269,7 +269,7 @@ TEST_CASE("the staggered matrix: an axis of two sites may be periodic", "[proper
   liquid.is_wet = [](const Index<2>& site) { return site[1] != 40 || site[0] == 0; };
   const StaggeredSystem<2> s = assemble(liquid);
   const std::vector<Sources> b = random_sources(s.site.size());
-  const Eigen::MatrixXd exact = dense_matrix(s).llt().solve(as_matrix(b));
+  const Eigen::MatrixXd exact = dense::solve(dense_matrix(s), as_matrix(b));
   // A condition of 1e5 times rounding, and times the tolerance.
   CHECK((as_matrix(solve_directly(s, b)) - exact).norm() < 1e-10 * exact.norm());
   CHECK((as_matrix(solve_by_multigrid(s, b, 1e-12).x) - exact).norm() < 1e-6 * exact.norm());
@@ -294,11 +294,7 @@ TEMPLATE_TEST_CASE_SIG("the staggered matrix: closed components have the solutio
   std::vector<Sources> b = random_sources(s.site.size());
   closed.remove_null_part(s.null_vector, b);
   // The pseudoinverse: the eigenvectors of the two zeros are left out.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(dense_matrix(s));
-  Eigen::VectorXd inverse = eigen.eigenvalues().cwiseInverse();
-  inverse.head(2).setZero();
-  const Eigen::MatrixXd exact =
-      eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose() * as_matrix(b);
+  const Eigen::MatrixXd exact = dense::pseudoinverse(dense_matrix(s), 2) * as_matrix(b);
   std::vector<Sources> x = solve_directly(s, b);
   closed.remove_null_part(s.null_vector, x);
   // The condition is about 1e5.

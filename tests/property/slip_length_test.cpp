@@ -5,7 +5,7 @@
 #include "engine/clock.hpp"
 #include "systems/conforming/friction_operator.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <catch2/catch.hpp>
 
 #include <cmath>

@@ -53,7 +53,7 @@ bool runs(const Scene& scene) {
 
 /// Of how many pairs one is tried: all of them, but a sample where the sanitizers make each ten times dearer: every
 /// system in one slot or two, every slot with one system in eleven.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef MINAMO_ADDRESS_SANITIZER
 constexpr std::size_t stride = 11;
 #else
 constexpr std::size_t stride = 1;

@@ -27,7 +27,7 @@ Json lump_and_wet_wall(double viscosity) {
   if constexpr (Dim == 3) {
     scene["dimension"] = 3;
     scene["grid"] = Json::parse(R"({"low": [0, 0, 0], "high": [1, 1, 0.3], "cells": [10, 10, 3]})");
-    scene["body_force"] = {0, -9.81, 0};
+    scene["body_force"] = Json({0, -9.81, 0});
     for (auto& region : scene["particles"]) {
       region["shape"]["box"]["low"].push_back(0.1);
       region["shape"]["box"]["high"].push_back(0.2);

@@ -8,7 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#ifndef __SANITIZE_ADDRESS__  // which takes several times the memory, and all address space
+#ifndef MINAMO_ADDRESS_SANITIZER  // which takes several times the memory, and all address space
 
 using namespace minamo;
 

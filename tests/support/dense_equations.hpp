@@ -8,7 +8,7 @@
 
 #include "systems/solve/operators.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace minamo::dense {
 

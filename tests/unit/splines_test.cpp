@@ -62,7 +62,7 @@ TEST_CASE("squares of Greville points less the spread of knots add up to the squ
   const auto [degree, cells, periodic] = any_axis();
   const SplineAxis axis(degree, cells, periodic);
   Largest worst;
-  for_each_place(axis, [&](int, double xi, const CellSplines& of) {
+  for_each_place(axis, [&, degree = degree](int, double xi, const CellSplines& of) {
     double along = 0;
     double across = 0;
     for (std::size_t a = 0; a < of.along.size(); ++a) {

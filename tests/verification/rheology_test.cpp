@@ -59,8 +59,8 @@ TEST_CASE("a liquid that yields and thins flows through a channel", "[verificati
 TEMPLATE_TEST_CASE_SIG("a power law with index 1 is a Newtonian liquid", "[verification]", ((int Dim), Dim), 2, 3) {
   Json scene = scene_of_file(Dim == 2 ? "dam_break.json" : "dam_break_3d.json");
   scene["grid"]["cells"] = Dim == 2 ? Json({20, 20}) : Json({16, 8, 16});
-  scene["fluid"] = {{"density", 1000}, {"viscosity", 50}};
-  scene["time"] = {{"end", 1}, {"step", 2e-3}};
+  scene["fluid"] = Json({{"density", 1000}, {"viscosity", 50}});
+  scene["time"] = Json({{"end", 1}, {"step", 2e-3}});
   const auto speeds = [](const Json& of) {
     SceneRun run(of);
     run.step(20);

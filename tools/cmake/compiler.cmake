@@ -55,7 +55,7 @@ function(minamo_compile_options target)
       # the tests take half of the time.
       set(sanitize -fsanitize=address,undefined -fno-sanitize=vptr,null,alignment,object-size,pointer-overflow)
       target_compile_options(${target} PRIVATE -fno-sanitize-recover=undefined)
-      target_compile_definitions(${target} PUBLIC _GLIBCXX_ASSERTIONS)
+      target_compile_definitions(${target} PUBLIC _GLIBCXX_ASSERTIONS MINAMO_ADDRESS_SANITIZER)
     endif()
     if(MINAMO_FUZZ)
       # What libFuzzer steers by; and conversions of numbers that do not fit, of which g++ knows nothing.
