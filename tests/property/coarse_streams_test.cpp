@@ -40,7 +40,7 @@ std::int64_t most_iterations(const Json& scene, int steps) {
 
 }  // namespace
 
-TEST_CASE("stiff friction takes few iterations on any grid and at any contrast", "[property]") {
+TEST_CASE("stiff friction takes few iterations on any grid and at any contrast", "[property][long]") {
   // 20, 24, 20, 24 measured; the diagonal alone takes 52 to 129.
   CHECK(most_iterations(disc(64, 1e3), 2) <= 26);
   CHECK(most_iterations(disc(64, 1e6), 2) <= 30);

@@ -182,7 +182,7 @@ TEST_CASE("a conforming step has the same bits on any number of threads, as a gr
   CHECK(alone == state_after(scene, 1, Execution::graph));
 }
 
-TEST_CASE("a column of water on a lattice stays at rest", "[property]") {
+TEST_CASE("a column of water on a lattice stays at rest", "[property][long]") {
   const int degree = GENERATE(2, 3);
   SceneRun plane(column(2, degree));
   plane.step(50);

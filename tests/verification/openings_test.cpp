@@ -209,7 +209,7 @@ TEST_CASE("the rate of an inflow is its flow, whatever its place", "[verificatio
   CHECK(*run.world().resource<measure::Columns>().find("river_rate") == Approx(0.2 + 0.1 * 0.0975).epsilon(1e-12));
 }
 
-TEST_CASE("plane Poiseuille flow comes in and leaves", "[verification]") {
+TEST_CASE("plane Poiseuille flow comes in and leaves", "[verification][long]") {
   const Json scene = Json::parse(R"json({"dimension": 2,
     "grid": {"low": [0, 0], "high": [2, 1], "cells": [32, 16]}, "walls": {"x": "slip", "y": "no_slip"},
     "fluid": {"density": 1, "viscosity": 0.05},

@@ -29,7 +29,7 @@ std::int64_t iterations_around_disc(const Json& fluid, int cells, double step) {
 
 }  // namespace
 
-TEST_CASE("stiff friction around a body takes as many iterations on fine grids", "[verification]") {
+TEST_CASE("stiff friction around a body takes as many iterations on fine grids", "[verification][long]") {
   SECTION("of a Newtonian liquid, nu dt/h^2 = 100") {
     const Json fluid{{"density", 1}, {"viscosity", 1}};
     CHECK(iterations_around_disc(fluid, 64, 100 / 4096.0) < 45);  // 30; 95 with the diagonal alone

@@ -30,13 +30,6 @@ set_source_files_properties(systems/solve/envelope_lu.cpp PROPERTIES COMPILE_OPT
 set_source_files_properties(systems/conforming/envelope_cholesky.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast
   SKIP_PRECOMPILE_HEADERS ON)
 
-# What registers systems makes a call for each, out of which -O3 makes a third more time to compile and nothing else.
-# Not with the sanitizers: all is -O1 there, and a source with options of its own would not be compiled with others.
-if(NOT MINAMO_SANITIZE)
-  file(GLOB_RECURSE minamo_parts CONFIGURE_DEPENDS systems/*_part.cpp)
-  set_source_files_properties(${minamo_parts} PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON)
-endif()
-
 function(minamo_compile_options target)
   target_compile_options(${target} PUBLIC ${minamo_public_options})
   target_compile_options(${target} PRIVATE ${minamo_private_options})
