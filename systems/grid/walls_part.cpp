@@ -49,7 +49,7 @@ Json schema(const WallWords& words) {
 }
 
 /// Low and high side per axis.
-using Sides = std::vector<std::array<WallOfScene, 2>>;
+using SidesOfScene = std::vector<std::array<WallOfScene, 2>>;
 
 /// Whether an object is a wall, and not a wall per axis.
 bool is_length(const Json& value, const WallWords& words) {
@@ -78,10 +78,10 @@ void check_periodic(Input& input, const std::string& at, const std::string& wall
                 fmt::format("{} cells", cells));
 }
 
-Sides read_sides(Input& input, std::span<const int> cells, const WallWords& words) {
+SidesOfScene read_sides(Input& input, std::span<const int> cells, const WallWords& words) {
   const WallOfScene usual{words.names.front()};
   const Json walls = input.raw("walls", schema(words), usual.condition);
-  Sides all(cells.size(), {usual, usual});
+  SidesOfScene all(cells.size(), {usual, usual});
   if (walls.is_string() || is_length(walls, words)) {
     const WallOfScene wall = read_wall(input, "walls", walls, words, known_names(words));
     std::fill(all.begin(), all.end(), std::array{wall, wall});
@@ -109,7 +109,7 @@ Sides read_sides(Input& input, std::span<const int> cells, const WallWords& word
 }
 
 template <int Dim>
-Walls<Dim> make_walls(const Sides& sides, const SystemRegistry& registry) {
+Walls<Dim> make_walls(const SidesOfScene& sides, const SystemRegistry& registry) {
   Walls<Dim> walls;
   for (std::size_t d = 0; d < Dim; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
@@ -124,7 +124,7 @@ Walls<Dim> make_walls(const Sides& sides, const SystemRegistry& registry) {
 }
 
 template <int Dim>
-SeparatingSides<Dim> separating_of(const Sides& sides, const SystemRegistry& registry) {
+SeparatingSides<Dim> separating_of(const SidesOfScene& sides, const SystemRegistry& registry) {
   SeparatingSides<Dim> separating;
   for (std::size_t d = 0; d < Dim; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
@@ -135,7 +135,7 @@ SeparatingSides<Dim> separating_of(const Sides& sides, const SystemRegistry& reg
   return separating;
 }
 
-bool any_separates(const Sides& sides, const WallWords& words) {
+bool any_separates(const SidesOfScene& sides, const WallWords& words) {
   return std::any_of(sides.begin(), sides.end(), [&](const auto& axis) {
     return std::any_of(axis.begin(), axis.end(), [&](const WallOfScene& side) {
       return std::find(words.separating.begin(), words.separating.end(), side.condition) != words.separating.end();
@@ -143,7 +143,7 @@ bool any_separates(const Sides& sides, const WallWords& words) {
   });
 }
 
-WallFriction friction_of(const Sides& sides, const SystemRegistry& registry) {
+WallFriction friction_of(const SidesOfScene& sides, const SystemRegistry& registry) {
   WallFriction friction;
   const auto dimension = static_cast<int>(sides.size());
   for (const auto& axis : sides) {
@@ -161,7 +161,7 @@ WallFriction friction_of(const Sides& sides, const SystemRegistry& registry) {
 /// `"slip"` for all sides, or per axis `{"x": "slip", "y": ["no_slip", {"slip_length": 1e-3}]}`.
 Contribution read_walls(Input& input, Scene& scene) {
   const WallWords words = words_of(scene);
-  const Sides sides = read_sides(input, scene.grid.cells, words);
+  const SidesOfScene sides = read_sides(input, scene.grid.cells, words);
   for (std::size_t d = 0; d < sides.size(); ++d) scene.grid.periodic[d] = sides[d][0].condition == periodic;
   scene.facts.set(friction_of(sides, registry_of(scene)));
   const bool separates = any_separates(sides, words);
