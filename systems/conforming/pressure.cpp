@@ -2,7 +2,7 @@
 
 #include "systems/conforming/pressure_of_few.hpp"
 #include "systems/conforming/support.hpp"
-#include "systems/solve/conjugate_gradients.hpp"
+#include "systems/krylov/conjugate_gradients.hpp"
 
 #include <cmath>
 

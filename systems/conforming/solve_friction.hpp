@@ -20,7 +20,7 @@
 #include "systems/conforming/face_extension.hpp"
 #include "systems/conforming/friction_matrices.hpp"
 #include "systems/conforming/multiplier_matrix.hpp"
-#include "systems/solve/gmres.hpp"
+#include "systems/krylov/gmres.hpp"
 
 namespace minamo {
 

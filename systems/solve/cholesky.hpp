@@ -3,7 +3,7 @@
 /// Sparse Cholesky factorization of a symmetric matrix, given entry by entry, by SuiteSparse's CHOLMOD on one thread.
 /// Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, ACM TOMS 35 (2008) 22, doi:10.1145/1391989.1391995.
 
-#include "systems/solve/gmres.hpp"
+#include "systems/krylov/gmres.hpp"
 
 #include <memory>
 

@@ -5,7 +5,7 @@
 /// streams through memory, so that it beats sparse factorizations as long as the envelope is narrow. A. George, J. W.
 /// Liu, Computer Solution of Large Sparse Positive Definite Systems, Prentice-Hall 1981, ch. 4.
 
-#include "systems/solve/gmres.hpp"
+#include "systems/krylov/gmres.hpp"
 
 #include <Eigen/Core>
 

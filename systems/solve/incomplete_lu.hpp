@@ -3,7 +3,7 @@
 /// LU factorization within the pattern of a sparse matrix, ILU(0): what would fall outside is dropped. J. A. Meijerink,
 /// H. A. van der Vorst, Math. Comp. 31 (1977) 148, doi:10.1090/S0025-5718-1977-0438681-4.
 
-#include "systems/solve/gmres.hpp"
+#include "systems/krylov/gmres.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -6,7 +6,7 @@
 /// velocity block.
 
 #include "components/node.hpp"
-#include "systems/solve/gmres.hpp"
+#include "systems/krylov/gmres.hpp"
 #include "systems/solve/operators.hpp"
 
 namespace minamo {

@@ -10,8 +10,8 @@
 /// Where the factors would cost more, for moderate friction or many unknowns in space, conjugate gradients solve with A
 /// itself, as exactly as each call asks for.
 
+#include "systems/krylov/conjugate_gradients.hpp"
 #include "systems/solve/cholesky.hpp"
-#include "systems/solve/conjugate_gradients.hpp"
 #include "systems/solve/schur_operator.hpp"
 
 namespace minamo {

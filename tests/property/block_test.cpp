@@ -9,9 +9,9 @@
 #include "components/step.hpp"
 #include "engine/clock.hpp"
 #include "engine/linear_solver.hpp"
+#include "systems/krylov/gmres.hpp"
 #include "systems/solve/cholesky.hpp"
 #include "systems/solve/envelope_lu.hpp"
-#include "systems/solve/gmres.hpp"
 #include "systems/solve/incomplete_lu.hpp"
 
 #include <random>

@@ -1,6 +1,6 @@
 #include "support/factorizations.hpp"
 
-#include "systems/solve/conjugate_gradients.hpp"
+#include "systems/krylov/conjugate_gradients.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,7 @@
 /// Conjugate gradients for a symmetric positive definite matrix, preconditioned with its diagonal.
 /// M. R. Hestenes, E. Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409, doi:10.6028/jres.049.044.
 
-#include "systems/solve/gmres.hpp"
+#include "systems/krylov/gmres.hpp"
 
 #include <cmath>
 #include <cstdint>
