@@ -145,6 +145,22 @@ class Alike(unittest.TestCase):
         options = ["--set", "/walls={\"x\": \"periodic\", \"y\": \"slip\"}", "--set", "/time/end=0.2"]
         self.check("periodic", SCENES / "dam_break.json", [*DAM_BREAK, *options], [3])
 
+    def test_probes_see_the_same(self):
+        options = ["--set", "/time={\"end\": 0.1, \"step\": 0.005}", "--set", "/particles/0/per_cell=2", "--set",
+                   "/fluid/viscosity=1e-3", "--set", "/solver={\"tolerance\": 1e-12}"]
+        self.check("probes", SCENES / "sloshing.json", options, [3])
+        ours, alone = history(WORK / "probes_3"), history(WORK / "probes_alone")
+        for column in ("left_pressure", "left_velocity_y", "middle_pressure", "middle_velocity_x"):
+            np.testing.assert_allclose(ours[column], alone[column], rtol=1e-7, atol=1e-9, err_msg=column)
+
+    def test_ode_variables_and_steps_of_the_fastest_particle(self):
+        options = ["--set", "/time={\"end\": 0.2, \"cfl\": 0.5}", "--set", "/particles/0/per_cell=2", "--set",
+                   "/solver={\"tolerance\": 1e-12}"]
+        ours, _ = run("ode_3", 3, SCENES / "elliptical_drop.json", *options)
+        alone, _ = run("ode_alone", 0, SCENES / "elliptical_drop.json", *options)
+        for column in ("time", "kinetic_energy", "error_velocity"):
+            np.testing.assert_allclose(history(ours)[column], history(alone)[column], rtol=1e-7, err_msg=column)
+
     def test_blocks_are_on_any_rank(self):
         alone, _ = run("anywhere_alone", 0, SCENES / "dam_break.json", *DAM_BREAK)
         for ranks, seed in ((2, 1), (3, 2), (5, 3)):
@@ -156,7 +172,7 @@ class Alike(unittest.TestCase):
     def test_one_process_of_mpi_is_the_ordinary_program(self):
         alone, _ = run("ordinary", 0, SCENES / "dam_break.json", *DAM_BREAK)
         of_mpi, _ = run("of_mpi", 1, SCENES / "dam_break.json", *DAM_BREAK)
-        for name in ("history.csv", "fields.h5"):
+        for name in ("history.csv", "fields.h5", "checkpoint.h5"):
             self.assertEqual((alone / name).read_bytes(), (of_mpi / name).read_bytes())
 
 
@@ -250,7 +266,8 @@ class Refusals(unittest.TestCase):
 
     def test_more_ranks_than_blocks_have_nothing_to_do(self):
         options = [*DAM_BREAK, "--set", "/grid/cells=[8, 8]", "--set", "/time/end=0.04"]
-        folder, _ = run("few_blocks", 5, SCENES / "dam_break.json", *options)
+        folder, done = run("few_blocks", 5, SCENES / "dam_break.json", *options)
+        self.assertEqual(done.stderr.count("ranks have no particles at the start"), 1, done.stderr)
         alone, _ = run("few_blocks_alone", 0, SCENES / "dam_break.json", *options)
         Alike.assert_alike(self, folder, alone)
 

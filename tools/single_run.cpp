@@ -80,6 +80,15 @@ void warn_of_scene(const Scene& scene, const std::string& path, World& world) {
   for (const std::string& warning : warnings_of(scene, world)) spdlog::warn("{}: {}", path, warning);
 }
 
+/// Blocks of cells are not shared.
+void warn_of_idle_ranks(World& world) {
+  if (all_ranks() == nullptr) return;
+  const std::int64_t idle = sum_over_ranks(std::int64_t{world.rows<Particles>() == 0});
+  if (idle == 0) return;
+  spdlog::warn("{} of {} ranks have no particles at the start: fewer blocks of 4 cells per direction have liquid", idle,
+               all_ranks()->size());
+}
+
 void warn_of_rejection(const Clock& clock, const std::string& why) {
   spdlog::warn("step {} from t = {:.6g} s with dt = {:.6g} s is taken back: {}", clock.index + 1, clock.time,
                clock.step, why);
@@ -159,7 +168,7 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
     result.was_over = true;
     return result;
   }
-
+  warn_of_idle_ranks(world);
   Progress progress(times, world.resource<Clock>(), world.rows<Particles>(), plan.quiet || !writes_for_all());
   MemoryReserve reserve;
   const Observers observers{

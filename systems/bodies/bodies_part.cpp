@@ -123,7 +123,7 @@ void check_inside(Input& input, const BodyScene<Dim>& body, const GridScene& gri
 }
 
 template <int Dim>
-void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
+void read_body(Input& input, Scene& scene, BodySet<Dim>& set) {
   BodyScene<Dim> body;
   body.name = input.text("name", {.doc = "its columns are NAME_force_x, NAME_torque, NAME_position_x, ..."});
   input.object("shape", "where the body is at the start", Input::Presence::required,
@@ -139,10 +139,7 @@ void read_body(Input& input, const Scene& scene, BodySet<Dim>& set) {
   body.pivot = middle_of<Dim>(body.shape);
   read_motion<Dim>(input, scene, body);
   if (input.describing() || !body.shape) return;
-  if (input.sound("name")) {
-    const auto is_twin = [&](const auto& other) { return other.name == body.name; };
-    check_column_name(input, body.name, "body", std::any_of(set.bodies.begin(), set.bodies.end(), is_twin));
-  }
+  if (input.sound("name")) check_column_name(input, body.name, "body", scene);
   check_inside<Dim>(input, body, scene.grid);
   set.bodies.push_back(std::move(body));
 }

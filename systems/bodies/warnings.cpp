@@ -111,10 +111,12 @@ class Surroundings {
   double least() const { return 1e-3 * grid_.spacing; }
 
   /// Of gaps that are open all along: where one closes, walls meet at an angle or bodies touch, which is no mistake.
+  /// Beyond the sides of the grid it matters only whether they close.
   std::optional<Narrow<Dim>> narrowest_open(const std::vector<std::size_t>& group,
                                             const std::vector<Narrow<Dim>>& across) const {
     std::map<std::size_t, Narrow<Dim>> narrowest;
     for (std::size_t k = 0; k < group.size(); ++k) {
+      if (across[k].width > least() && is_outside(across[k].from)) continue;
       const auto [found, is_new] = narrowest.try_emplace(group[k], across[k]);
       if (!is_new && across[k].width < found->second.width) found->second = across[k];
     }
@@ -133,10 +135,13 @@ class Surroundings {
   }
   static constexpr std::array shares_looked_at{0.05, 0.25, 0.5, 0.75, 0.95};
 
+  bool is_outside(const Vec<Dim>& x) const {
+    return (x.array() < grid_.low.array()).any() || (x.array() > grid_.high.array()).any();
+  }
+
   bool is_no_place(const Vec<Dim>& x) const {
-    const bool is_outside = (x.array() < grid_.low.array()).any() || (x.array() > grid_.high.array()).any();
-    return is_outside || std::any_of(set_.bodies.begin(), set_.bodies.end(),
-                                     [&](const auto& body) { return body.shape->distance(x) < 0; });
+    return is_outside(x) || std::any_of(set_.bodies.begin(), set_.bodies.end(),
+                                        [&](const auto& body) { return body.shape->distance(x) < 0; });
   }
 
   const BodySet<Dim>& set_;

@@ -4,7 +4,9 @@
 #include "systems/conforming/support.hpp"
 #include "systems/measure/volume.hpp"
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace minamo {
 
@@ -37,39 +39,41 @@ void MeasureMultiplierOverlap<Dim>::operator()(Read<particle::Volume> V_p, Read<
 
 namespace {
 
-/// What a probe sees.
+/// What a probe sees: sums of N_l p_l, and of N_f v_f and N_f over the faces with mass.
 template <int Dim>
-struct ProbeValues {
+struct ProbeSums {
   double pressure = 0;
-  Vec<Dim> velocity = Vec<Dim>::Zero();
+  std::array<double, Dim> velocity{};
+  std::array<double, Dim> wet{};
 };
 
+/// \param shared  null, or what says which sites are another rank's to add
 template <int Dim, int K>
-ProbeValues<Dim> values_at(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
-                           const Vec<Dim>& x, std::span<const Vec<Dim>> m_f, std::span<const double> p_l,
-                           std::span<const Vec<Dim>> v_f) {
+ProbeSums<Dim> sums_at(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
+                       const SiteExchange* shared, const Vec<Dim>& x, std::span<const Vec<Dim>> m_f,
+                       std::span<const double> p_l, std::span<const Vec<Dim>> v_f) {
   const Index<Dim> cell = cell_around<Dim>(grid, splines, x);
   const CellFrame<Dim> frame(grid, splines, cell);
   const SplineWeights<Dim, K> weights(frame, frame.local(x));
   std::array<std::optional<std::uint32_t>, cell_sites<Dim, K>> row;
-  for_each_site<Dim, K>(
-      [&](std::size_t k, const Index<Dim>& offset) { row[k] = rows.find(splines.site(cell, offset)); });
-  ProbeValues<Dim> values;
+  for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+    row[k] = rows.find(splines.site(cell, offset));
+    if (row[k] && !owns(shared, *row[k])) row[k].reset();
+  });
+  ProbeSums<Dim> sums;
   for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
-    if (row[k]) values.pressure += weights.multiplier(offset) * p_l[*row[k]];
+    if (row[k]) sums.pressure += weights.multiplier(offset) * p_l[*row[k]];
   });
   for_each_direction<Dim>([&](auto d) {
     constexpr int D = d();
-    double wet = 0;
     for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
       if (!row[k] || m_f[*row[k]][D] == 0) return;
       const double weight = weights.template face<D>(offset);
-      wet += weight;
-      values.velocity[D] += weight * v_f[*row[k]][D];
+      sums.wet[D] += weight;
+      sums.velocity[D] += weight * v_f[*row[k]][D];
     });
-    if (wet > 0) values.velocity[D] /= wet;
   });
-  return values;
+  return sums;
 }
 
 }  // namespace
@@ -79,17 +83,23 @@ void MeasureProbesOnFacesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Rea
                                                        Read<StaggeredIndex<Dim>> rows,
                                                        Read<measure::Probes<Dim>> probes, Read<face::Mass<Dim>> m_f,
                                                        Read<multiplier::Pressure> p_l, Read<Velocity> v_f,
+                                                       Optional<Read<SiteExchange>> shared,
                                                        Update<measure::Columns> columns) const {
+  std::vector<ProbeSums<Dim>> sums;
   with_degree(splines->degree, [&](auto degree) {
-    for (const auto& probe : probes->probes) {
-      const auto values =
-          values_at<Dim, degree()>(*grid, *splines, *rows, probe.at, m_f.span(), p_l.span(), v_f.span());
-      columns->set(probe.pressure, values.pressure);
-      for (int d = 0; d < Dim; ++d) {
-        columns->set(probe.velocity[static_cast<std::size_t>(d)], values.velocity[d]);
-      }
-    }
+    for (const auto& probe : probes->probes)
+      sums.push_back(sums_at<Dim, degree()>(*grid, *splines, *rows, of_ranks(shared), probe.at, m_f.span(), p_l.span(),
+                                            v_f.span()));
   });
+  if (shared)
+    shared->ranks().sum(
+        {reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(ProbeSums<Dim>) / sizeof(double)});
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const auto& probe = probes->probes[k];
+    columns->set(probe.pressure, sums[k].pressure);
+    for (std::size_t d = 0; d < Dim; ++d)
+      columns->set(probe.velocity[d], sums[k].wet[d] > 0 ? sums[k].velocity[d] / sums[k].wet[d] : 0);
+  }
 }
 
 template struct MeasureProbesOnFacesIn<2, face::NewVelocity<2>>;

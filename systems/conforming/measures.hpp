@@ -39,7 +39,7 @@ struct MeasureProbesOnFacesIn {
   static constexpr std::string_view doc = "(E43), (E44) pressure and velocity at the probes";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<measure::Probes<Dim>> probes, Read<face::Mass<Dim>> m_f, Read<multiplier::Pressure> p_l,
-                  Read<Velocity> v_f, Update<measure::Columns> columns) const;
+                  Read<Velocity> v_f, Optional<Read<SiteExchange>> shared, Update<measure::Columns> columns) const;
 };
 template <int Dim>
 using MeasureProbesOnFaces = MeasureProbesOnFacesIn<Dim, face::NewVelocity<Dim>>;

@@ -35,10 +35,7 @@ Contribution read_probes(Input& input, Scene& scene) {
     ProbeScene probe;
     probe.name = in.text("name", {.doc = "its columns are NAME_pressure, NAME_velocity_x, ..."});
     probe.at = in.numbers("at", static_cast<std::size_t>(scene.dimension), {.unit = "m", .doc = "place"});
-    if (in.sound("name") && !in.describing()) {
-      const auto is_twin = [&](const auto& other) { return other.name == probe.name; };
-      check_column_name(in, probe.name, "probe", std::any_of(probes.begin(), probes.end(), is_twin));
-    }
+    if (in.sound("name") && !in.describing()) check_column_name(in, probe.name, "probe", scene);
     if (in.sound("at")) check_probe(in, probe.at, scene.grid);
     probes.push_back(std::move(probe));
   });

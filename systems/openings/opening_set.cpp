@@ -1,10 +1,9 @@
 #include "systems/openings/opening_set.hpp"
 
-#include "engine/step_control.hpp"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace minamo {
 
@@ -88,10 +87,22 @@ void scale_to_flow(const Opening<Dim>& opening, const Grid<Dim>& grid, const Sid
   for (double& velocity : across) velocity *= given / of_faces;
 }
 
+/// No shorter step gets past it.
 template <int Dim>
 void require_finite(const Opening<Dim>& opening, double value, double time) {
   if (std::isfinite(value)) return;
-  throw StepRejected(fmt::format("openings: the inflow of \"{}\" is not finite at t = {} s", opening.name, time));
+  throw std::runtime_error(
+      fmt::format("openings: the inflow of \"{}\" is not finite at t = {:.6g} s", opening.name, time));
+}
+
+/// [m^3/s; m^2/s in the plane]
+template <int Dim>
+double inflow_rate(const Opening<Dim>& opening, double time) {
+  const double rate = at_time(opening.rate, time);
+  require_finite<Dim>(opening, rate, time);
+  if (rate >= 0) return rate;
+  throw std::runtime_error(
+      fmt::format("openings: the rate of \"{}\", what comes in, is {:.6g} at t = {:.6g} s", opening.name, rate, time));
 }
 
 }  // namespace
@@ -150,8 +161,8 @@ opening::SideVelocity<Dim> prescribed_velocity(const Opening<Dim>& opening, cons
   if (opening.kind == OpeningKind::rate) {
     double area = 0;
     for (std::size_t k = 0; k < share.size(); ++k) area += share[k] * side.area(side.site(k, side.axis()));
-    const double speed = area > 0 ? side.inward() * at_time(opening.rate, time) / area : 0;
-    require_finite<Dim>(opening, speed, time);
+    const double rate = inflow_rate<Dim>(opening, time);
+    const double speed = area > 0 ? side.inward() * rate / area : 0;
     for (std::size_t k = 0; k < share.size(); ++k) velocity.of[side.axis()][k] = share[k] * speed;
     return velocity;
   }

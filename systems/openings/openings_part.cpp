@@ -199,7 +199,7 @@ std::optional<Vertical> vertical_of(const BodyForce& b) {
 }
 
 template <int Dim>
-void read_opening(Input& input, const Scene& scene, const FlowRules& rules, OpeningSet<Dim>& set,
+void read_opening(Input& input, Scene& scene, const FlowRules& rules, OpeningSet<Dim>& set,
                   std::vector<std::optional<Expression>>& where) {
   Opening<Dim> opening;
   opening.name = input.text("name", {.doc = "its columns are NAME_mass_in, NAME_rate"});
@@ -207,13 +207,13 @@ void read_opening(Input& input, const Scene& scene, const FlowRules& rules, Open
   const std::string side = input.choice("side", sides, "of the box", {});
   const auto region = input.optional_expression("where", of_place_and_time(scene.constants),
                                                 {.doc = "the part of the side; without it, all of it"});
-  if (region && !input.describing()) check_coordinates(input, "where", *region, Dim);
+  if (region && !input.describing()) {
+    check_coordinates(input, "where", *region, Dim);
+    if (region->uses("t")) input.problem("where", "depends on t", "an expression in places and constants: it stays");
+  }
   const Flow flow = read_flow(input, rules);
   if (input.describing()) return;
-  if (input.sound("name")) {
-    const auto is_twin = [&](const auto& other) { return other.name == opening.name; };
-    check_column_name(input, opening.name, "opening", std::any_of(set.openings.begin(), set.openings.end(), is_twin));
-  }
+  if (input.sound("name")) check_column_name(input, opening.name, "opening", scene);
   const auto at = std::find(sides.begin(), sides.end(), side);
   if (!input.sound("side") || at == sides.end()) return;
   opening.side = static_cast<std::size_t>(at - sides.begin());

@@ -1,9 +1,11 @@
 #include "systems/openings/sponge.hpp"
 
 #include "engine/parallel.hpp"
-#include "engine/step_control.hpp"
+
+#include <spdlog/fmt/fmt.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace minamo {
 
@@ -20,7 +22,8 @@ void SoakVelocity<Dim>::operator()(Read<Clock> clock, Read<Sponges> sponges,
       const auto at = arguments.at<Dim>(y_p[p]);
       if (sponge.where && (*sponge.where)(at) == 0) continue;
       const double rate = sponge.rate(at);
-      if (std::isnan(rate)) throw StepRejected("sponge: a rate is not a number");
+      if (std::isnan(rate))  // no shorter step gets past it
+        throw std::runtime_error(fmt::format("sponge: a rate is not a number at t = {:.6g} s", at[3]));
       if (rate <= 0) continue;
       const double share = std::exp(-rate * clock->step);
       v_p[p] = toward + share * (v_p[p] - toward);

@@ -17,6 +17,9 @@ const std::set<std::string, std::less<>> fit{
     // over all particles or faces
     "limit_particle_shift", "accept_step_on_faces", "measure_energy", "measure_momentum", "measure_max_speed",
     "measure_error_velocity", "measure_error_pressure", "measure_face_divergence", "measure_multiplier_overlap",
+    "measure_probes_on_faces", "measure_probes_on_faces_at_start",
+    // alike on all ranks
+    "integrate_ode",
     // the first rank writes
     "write_history", "flush_history", "write_frame", "write_xdmf",
     // of own particles, cells, and sites

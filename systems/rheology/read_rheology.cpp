@@ -38,6 +38,8 @@ Carreau read_carreau(Input& in) {
   Carreau law;
   law.zero = in.number("zero", {.unit = "Pa s", .doc = "viscosity at rest", .above = 0});
   law.infinite = in.number("infinite", {.unit = "Pa s", .doc = "viscosity at high rates", .at_least = 0});
+  if (!in.describing() && in.sound("zero") && in.sound("infinite") && law.zero < law.infinite)
+    in.problem("zero", "less than infinite", "at least infinite");
   law.time = in.number("time", {.unit = "s", .doc = "one over the rate at which the viscosity changes", .above = 0});
   law.index = read_index(in);
   return law;

@@ -201,15 +201,26 @@ bool can_name_columns(const std::string& name) {
   });
 }
 
+/// The thing that has a name, by name.
+struct NamedThings {
+  std::map<std::string, std::string> thing;
+};
+
 }  // namespace
 
-void check_column_name(Input& input, const std::string& name, const std::string& thing, bool is_taken) {
-  if (is_taken) {
-    input.problem("name", "name is taken by an earlier " + thing, "a name for each " + thing, shown(Json(name)));
+void check_column_name(Input& input, const std::string& name, const std::string& thing, Scene& scene) {
+  const auto* known = scene.facts.find<NamedThings>();
+  NamedThings named = known != nullptr ? *known : NamedThings{};
+  const auto [at, is_new] = named.thing.emplace(name, thing);
+  if (!is_new) {
+    const std::string expected =
+        at->second == thing ? "a name for each " + thing : "a name that no " + at->second + " has";
+    input.problem("name", "name is taken by an earlier " + at->second, expected, shown(Json(name)));
   } else if (!can_name_columns(name)) {
     input.problem("name", "cannot name columns of the history", "letters, digits and _, and not \"error\"",
                   shown(Json(name)));
   }
+  scene.facts.set(std::move(named));
 }
 
 }  // namespace minamo

@@ -227,6 +227,8 @@ class ShapeReader {
     const Expression expression = input.expression(
         "distance", scene_.scope, {.unit = "m", .doc = "signed distance from its surface, negative inside"});
     check_coordinates(input, "distance", expression, scene_.dimension);
+    if (!input.describing() && expression.uses("t"))
+      input.problem("distance", "depends on t", "an expression in places and constants; bodies go by their motion");
     if (input.describing() || !input.sound("distance")) return nullptr;
     return std::make_shared<shapes::LevelSet<Dim>>(expression, scene_.start);
   }

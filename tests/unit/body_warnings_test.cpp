@@ -50,6 +50,13 @@ TEST_CASE("a thin gap between a body and a side is told with its place and width
   CHECK_THAT(found[0], Contains("thinner than two cells, 0.1 m"));
 }
 
+TEST_CASE("a thin gap beside a body that reaches through the sides is told", "[unit]") {
+  const auto found =
+      sentences_of(beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, -1], "high": [0.3, 2]}}}])"));
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], Contains("a gap of 0.02 m between body \"a\" and the low side of x at x = 0.01"));
+}
+
 TEST_CASE("a thin gap between two bodies is told once, a wide one not", "[unit]") {
   const auto bodies = [](double x) {
     return fmt::format(R"([{{"name": "a", "shape": {{"ball": {{"center": [0.3, 0.5], "radius": 0.1}}}}}},

@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 using namespace minamo;
@@ -103,6 +104,48 @@ TEST_CASE("a box at the draught of Archimedes floats", "[verification][long]") {
   run.step(99);
   CHECK(std::abs(value_of(run.world(), "body_position_y") - from) < 2e-3);
   CHECK(std::abs(value_of(run.world(), "body_angle")) < 2e-3);
+}
+
+TEST_CASE("a turned box floats as deep as Archimedes says, the better the finer the grid", "[verification]") {
+  // A square of 0.4 m, turned by 25 degrees, its lowest corner alone, two corners, or all but the highest in water.
+  const auto [density, height, coarse] =
+      GENERATE(table<double, double, double>({{100, 0.6550751781869454, 1.1e-2},  // measured, with 40 cells
+                                              {500, 0.5, 6e-5},
+                                              {900, 0.3449248218130542, 7e-4}}));
+  CAPTURE(density);
+  const auto error = [density = density, height = height](int cells) {
+    Json scene = tank_with<2>(0.5, R"({"box": {"low": [0.3, 0], "high": [0.7, 0], "angle": 25}})", "{}");
+    scene["grid"]["high"][1] = 1.5;
+    scene["grid"]["cells"] = {cells, cells * 3 / 2};
+    scene["bodies"][0]["shape"]["box"]["low"][1] = height - 0.2;
+    scene["bodies"][0]["shape"]["box"]["high"][1] = height + 0.2;
+    scene["bodies"][0]["motion"]["free"] = {{"density", density}, {"locked", {"rotation"}}};
+    SceneRun run(scene);
+    run.step();
+    return std::abs(value_of(run.world(), "body_force_y") / (9.81 * density * 0.16) - 1);
+  };
+  CHECK(error(40) < 1.5 * coarse);
+  CHECK(error(80) < 0.6 * coarse);
+}
+
+TEST_CASE("a ball in space has the added mass of potential flow, the better the finer the grid",
+          "[verification][long]") {
+  Json scene = tank_with<3>(1, R"({"ball": {"center": [0.5, 0.5, 0.5], "radius": 0.16}})", "{}");
+  scene["body_force"] = {0, 0, 0};
+  scene["bodies"][0]["motion"] = {{"prescribed", {{"velocity", {"t", 0, 0}}}}};
+  scene["bodies"].push_back(Json::parse(
+      R"json({"name": "tank", "shape": {"invert": {"ball": {"center": [0.5, 0.5, 0.5], "radius": 0.475}}}})json"));
+  // Between two balls: H. Lamb, Hydrodynamics (1932), 93.
+  const double ratio = std::pow(0.16 / 0.475, 3);
+  const double exact = 1000 * 2.0 / 3 * std::numbers::pi * std::pow(0.16, 3) * (1 + 2 * ratio) / (1 - ratio);
+  const auto error = [&](int cells) {
+    scene["grid"]["cells"] = {cells, cells, cells};
+    SceneRun run(scene);
+    run.step();
+    return std::abs(-value_of(run.world(), "body_force_x") / exact - 1);
+  };
+  CHECK(error(25) < 0.11);   // 0.073, four cells to the radius
+  CHECK(error(50) < 0.028);  // 0.019
 }
 
 TEST_CASE("a body on a spring swings with its period, and damped as its damper says", "[verification]") {
