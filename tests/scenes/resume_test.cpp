@@ -74,6 +74,8 @@ const std::vector<Case> cases{
     {"paddle.json", {"/output/every=0.02", "/grid/cells=[80, 15]", R"(/bodies/0/wall="separating")"}},
     {"wave_under_lid.json", {"/output/every=0.01", R"(/walls="separating")"}},
     {"mixer.json", {"/output/every=0.01", "/grid/cells=[20, 20]"}},
+    {"floating_box.json", {"/output/every=0.01", "/grid/cells=[40, 20]"}},
+    {"oscillating_drop.json", {"/output/every=0.01"}},
     {"tap.json", {"/output/every=0.02", "/grid/cells=[48, 32]"}},
     {"weir.json", {"/output/every=0.05", "/grid/cells=[80, 12]", "/time/step=0.01"}},
     {"dam_break_3d.json", {"/grid/cells=[14, 7, 14]", "/output/every=0.01"}},

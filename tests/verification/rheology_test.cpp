@@ -42,6 +42,13 @@ TEST_CASE("a yield-stress liquid flows through a channel around a plug", "[verif
   CHECK(channel_error(bingham, bingham_exact, 16, 60, 3) < 2e-2);  // 1.7e-2
 }
 
+TEST_CASE("a yield-stress liquid runs down a plane, its upper part as a plug", "[verification]") {
+  SceneRun run(scene_of_file("bingham_film.json"));
+  run.step(200);
+  CHECK(*run.world().resource<measure::Columns>().find("error_velocity") < 4e-3);  // 2.1e-3 measured
+  CHECK(*run.world().resource<measure::Columns>().find("error_pressure") < 8e-4);  // 3.7e-4
+}
+
 TEST_CASE("shear-thinning and -thickening liquids flow through a channel by their power law", "[verification]") {
   const auto law = [](double n) {
     return R"({"power_law": {"consistency": 1, "min_viscosity": 1e-3, "max_viscosity": 1e3, "index": )" +
