@@ -153,6 +153,14 @@ class Alike(unittest.TestCase):
         for column in ("left_pressure", "left_velocity_y", "middle_pressure", "middle_velocity_x"):
             np.testing.assert_allclose(ours[column], alone[column], rtol=1e-7, atol=1e-9, err_msg=column)
 
+    def test_a_splash_has_the_same_surface(self):
+        options = ["--set", "/grid/cells=[16, 14, 8]", "--set", "/time={\"end\": 0.06, \"step\": 4e-3}", "--set",
+                   "/solver={\"tolerance\": 1e-12}"]
+        self.check("splash", SCENES / "splash.json", options, [3])
+        for frame in ("0000.ply", "0003.ply"):
+            ours, alone = ((WORK / name / "surface" / frame).stat().st_size for name in ("splash_3", "splash_alone"))
+            self.assertEqual(ours, alone, frame)
+
     def test_ode_variables_and_steps_of_the_fastest_particle(self):
         options = ["--set", "/time={\"end\": 0.2, \"cfl\": 0.5}", "--set", "/particles/0/per_cell=2", "--set",
                    "/solver={\"tolerance\": 1e-12}"]

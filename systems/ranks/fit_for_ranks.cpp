@@ -21,7 +21,7 @@ const std::set<std::string, std::less<>> fit{
     // alike on all ranks
     "integrate_ode",
     // the first rank writes
-    "write_history", "flush_history", "write_frame", "write_xdmf",
+    "write_history", "flush_history", "write_frame", "write_xdmf", "write_surfaces",
     // of own particles, cells, and sites
     "place_quadrature_at_middle", "place_quadrature_at_start", "place_quadrature_step_before",
     "place_quadrature_step_ahead", "store_kinetic_energy", "bin_by_cell", "number_sites", "hold_faces",

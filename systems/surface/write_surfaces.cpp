@@ -22,15 +22,40 @@ void write_index(const FieldsFile& fields, SurfaceFormat format) {
   write_text(fields.folder + "/surface.pvd", text + "</Collection>\n</VTKFile>\n");
 }
 
+/// The values of all ranks, by rank, on the first one; elsewhere none.
+template <class T>
+std::vector<T> gathered(Communicator& ranks, std::span<const T> own) {
+  std::vector<T> all;
+  for (const auto& bytes : ranks.gather(to_bytes(own))) {
+    const auto of_rank = from_bytes<T>(bytes);
+    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  }
+  return all;
+}
+
 }  // namespace
 
 template <int Dim>
 void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> output, Read<particle::Position<Dim>> x_p,
                                     Read<particle::Velocity<Dim>> v_p, Read<particle::Volume> V_p,
                                     Optional<Read<BodySet<Dim>>> set, Optional<Read<body::Position<Dim>>> c_b,
-                                    Optional<Read<body::Rotation<Dim>>> R_b, Update<FieldsFile> fields) const {
+                                    Optional<Read<body::Rotation<Dim>>> R_b, Optional<Read<Ranks>> ranks,
+                                    Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
   SurfaceOf<Dim> of{{grid->low, grid->high}, output->spacing, x_p.span(), v_p.span(), V_p.span(), {}};
+  std::vector<Vec<Dim>> x;
+  std::vector<Vec<Dim>> v;
+  std::vector<double> V;
+  if (ranks) {
+    Communicator& all = *ranks->all;
+    x = gathered(all, x_p.span());
+    v = gathered(all, v_p.span());
+    V = gathered(all, V_p.span());
+    if (!all.is_first()) return;
+    of.position = x;
+    of.velocity = v;
+    of.volume = V;
+  }
   std::optional<PlacedBodies<Dim>> bodies;
   if (set) {
     bodies.emplace(*set, c_b.span(), R_b.span());

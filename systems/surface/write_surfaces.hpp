@@ -5,6 +5,7 @@
 #include "components/body.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
+#include "engine/communicator.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
 #include "systems/output/fields_file.hpp"
@@ -19,7 +20,8 @@ struct SurfaceOutput {
   static constexpr ComponentInfo info{"surface.output", "", "", Lifetime::constant};
 };
 
-/// (E111) as surface/NNNN.vtp or .ply, NNNN the number of the frame; of VTP also surface.pvd with the times of all.
+/// (E111) as surface/NNNN.vtp or .ply, NNNN the number of the frame; of VTP also surface.pvd with the times of all. Of
+/// several ranks the first one gathers the particles of all and writes.
 /// \throws std::runtime_error if a file cannot be written
 template <int Dim>
 struct WriteSurfaces {
@@ -27,7 +29,7 @@ struct WriteSurfaces {
   void operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> output, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::Volume> V_p, Optional<Read<BodySet<Dim>>> set,
                   Optional<Read<body::Position<Dim>>> c_b, Optional<Read<body::Rotation<Dim>>> R_b,
-                  Update<FieldsFile> fields) const;
+                  Optional<Read<Ranks>> ranks, Update<FieldsFile> fields) const;
 };
 
 }  // namespace minamo
