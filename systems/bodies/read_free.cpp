@@ -43,6 +43,9 @@ void read_locked(Input& input, Free<Dim>& free) {
       std::fill(free.locked.begin() + Dim, free.locked.end(), true);
     }
   }
+  if (std::all_of(free.locked.begin(), free.locked.end(), [](bool is_locked) { return is_locked; }))
+    input.problem("locked", "no motion is left", "a motion that is not locked, or a body without \"motion\"",
+                  shown(locked));
 }
 
 template <int Dim>
