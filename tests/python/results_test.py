@@ -3,6 +3,7 @@
 import csv
 import math
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -69,6 +70,24 @@ class Pictures(unittest.TestCase):
             # White paper and coloured particles: a third of the box.
             colored = (np.ptp(picture[..., :3], axis=2) > 0.2).mean()
             self.assertGreater(colored, 0.05)
+
+    def test_a_picture_that_is_drawn_anew_while_steps_are_taken(self):
+        try:
+            import IPython.display
+        except ImportError:
+            self.skipTest("python3-ipykernel is not there")
+        watched, run = (minamo.Simulation(scene(), threads=1) for _ in range(2))
+        with unittest.mock.patch.object(IPython.display, "display") as display:
+            steps = watched.watch(until=0.05, every=4, color="particle.pressure")
+        self.assertEqual(steps, run.run(until=0.05))
+        self.assertEqual(watched.time, run.time)
+        (first,), place = display.call_args
+        self.assertEqual(place, {"display_id": True})
+        pictures = [first] + [call.args[0] for call in display.return_value.update.call_args_list]
+        self.assertEqual(len(pictures), 1 + math.ceil(steps / 4))
+        self.assertEqual(len({picture.data for picture in pictures}), len(pictures))
+        with self.assertRaisesRegex(minamo.InputError, "every: out of range"):
+            watched.watch(every=0)
 
     def test_any_column(self):
         sim = minamo.Simulation(scene(), threads=1)

@@ -51,10 +51,18 @@ def _full_cells(sim) -> int:
     return len(np.unique(cell, axis=0))
 
 
-def png(sim) -> bytes:
+def live(sim, color: str):
+    """Draws the simulation in a notebook. Returns what draws it anew in the same place."""
+    from IPython.display import Image, display
+
+    handle = display(Image(png(sim, color)), display_id=True)
+    return lambda: handle.update(Image(png(sim, color)))
+
+
+def png(sim, color: str = "speed") -> bytes:
     import matplotlib.pyplot as plt
 
-    ax = show(sim)
+    ax = show(sim, color)
     buffer = io.BytesIO()
     ax.figure.savefig(buffer, format="png", dpi=100)
     plt.close(ax.figure)

@@ -66,9 +66,20 @@ class Simulation:
     def run(self, until: float | None = None) -> int:
         """Takes steps until one reaches the time `until` [s], by default to the end of the scene. Returns how many;
         raises as :meth:`step` does."""
-        if until is not None and not (isinstance(until, numbers.Real) and until == until):
-            raise _out_of_range("until", "a time [s]", until)
-        return self._core.advance(None, until)
+        return self._core.advance(None, _time("until", until))
+
+    def watch(self, until: float | None = None, every: int = 10, color: str = "speed") -> int:
+        """Takes the steps of :meth:`run` and draws the picture of :meth:`show` in a notebook, anew after every `every`
+        steps, in the place of the one before. Returns how many steps it took; raises as :meth:`step` does."""
+        from .picture import live
+
+        until, every = _time("until", until), _whole("every", every, 1)
+        redraw = live(self, color)
+        steps = 0
+        while taken := self._core.advance(every, until):
+            steps += taken
+            redraw()
+        return steps
 
     @property
     def time(self) -> float:
@@ -189,6 +200,12 @@ def _whole(name: str, value, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < least:
         raise _out_of_range(name, f"a whole number >= {least}", value)
     return int(value)
+
+
+def _time(name: str, value: float | None) -> float | None:
+    if value is not None and not (isinstance(value, numbers.Real) and value == value):
+        raise _out_of_range(name, "a time [s]", value)
+    return value
 
 
 def _threads(threads: int | None) -> int:
