@@ -128,6 +128,24 @@ TEST_CASE("every link of every document leads to a file, and to a heading in it"
   }
 }
 
+TEST_CASE("every file and every key in a command of every document is there", "[unit]") {
+  // NAME stands for what is the reader's.
+  const std::regex file(R"((?:^|[^\w/.-])((?:tools|scenes|tests|systems|engine|components)/[\w./-]*\w))");
+  const std::regex key(R"(--set '?/(?!pointer)(\w+))");
+  const std::string schema = text_of(source + "/scenes/schema/scene.schema.json");
+  for (const std::string& document : documents()) {
+    const std::string text = text_of(source + "/" + document);
+    for (const std::string& path : matches(text, file, 1)) {
+      CAPTURE(document, path);
+      CHECK((path.find("NAME") != std::string::npos || std::filesystem::exists(source + "/" + path)));
+    }
+    for (const std::string& name : matches(text, key, 1)) {
+      CAPTURE(document, name);
+      CHECK_THAT(schema, Catch::Contains('"' + name + "\":"));
+    }
+  }
+}
+
 TEST_CASE("the boxes of the step in the README lead to folders", "[unit]") {
   const auto targets = matches(text_of(source + "/README.md"), std::regex(R"x(  click \w+ "([^"]+)")x"), 1);
   CHECK(targets.size() >= slot_names.size());
