@@ -10,6 +10,7 @@ import signal
 import subprocess
 import time
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -144,6 +145,11 @@ class Alike(unittest.TestCase):
     def test_around_a_periodic_axis(self):
         options = ["--set", "/walls={\"x\": \"periodic\", \"y\": \"slip\"}", "--set", "/time/end=0.2"]
         self.check("periodic", SCENES / "dam_break.json", [*DAM_BREAK, *options], [3])
+
+    def test_nothing_reads_further_than_a_rank_knows(self):
+        with unittest.mock.patch.dict(os.environ, {"MINAMO_MARK_UNKNOWN": "1"}):
+            self.check("marked", SCENES / "dam_break.json", [*DAM_BREAK, "--set", "/time/end=0.1"], [3])
+            self.check("marked_space", SCENES / "dam_break_3d.json", [*SPACE, "--set", "/time/end=0.05"], [3])
 
     def test_probes_see_the_same(self):
         options = ["--set", "/time={\"end\": 0.1, \"step\": 0.005}", "--set", "/particles/0/per_cell=2", "--set",

@@ -175,7 +175,7 @@ TEST_CASE("the block solver takes few iterations in a splash", "[property]") {
   // The front meets the far wall at 0.3 s; drops rain until 1.2 s.
   for (int k = 0; k < 300; ++k) {
     run.step();
-    if (k > 0) most = std::max(most, run.world().resource<SolveReport>().iterations);
+    if (k > 0) most = std::max<std::int64_t>(most, run.world().resource<SolveReport>().iterations);
   }
   CHECK(most <= 8);  // 7 were measured
 }

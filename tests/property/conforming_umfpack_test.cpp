@@ -1,3 +1,4 @@
+#include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
 #include "components/staggered.hpp"
@@ -69,11 +70,11 @@ double difference(World& a, World& b, double size = 0) {
   double off = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if constexpr (std::is_same_v<typename C::value_type, double>) {
-      size = std::max(size, std::abs(y[i]));
-      off = std::max(off, std::abs(x[i] - y[i]));
+      size = largest_of(size, std::abs(y[i]));
+      off = largest_of(off, std::abs(x[i] - y[i]));
     } else {
-      size = std::max(size, y[i].norm());
-      off = std::max(off, (x[i] - y[i]).norm());
+      size = largest_of(size, y[i].norm());
+      off = largest_of(off, (x[i] - y[i]).norm());
     }
   }
   return size == 0 ? off : off / size;

@@ -1,3 +1,4 @@
+#include "support/extremes.hpp"
 #include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 #include "support/scene_run.hpp"
@@ -282,8 +283,8 @@ void check_balances(int degree) {
   for (std::size_t l = 0; l < world.rows<Unknowns>(); ++l) {
     const auto row = static_cast<Eigen::Index>(l);
     const double lambda = per_length[row] * x[n + row];
-    off = std::max(off, std::abs(world.column<multiplier::Force>()[world.column<unknown::Staggered>()[l]] - lambda));
-    size = std::max(size, std::abs(lambda));
+    off = largest_of(off, std::abs(world.column<multiplier::Force>()[world.column<unknown::Staggered>()[l]] - lambda));
+    size = largest_of(size, std::abs(lambda));
   }
   CHECK(off <= 1e-8 * size);
   CHECK(world.resource<SolveReport>().residual <= 1e-12);
@@ -480,7 +481,7 @@ TEST_CASE("friction adds no energy, whatever the viscosity", "[property][long]")
     double most = kinetic(run.world(), dimension);
     for (int step = 0; step < 20; ++step) {
       run.step();
-      most = std::max(most, kinetic(run.world(), dimension));
+      most = largest_of(most, kinetic(run.world(), dimension));
     }
     return most;
   };

@@ -242,7 +242,7 @@ double source_difference(World& world, const std::vector<double>& expected) {
   const auto source = world.column<matrix::StabilizationSource>();
   const auto node = world.column<matrix::Node>();
   double worst = 0;
-  for (std::size_t r = 0; r < node.size(); ++r) worst = std::max(worst, std::abs(source[r] - expected[node[r]]));
+  for (std::size_t r = 0; r < node.size(); ++r) worst = largest_of(worst, std::abs(source[r] - expected[node[r]]));
   return worst;
 }
 

@@ -24,6 +24,10 @@ class Extreme {
   bool is_empty_ = true;
 };
 
+/// The larger of a value so far and a number, and NaN from the first NaN on: where a sum of extremes has a start.
+inline double largest_of(double so_far, double x) { return std::isnan(so_far) || x <= so_far ? so_far : x; }
+inline double smallest_of(double so_far, double x) { return std::isnan(so_far) || x >= so_far ? so_far : x; }
+
 using Largest = Extreme<std::greater<>>;
 using Smallest = Extreme<std::less<>>;
 

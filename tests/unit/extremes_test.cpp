@@ -1,7 +1,11 @@
 #include "support/extremes.hpp"
+#include "support/folder.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <filesystem>
+#include <regex>
 #include <vector>
 
 using namespace minamo;
@@ -39,6 +43,27 @@ TEST_CASE("a NaN is not lost among other numbers, wherever it stands", "[unit]")
                                                std::vector{not_a_number, infinity, -infinity});
   CHECK(std::isnan(extreme_of<Largest>(numbers)));
   CHECK(std::isnan(extreme_of<Smallest>(numbers)));
+}
+
+TEST_CASE("a NaN is not lost on the way from a value so far", "[unit]") {
+  const double x = GENERATE(0.0, 2.0, infinity, -infinity);
+  CHECK(largest_of(1, x) == std::max(1.0, x));
+  CHECK(smallest_of(1, x) == std::min(1.0, x));
+  CHECK(std::isnan(largest_of(x, not_a_number)));
+  CHECK(std::isnan(largest_of(not_a_number, x)));
+  CHECK(std::isnan(smallest_of(x, not_a_number)));
+  CHECK(std::isnan(smallest_of(not_a_number, x)));
+}
+
+TEST_CASE("no test sums up errors by what loses a NaN", "[unit]") {
+  // Whole numbers have their type beside std::max.
+  const std::regex loses(R"((\w+) = std::(max|min)\(\1,)");
+  for (const auto& at : std::filesystem::recursive_directory_iterator(MINAMO_SOURCE_DIR "/tests")) {
+    const std::string path = at.path();
+    if (!path.ends_with("_test.cpp") && !path.ends_with(".hpp")) continue;
+    CAPTURE(path);
+    CHECK_FALSE(std::regex_search(text_of(path), loses));
+  }
 }
 
 TEST_CASE("the extreme of no numbers keeps no limit", "[unit]") {

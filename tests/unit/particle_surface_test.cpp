@@ -72,8 +72,8 @@ TEMPLATE_TEST_CASE_SIG("the surface of a pool is flat and where its particles en
     farthest_off.add(std::abs(off));
     ++on_top;
     if (from_walls.minCoeff() < 2.5 * pool.spacing) continue;
-    lowest = std::min(lowest, off);
-    highest = std::max(highest, off);
+    lowest = smallest_of(lowest, off);
+    highest = largest_of(highest, off);
   }
   // In the plane points on a straight line are left out.
   CHECK((Dim == 2 || on_top > 100));

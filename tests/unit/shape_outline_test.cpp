@@ -1,3 +1,4 @@
+#include "support/extremes.hpp"
 #include "support/outlines.hpp"
 #include "support/solids.hpp"
 
@@ -22,7 +23,7 @@ namespace {
 template <int Dim>
 double farthest_from_surface(const Outline<Dim>& outline, const Shape<Dim>& shape) {
   double farthest = 0;
-  for (const auto& x : outline.point) farthest = std::max(farthest, std::abs(shape.distance(x)));
+  for (const auto& x : outline.point) farthest = largest_of(farthest, std::abs(shape.distance(x)));
   return farthest;
 }
 

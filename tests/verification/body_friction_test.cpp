@@ -2,6 +2,7 @@
 /// Friction at the walls of bodies against exact solutions: flow between turning cylinders and spheres, in a channel
 /// across the grid, along walls with a slip length; what it keeps, and that water hardly feels it.
 
+#include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
 #include "components/body.hpp"
@@ -182,7 +183,7 @@ TEST_CASE("a liquid that moves with all walls has no friction", "[property]") {
   }
   std::vector<RigidVector<2>> on_walls(2, RigidVector<2>::Zero());
   double largest = 0;
-  for (const double pull : friction.apply(v, WallsMove::yes, &on_walls)) largest = std::max(largest, std::abs(pull));
+  for (const double pull : friction.apply(v, WallsMove::yes, &on_walls)) largest = largest_of(largest, std::abs(pull));
   CHECK(std::isfinite(largest));
   // Slopes that few faces tell of are taken for less than they are, by 1e-3; a wall at rest would feel 8 N and more.
   const double most = spin == 0 ? 1e-11 : 0.01;

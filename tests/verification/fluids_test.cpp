@@ -2,6 +2,7 @@
 /// Several liquids: layers of unlike viscosity against the exact flow, layers of unlike density at rest, a gravity
 /// current, and what each particle keeps.
 
+#include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
 #include "components/fluids.hpp"
@@ -31,7 +32,7 @@ double error_of(const Json& scene, const std::string& of, int steps) {
 
 double fastest_of_layers(World& world) {
   double largest = 0;
-  for (const Vec<2>& v : by_id<particle::Velocity<2>>(world)) largest = std::max(largest, v.norm());
+  for (const Vec<2>& v : by_id<particle::Velocity<2>>(world)) largest = largest_of(largest, v.norm());
   return largest;
 }
 
@@ -124,7 +125,7 @@ TEST_CASE("salt water flows under fresh water as fast as a gravity current does"
     const auto x_p = by_id<particle::Position<2>>(run.world());
     double furthest = 0;
     for (std::size_t p = 0; p < k_p.size(); ++p) {
-      if (k_p[p] == 1) furthest = std::max(furthest, x_p[p][0]);
+      if (k_p[p] == 1) furthest = largest_of(furthest, x_p[p][0]);
     }
     return furthest;
   };

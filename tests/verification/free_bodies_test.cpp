@@ -2,6 +2,7 @@
 /// Bodies that the liquid moves, against exact solutions: free fall, rest at the draught of Archimedes, the
 /// acceleration that added mass leaves to a light disc, a spring, a spinning top, contact.
 
+#include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
 #include "components/body.hpp"
@@ -217,9 +218,9 @@ TEST_CASE("a box that bobs gives no energy to the water and the box", "[verifica
   for (int k = 0; k < 300; ++k) {
     run.step();
     const double now = value_of(run.world(), "energy_balance");
-    lowest = std::min(lowest, now);
-    rise = std::max(rise, now - lowest);
-    exchanged = std::max(exchanged, std::abs(value_of(run.world(), "body_work")));
+    lowest = smallest_of(lowest, now);
+    rise = largest_of(rise, now - lowest);
+    exchanged = largest_of(exchanged, std::abs(value_of(run.world(), "body_work")));
   }
   CHECK(rise < 0.005 * exchanged);  // 0.0029 measured
 }

@@ -1,6 +1,7 @@
 /// \file
 /// Bodies that move fast, close to others, or where there is no room: what particles beside them may not do.
 
+#include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
 #include "components/body.hpp"
@@ -24,7 +25,7 @@ TEST_CASE("a fast paddle throws no particle much faster than it moves itself", "
   double most = 0;
   for (int k = 0; k < 125; ++k) {
     run.step();
-    most = std::max(most, run.world().resource<measure::MaxSpeed>().value);
+    most = largest_of(most, run.world().resource<measure::MaxSpeed>().value);
   }
   // The paddle reaches 1.2 m/s, and the crest that runs up it 3.0 m/s; 5.6 m/s with unlimited slopes in (E87).
   CHECK(most < 4);
@@ -179,7 +180,7 @@ TEST_CASE("water thrown at a plate stays on its side", "[verification]") {
     const Vec<2> middle = run.world().column<body::Position<2>>()[0];
     std::size_t beyond = 0;
     for (const Vec<2>& x : run.world().column<particle::Position<2>>()) beyond += n.dot(x - middle) < 0;
-    most = std::max(most, beyond);
+    most = std::max<std::size_t>(most, beyond);
   }
   CHECK(most == 0);
 }
@@ -237,7 +238,7 @@ TEST_CASE("a body of a hundredth of the density of water stays slow in a splash"
   double most = 0;
   for (int k = 0; k < 250; ++k) {
     run.step();
-    most = std::max(most, run.world().resource<measure::MaxSpeed>().value);
+    most = largest_of(most, run.world().resource<measure::MaxSpeed>().value);
   }
   CHECK(most < 10);  // 200 m/s where what is attached to it may be less than nothing
 }

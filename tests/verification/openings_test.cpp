@@ -254,7 +254,7 @@ TEST_CASE("liquid between openings at its level stays at rest", "[verification]"
   double most = 0;
   for (int k = 0; k < 300; ++k) {
     run.step();
-    most = std::max(most, run.world().resource<measure::MaxSpeed>().value);
+    most = largest_of(most, run.world().resource<measure::MaxSpeed>().value);
   }
   // Of sqrt(2 g 0.5 m) = 3.1 m/s; 0.05 where the surface lies within a row of faces.
   CHECK(most < 0.1);

@@ -2,6 +2,7 @@
 /// Liquids whose viscosity depends on the shear rate, and on the pressure, against exact flows between plates and down
 /// a plane.
 
+#include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
 #include "components/measure.hpp"
@@ -78,7 +79,8 @@ TEMPLATE_TEST_CASE_SIG("a power law with index 1 is a Newtonian liquid", "[verif
     "min_viscosity": 0, "max_viscosity": 1e6}}})");
   const auto power_law = speeds(scene);
   double largest = 0;
-  for (std::size_t p = 0; p < newtonian.size(); ++p) largest = std::max(largest, (newtonian[p] - power_law[p]).norm());
+  for (std::size_t p = 0; p < newtonian.size(); ++p)
+    largest = largest_of(largest, (newtonian[p] - power_law[p]).norm());
   CHECK(largest < 1e-7);  // what the solver leaves
 }
 
@@ -108,7 +110,7 @@ double error_on_slope(const Json& scene, const std::string& of, int steps) {
 
 double fastest(World& world) {
   double largest = 0;
-  for (const Vec<2>& v : by_id<particle::Velocity<2>>(world)) largest = std::max(largest, v.norm());
+  for (const Vec<2>& v : by_id<particle::Velocity<2>>(world)) largest = largest_of(largest, v.norm());
   return largest;
 }
 

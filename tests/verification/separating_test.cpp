@@ -84,8 +84,8 @@ double rise_of_energy(SceneRun& run, int steps) {
   for (int n = 0; n < steps; ++n) {
     run.step();
     const double energy = total_energy(run.world());
-    rise = std::max(rise, energy - least);
-    least = std::min(least, energy);
+    rise = largest_of(rise, energy - least);
+    least = smallest_of(least, energy);
   }
   return rise / at_start;
 }

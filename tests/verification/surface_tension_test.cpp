@@ -1,6 +1,7 @@
 /// \file
 /// Drops: the pressure inside, how they swing, and the angle at which they rest on walls.
 
+#include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
 #include "components/measure.hpp"
@@ -45,7 +46,7 @@ double radius_of(World& world) {
 template <int Dim>
 double largest_speed(World& world) {
   double largest = 0;
-  for (const Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) largest = std::max(largest, v.norm());
+  for (const Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) largest = largest_of(largest, v.norm());
   return largest;
 }
 
