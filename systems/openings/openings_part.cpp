@@ -202,7 +202,7 @@ template <int Dim>
 void read_opening(Input& input, Scene& scene, const FlowRules& rules, OpeningSet<Dim>& set,
                   std::vector<std::optional<Expression>>& where) {
   Opening<Dim> opening;
-  opening.name = input.text("name", {.doc = "its columns are NAME_mass_in, NAME_rate"});
+  opening.name = input.text("name", {.doc = "its columns are NAME_mass_in, NAME_energy_in, NAME_rate"});
   const std::vector<std::string> sides = side_names(Dim);
   const std::string side = input.choice("side", sides, "of the box", {});
   const auto region = input.optional_expression("where", of_place_and_time(scene.constants),

@@ -102,6 +102,22 @@ TEST_CASE("a uniform stream passes with every transfer scheme and quadrature, an
   check_stream<2>(scene, w, 10);
 }
 
+TEST_CASE("the energy that came in through an opening is that of the particles that passed it", "[verification]") {
+  const Vec<2> w(0.8, 0.5);
+  SceneRun run(stream<2>(w, 0.0137, 2));
+  run.start();
+  run.step(40);
+  const auto& columns = run.world().resource<measure::Columns>();
+  for (const std::string name : {"in_x", "out_x", "in_y", "out_y"}) {
+    CAPTURE(name);
+    REQUIRE(columns.find(name + "_energy_in"));
+    const double mass = *columns.find(name + "_mass_in");
+    REQUIRE(std::abs(mass) > 1);
+    // A pressure that is rounding does no work.
+    CHECK(*columns.find(name + "_energy_in") == Approx(0.5 * w.squaredNorm() * mass).epsilon(1e-10));
+  }
+}
+
 TEST_CASE("mass that came in is the mass that there is more", "[verification]") {
   // A jet at an angle, which changes, into an empty box with a wall to hit and two ways out.
   const Json scene = Json::parse(R"json({"dimension": 2,
