@@ -24,11 +24,13 @@ double rate_of(const Opening<Dim>& opening, const OpeningSet<Dim>& set, std::siz
 template <int Dim>
 void MeasureOpenings<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
                                       Read<opening::Velocities<Dim>> velocities, Read<opening::MassIn> mass_in,
-                                      Read<particle::Id> id, Update<measure::Columns> columns) const {
+                                      Read<opening::EnergyIn> energy_in, Read<particle::Id> id,
+                                      Update<measure::Columns> columns) const {
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     const Opening<Dim>& opening = set->openings[o];
     const Side<Dim> side(*grid, *splines, opening.side);
     columns->set(opening.name + "_mass_in", mass_in[o]);
+    columns->set(opening.name + "_energy_in", energy_in[o]);
     columns->set(opening.name + "_rate", rate_of<Dim>(opening, *set, o, side, velocities->in_balances[o]));
   }
   columns->set("particles", static_cast<double>(id.size()));
@@ -36,9 +38,11 @@ void MeasureOpenings<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
 
 template <int Dim>
 void MeasureOpeningsAtStart<Dim>::operator()(Read<OpeningSet<Dim>> set, Read<opening::MassIn> mass_in,
-                                             Read<particle::Id> id, Update<measure::Columns> columns) const {
+                                             Read<opening::EnergyIn> energy_in, Read<particle::Id> id,
+                                             Update<measure::Columns> columns) const {
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     columns->set(set->openings[o].name + "_mass_in", mass_in[o]);
+    columns->set(set->openings[o].name + "_energy_in", energy_in[o]);
     columns->set(set->openings[o].name + "_rate", std::numeric_limits<double>::quiet_NaN());
   }
   columns->set("particles", static_cast<double>(id.size()));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 namespace minamo {
 
@@ -30,13 +31,29 @@ double wetted(const Grid<Dim>& grid, const Vertical& vertical, const Vec<Dim>& x
 
 double at_time(const Expression& expression, double time) { return expression(std::array{0.0, 0.0, 0.0, time}); }
 
+/// No shorter step gets past it.
+template <int Dim>
+void require_finite(const Opening<Dim>& opening, std::string_view what, double value, double time) {
+  if (std::isfinite(value)) return;
+  throw std::runtime_error(
+      fmt::format("openings: the {} of \"{}\" is not finite at t = {:.6g} s", what, opening.name, time));
+}
+
+/// Coordinate of the surface outside. [m]
+template <int Dim>
+double level_at(const Opening<Dim>& opening, double time) {
+  const double level = at_time(*opening.level, time);
+  require_finite<Dim>(opening, "level", level, time);
+  return level;
+}
+
 /// Shares of faces under the level of an opening that has one.
 template <int Dim>
 std::vector<double> wet_shares(const Opening<Dim>& opening, const OpeningSet<Dim>& set, const Grid<Dim>& grid,
                                const Side<Dim>& side, double time) {
   std::vector<double> share = opening.share;
   if (!opening.level) return share;
-  const double level = at_time(*opening.level, time);
+  const double level = level_at<Dim>(opening, time);
   for (std::size_t k = 0; k < share.size(); ++k) {
     if (share[k] > 0)
       share[k] *= wetted<Dim>(grid, *set.vertical, side.place(side.site(k, side.axis()), side.axis()), level);
@@ -87,19 +104,11 @@ void scale_to_flow(const Opening<Dim>& opening, const Grid<Dim>& grid, const Sid
   for (double& velocity : across) velocity *= given / of_faces;
 }
 
-/// No shorter step gets past it.
-template <int Dim>
-void require_finite(const Opening<Dim>& opening, double value, double time) {
-  if (std::isfinite(value)) return;
-  throw std::runtime_error(
-      fmt::format("openings: the inflow of \"{}\" is not finite at t = {:.6g} s", opening.name, time));
-}
-
 /// [m^3/s; m^2/s in the plane]
 template <int Dim>
 double inflow_rate(const Opening<Dim>& opening, double time) {
   const double rate = at_time(opening.rate, time);
-  require_finite<Dim>(opening, rate, time);
+  require_finite<Dim>(opening, "inflow", rate, time);
   if (rate >= 0) return rate;
   throw std::runtime_error(
       fmt::format("openings: the rate of \"{}\", what comes in, is {:.6g} at t = {:.6g} s", opening.name, rate, time));
@@ -173,7 +182,7 @@ opening::SideVelocity<Dim> prescribed_velocity(const Opening<Dim>& opening, cons
       const double of_face = share[d == side.axis() ? k : side.nearest(x)];
       if (of_face == 0) continue;
       const double value = opening.velocity[d](arguments.at<Dim>(x));
-      require_finite<Dim>(opening, value, time);
+      require_finite<Dim>(opening, "inflow", value, time);
       velocity.of[d][k] = d == side.axis() ? of_face * value : value;
     }
   }
@@ -185,7 +194,7 @@ template <int Dim>
 double pressure_outside(const Opening<Dim>& opening, const OpeningSet<Dim>& set, double density, const Vec<Dim>& x,
                         double time) {
   if (opening.kind == OpeningKind::level) {
-    const double depth = x[static_cast<Eigen::Index>(set.vertical->axis)] - at_time(*opening.level, time);
+    const double depth = x[static_cast<Eigen::Index>(set.vertical->axis)] - level_at<Dim>(opening, time);
     return density * std::max(0.0, set.vertical->force * depth);
   }
   if (opening.kind != OpeningKind::pressure) return 0;

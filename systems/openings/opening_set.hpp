@@ -85,7 +85,7 @@ void for_each_prescribed(const OpeningSet<Dim>& set, const Grid<Dim>& grid, cons
 }
 
 /// Velocities that an opening prescribes on its side at a time.
-/// \throws StepRejected if one is not finite
+/// \throws std::runtime_error if one is not finite
 template <int Dim>
 opening::SideVelocity<Dim> prescribed_velocity(const Opening<Dim>& opening, const OpeningSet<Dim>& set,
                                                const Grid<Dim>& grid, const Splines<Dim>& splines, double time);

@@ -198,11 +198,24 @@ std::optional<Vertical> vertical_of(const BodyForce& b) {
   return vertical;
 }
 
+/// A velocity that is the same everywhere and always does not point out of the box.
+template <int Dim>
+void check_inflow(Input& input, const Opening<Dim>& opening, const std::string& side) {
+  const std::size_t d = opening.side / 2;
+  if (opening.velocity.size() != Dim || !opening.velocity[d].is_constant()) return;
+  const double velocity = opening.velocity[d](std::array<double, 4>{});
+  const bool is_low = opening.side % 2 == 0;
+  if (is_low ? velocity >= 0 : velocity <= 0) return;
+  input.problem(fmt::format("inflow/velocity/{}", d), "points out of the box",
+                fmt::format("at {} 0 m/s at {}; what leaves is an outflow", is_low ? "least" : "most", side),
+                fmt::format("{} m/s", velocity));
+}
+
 template <int Dim>
 void read_opening(Input& input, Scene& scene, const FlowRules& rules, OpeningSet<Dim>& set,
                   std::vector<std::optional<Expression>>& where) {
   Opening<Dim> opening;
-  opening.name = input.text("name", {.doc = "its columns are NAME_mass_in, NAME_rate"});
+  opening.name = input.text("name", {.doc = "its columns are NAME_mass_in, NAME_energy_in, NAME_rate"});
   const std::vector<std::string> sides = side_names(Dim);
   const std::string side = input.choice("side", sides, "of the box", {});
   const auto region = input.optional_expression("where", of_place_and_time(scene.constants),
@@ -227,6 +240,7 @@ void read_opening(Input& input, Scene& scene, const FlowRules& rules, OpeningSet
   opening.level = flow.level;
   opening.pressure = flow.pressure;
   opening.per_cell = flow.per_cell;
+  check_inflow<Dim>(input, opening, side);
   set.openings.push_back(std::move(opening));
   where.push_back(region);
 }

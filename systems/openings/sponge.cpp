@@ -20,10 +20,12 @@ void SoakVelocity<Dim>::operator()(Read<Clock> clock, Read<Sponges> sponges,
     const Vec<Dim> toward = vec_of<Dim>(sponge.toward);
     for (std::size_t p = 0; p < y_p.size(); ++p) {
       const auto at = arguments.at<Dim>(y_p[p]);
-      if (sponge.where && (*sponge.where)(at) == 0) continue;
+      const double is_here = sponge.where ? (*sponge.where)(at) : 1;
+      if (is_here == 0) continue;
       const double rate = sponge.rate(at);
-      if (std::isnan(rate))  // no shorter step gets past it
-        throw std::runtime_error(fmt::format("sponge: a rate is not a number at t = {:.6g} s", at[3]));
+      if (std::isnan(is_here) || std::isnan(rate))  // no shorter step gets past it
+        throw std::runtime_error(fmt::format("sponge: {} is not a number at t = {:.6g} s",
+                                             std::isnan(is_here) ? "\"where\"" : "a rate", at[3]));
       if (rate <= 0) continue;
       const double share = std::exp(-rate * clock->step);
       v_p[p] = toward + share * (v_p[p] - toward);

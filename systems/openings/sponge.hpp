@@ -29,7 +29,7 @@ struct SpongeShare : Column<Particles, double> {
 };
 
 /// (E102)  v_p <- v_s + (v_p - v_s) exp(-r dt), at y_p.
-/// \throws StepRejected if a rate is not a number
+/// \throws std::runtime_error if a rate or `where` is not a number
 template <int Dim>
 struct SoakVelocity {
   static constexpr std::string_view doc = "(E102) v_p in sponges";

@@ -59,7 +59,7 @@ void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> ou
   std::optional<PlacedBodies<Dim>> bodies;
   if (set) {
     bodies.emplace(*set, c_b.span(), R_b.span());
-    of.distance_to_bodies = [&](const Vec<Dim>& x) { return bodies->distance(x); };
+    of.distance_to_bodies = [&](const Vec<Dim>& point) { return bodies->distance(point); };
   }
   std::filesystem::create_directories(fields->folder + "/surface");
   const std::size_t frame = fields->frames.size() - 1;

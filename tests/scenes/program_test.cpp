@@ -227,10 +227,12 @@ TEST_CASE("a motion that becomes no number ends the run at once", "[scene]") {
 TEST_CASE("an opening or a sponge that becomes no number, or an inflow that turns, ends the run at once", "[scene]") {
   const Folder folder;
   const auto [set, message] = GENERATE(table<std::string, std::string>(
-      {{R"json(/openings/0/inflow={"velocity": ["0", "-sqrt(0.01 - t)"]})json", "the inflow of \"tap\" is not finite"},
-       {R"json(/openings/0/inflow={"rate": "0.02*(0.01 - t)"})json", "the rate of \"tap\", what comes in, is -"},
-       {R"json(/openings/1/outflow={"pressure": "sqrt(0.01 - t)"})json", "the pressure of \"overflow\" is not finite"},
-       {R"json(/sponge=[{"where": "x > 0.5", "rate": "sqrt(0.01 - t)"}])json", "a rate is not a number"}}));
+      {{R"json(/openings/0/inflow={"velocity": ["0", "-sqrt(0.009 - t)"]})json", "the inflow of \"tap\" is not finite"},
+       {R"json(/openings/0/inflow={"rate": "0.02*(0.009 - t)"})json", "the rate of \"tap\", what comes in, is -"},
+       {R"json(/openings/1/outflow={"pressure": "sqrt(0.009 - t)"})json", "the pressure of \"overflow\" is not finite"},
+       {R"json(/openings/1/outflow={"level": "0.1 + sqrt(0.009 - t)"})json", "the level of \"overflow\" is not finite"},
+       {R"json(/sponge=[{"where": "sqrt(0.009 - t)", "rate": 1}])json", "sponge: \"where\" is not a number"},
+       {R"json(/sponge=[{"where": "x > 0.5", "rate": "sqrt(0.009 - t)"}])json", "a rate is not a number"}}));
   CAPTURE(set);
   const ProgramEnd end = run_program({"run", scene_path("tap.json"), "--out", folder / "out", "--threads", "1", "--set",
                                       set, "--set", R"json(/time={"end": 1, "step": 0.004})json"});

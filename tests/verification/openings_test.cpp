@@ -102,6 +102,22 @@ TEST_CASE("a uniform stream passes with every transfer scheme and quadrature, an
   check_stream<2>(scene, w, 10);
 }
 
+TEST_CASE("the energy that came in through an opening is that of the particles that passed it", "[verification]") {
+  const Vec<2> w(0.8, 0.5);
+  SceneRun run(stream<2>(w, 0.0137, 2));
+  run.start();
+  run.step(40);
+  const auto& columns = run.world().resource<measure::Columns>();
+  for (const std::string name : {"in_x", "out_x", "in_y", "out_y"}) {
+    CAPTURE(name);
+    REQUIRE(columns.find(name + "_energy_in"));
+    const double mass = *columns.find(name + "_mass_in");
+    REQUIRE(std::abs(mass) > 1);
+    // A pressure that is rounding does no work.
+    CHECK(*columns.find(name + "_energy_in") == Approx(0.5 * w.squaredNorm() * mass).epsilon(1e-10));
+  }
+}
+
 TEST_CASE("mass that came in is the mass that there is more", "[verification]") {
   // A jet at an angle, which changes, into an empty box with a wall to hit and two ways out.
   const Json scene = Json::parse(R"json({"dimension": 2,
@@ -207,6 +223,23 @@ TEST_CASE("the rate of an inflow is its flow, whatever its place", "[verificatio
   run.step(20);
   // In the balances of the last step, at 0.0975 s.
   CHECK(*run.world().resource<measure::Columns>().find("river_rate") == Approx(0.2 + 0.1 * 0.0975).epsilon(1e-12));
+}
+
+TEST_CASE("what a wave maker pushes in it draws out again", "[verification]") {
+  const Json scene = Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 0.6], "cells": [20, 12]}, "fluid": {"density": 1000, "viscosity": 1e-3},
+    "body_force": [0, -9.81], "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.3]}}}],
+    "openings": [
+      {"name": "maker", "side": "x_low", "where": "y < 0.3", "inflow": {"velocity": ["0.2*sin(2*pi*t)", "0"]}}],
+    "time": {"end": 9, "step": 5e-3}})json");
+  SceneRun run(scene);
+  run.start();
+  const auto& mass_in = run.world().column<opening::MassIn>();
+  run.step(100);
+  // Water 0.3 m deep moves by 0.2/pi m and back, to a few particles of 0.28 kg.
+  CHECK(mass_in[0] == Approx(60 / 3.141592653589793).margin(1.8));
+  run.step(100);
+  CHECK(std::abs(mass_in[0]) < 1.6);
 }
 
 TEST_CASE("plane Poiseuille flow comes in and leaves", "[verification][long]") {
