@@ -142,6 +142,13 @@ class Alike(unittest.TestCase):
             for column in ("error_velocity", "error_pressure"):
                 np.testing.assert_allclose(ours[column], alone[column], rtol=1e-7, err_msg=f"{scheme}: {column}")
 
+    def test_a_body_force_that_differs_from_place_to_place(self):
+        force = ["--set", "/body_force=[\"2*sin(3*x)\", \"-9.81 + y\"]", "--set", "/time/end=0.1"]
+        ours, _ = run("force_3", 3, SCENES / "dam_break.json", *DAM_BREAK, *force)
+        alone, _ = run("force_alone", 0, SCENES / "dam_break.json", *DAM_BREAK, *force)
+        for column in ("time", "kinetic_energy"):
+            np.testing.assert_allclose(history(ours)[column], history(alone)[column], rtol=1e-7, err_msg=column)
+
     def test_around_a_periodic_axis(self):
         options = ["--set", "/walls={\"x\": \"periodic\", \"y\": \"slip\"}", "--set", "/time/end=0.2"]
         self.check("periodic", SCENES / "dam_break.json", [*DAM_BREAK, *options], [3])

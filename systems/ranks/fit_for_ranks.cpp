@@ -19,16 +19,16 @@ const std::set<std::string, std::less<>> fit{
     "measure_error_velocity", "measure_error_pressure", "measure_face_divergence", "measure_multiplier_overlap",
     "measure_probes_on_faces", "measure_probes_on_faces_at_start",
     // alike on all ranks
-    "integrate_ode",
+    "hold_ode", "integrate_ode",
     // the first rank writes
     "write_history", "flush_history", "write_frame", "write_xdmf", "write_surfaces",
     // of own particles, cells, and sites
     "place_quadrature_at_middle", "place_quadrature_at_start", "place_quadrature_step_before",
     "place_quadrature_step_ahead", "store_kinetic_energy", "bin_by_cell", "number_sites", "hold_faces",
     "hold_face_accelerations", "predict_faces_midpoint", "predict_faces_backward_euler", "predict_faces_newmark",
-    "uniform_face_force", "find_fill", "find_cell_viscosity", "find_liquid_cells_by_multipliers", "find_mobility",
-    "find_mobility_mixed", "assemble_multipliers", "face_source", "damp_face_divergence", "face_volume_source",
-    "project_faces", "correct_faces_midpoint", "correct_faces_newmark", "watch_turns_of_faces",
+    "uniform_face_force", "sample_body_force", "find_fill", "find_cell_viscosity", "find_liquid_cells_by_multipliers",
+    "find_mobility", "find_mobility_mixed", "assemble_multipliers", "face_source", "damp_face_divergence",
+    "face_volume_source", "project_faces", "correct_faces_midpoint", "correct_faces_newmark", "watch_turns_of_faces",
     "correct_faces_backward_euler", "g2p_faces_pic", "g2p_faces_flip", "g2p_faces_tpic", "g2p_faces_tpic2",
     "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm", "g2p_face_acceleration_pic", "g2p_face_acceleration_tpic",
     "g2p_face_acceleration_apic", "limit_gradient", "carry_gradient_by_faces", "g2p_face_force_gradient",
