@@ -41,7 +41,7 @@ void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> ou
                                     Optional<Read<BodySet<Dim>>> set, Optional<Read<body::Position<Dim>>> c_b,
                                     Optional<Read<body::Rotation<Dim>>> R_b, Optional<Read<Ranks>> ranks,
                                     Update<FieldsFile> fields) const {
-  if (fields->folder.empty()) return;
+  if (fields->folder.empty() && !ranks) return;
   SurfaceOf<Dim> of{{grid->low, grid->high}, output->spacing, x_p.span(), v_p.span(), V_p.span(), {}};
   std::vector<Vec<Dim>> x;
   std::vector<Vec<Dim>> v;
@@ -51,7 +51,7 @@ void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> ou
     x = gathered(all, x_p.span());
     v = gathered(all, v_p.span());
     V = gathered(all, V_p.span());
-    if (!all.is_first()) return;
+    if (fields->folder.empty()) return;  // that of the first rank alone is known
     of.position = x;
     of.velocity = v;
     of.volume = V;

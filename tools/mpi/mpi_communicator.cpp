@@ -2,7 +2,6 @@
 
 #include <petscsys.h>
 
-#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -185,7 +184,6 @@ MpiSession::MpiSession() {
   PetscInitializeNoArguments();
   PetscPopSignalHandler();  // signals are ours
   communicator_ = std::make_unique<MpiCommunicator>();
-  communicator_->marks_unknown = std::getenv("MINAMO_MARK_UNKNOWN") != nullptr;
   set_all_ranks(communicator_.get());
 }
 
