@@ -5,6 +5,8 @@
 #include "systems/bodies/warnings.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
 #include <fstream>
@@ -53,8 +55,10 @@ TEST_CASE("a thin gap between a body and a side is told with its place and width
 TEST_CASE("a thin gap beside a body that reaches through the sides is told", "[unit]") {
   const auto found =
       sentences_of(beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, -1], "high": [0.3, 2]}}}])"));
-  REQUIRE(found.size() == 1);
-  CHECK_THAT(found[0], Contains("a gap of 0.02 m between body \"a\" and the low side of x at x = 0.01"));
+  const auto tells = [](const std::string& sentence) {
+    return sentence.find("a gap of 0.02 m between body \"a\" and the low side of x at x = 0.01") != std::string::npos;
+  };
+  CHECK(std::count_if(found.begin(), found.end(), tells) == 1);  // and of liquid that is cut away
 }
 
 TEST_CASE("a thin gap between two bodies is told once, a wide one not", "[unit]") {
