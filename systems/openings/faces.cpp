@@ -7,7 +7,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
-#include <stdexcept>
 
 namespace minamo {
 
@@ -83,9 +82,7 @@ Outside integrate_outside(const Opening<Dim>& opening, const OpeningSet<Dim>& se
   };
   const auto add = [&](const Vec<Dim>& x, double weight) {
     const double p = pressure_outside<Dim>(opening, set, density, x, time);
-    if (!std::isfinite(p))
-      throw std::runtime_error(  // no shorter step gets past it
-          fmt::format("openings: the pressure of \"{}\" is not finite at t = {:.6g} s", opening.name, time));
+    require_finite(opening.name, "pressure", p, time);
     if (p == 0) return;
     side.for_each_across(x, [&](std::size_t k, double spline) {
       outside.pressure[k] += weight * spline * p;

@@ -1,6 +1,7 @@
 #include "systems/ranks/migrate.hpp"
 
 #include "systems/conforming/support.hpp"
+#include "systems/ranks/gathered.hpp"
 
 #include <map>
 #include <optional>
@@ -35,14 +36,9 @@ std::vector<std::optional<std::uint32_t>> rows_of(std::span<const int> owner, in
 
 /// The curve cut by the loads of all ranks, of which rank 0 does it; the old map where that is hardly better.
 void cut_together(Communicator& ranks, std::span<const BlockLoad> own, double fullest_now, RankMap& map) {
-  const auto of_ranks = ranks.gather(to_bytes(own));
+  std::vector<BlockLoad> loads = gathered(ranks, own);
   std::string begin;
   if (ranks.is_first()) {
-    std::vector<BlockLoad> loads;
-    for (const auto& bytes : of_ranks) {
-      const auto of_rank = from_bytes<BlockLoad>(bytes);
-      loads.insert(loads.end(), of_rank.begin(), of_rank.end());
-    }
     std::sort(loads.begin(), loads.end(), [](const BlockLoad& a, const BlockLoad& b) { return a.key < b.key; });
     const RankMap cut = cut_curve(loads, ranks.size());
     if (map.begin.empty() || static_cast<double>(fullest(cut, loads)) < worth_moving * fullest_now) {

@@ -2,6 +2,7 @@
 
 #include "engine/text_file.hpp"
 #include "systems/bodies/cut.hpp"
+#include "systems/ranks/gathered.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -20,17 +21,6 @@ void write_index(const FieldsFile& fields, SurfaceFormat format) {
   for (std::size_t k = 0; k < fields.frames.size(); ++k)
     text += fmt::format("<DataSet timestep=\"{}\" file=\"surface/{}\"/>\n", fields.frames[k].time, file_of(k, format));
   write_text(fields.folder + "/surface.pvd", text + "</Collection>\n</VTKFile>\n");
-}
-
-/// The values of all ranks, by rank, on the first one; elsewhere none.
-template <class T>
-std::vector<T> gathered(Communicator& ranks, std::span<const T> own) {
-  std::vector<T> all;
-  for (const auto& bytes : ranks.gather(to_bytes(own))) {
-    const auto of_rank = from_bytes<T>(bytes);
-    all.insert(all.end(), of_rank.begin(), of_rank.end());
-  }
-  return all;
 }
 
 }  // namespace

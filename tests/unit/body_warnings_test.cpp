@@ -5,10 +5,9 @@
 #include "systems/bodies/warnings.hpp"
 
 #include <catch2/catch.hpp>
-
-#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <fstream>
 
 using namespace minamo;
