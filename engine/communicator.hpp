@@ -74,6 +74,9 @@ class Communicator {
   }
   bool any(bool value) { return largest(value ? 1 : 0) > 0; }
 
+  /// A check: what is known in part only becomes NaN instead of zero, so that nobody reads it unnoticed.
+  bool marks_unknown = false;
+
  protected:
   virtual std::vector<Message> exchange_between_strangers(const std::vector<Message>& sent) = 0;
   virtual void exchange_between_friends(const std::vector<Message>& sent, std::vector<Message>& received) = 0;

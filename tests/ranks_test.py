@@ -10,6 +10,7 @@ import signal
 import subprocess
 import time
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -161,6 +162,11 @@ class Alike(unittest.TestCase):
         options = ["--set", "/walls={\"x\": \"periodic\", \"y\": \"slip\"}", "--set", "/time/end=0.2"]
         self.check("periodic", SCENES / "dam_break.json", [*DAM_BREAK, *options], [3])
 
+    def test_nothing_reads_further_than_a_rank_knows(self):
+        with unittest.mock.patch.dict(os.environ, {"MINAMO_MARK_UNKNOWN": "1"}):
+            self.check("marked", SCENES / "dam_break.json", [*DAM_BREAK, "--set", "/time/end=0.1"], [3])
+            self.check("marked_space", SCENES / "dam_break_3d.json", [*SPACE, "--set", "/time/end=0.05"], [3])
+
     def test_probes_see_the_same(self):
         options = ["--set", "/time={\"end\": 0.1, \"step\": 0.005}", "--set", "/particles/0/per_cell=2", "--set",
                    "/fluid/viscosity=1e-3", "--set", "/solver={\"tolerance\": 1e-12}"]
@@ -290,6 +296,13 @@ class Refusals(unittest.TestCase):
         said = [line for line in done.stderr.splitlines() if line.startswith("  got")]
         self.assertEqual(len(said), len(set(said)))
         self.assertFalse((WORK / "bodies" / "history.csv").exists())
+
+    def test_umfpack_is_refused_by_name(self):
+        umfpack = ["--set", '/solver={"scheme": "umfpack"}']
+        _, done = run("umfpack", 2, SCENES / "dam_break.json", *umfpack, expect=None)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.stderr.count("/solver/scheme: solves all equations in one process"), 1, done.stderr)
+        self.assertFalse((WORK / "umfpack" / "history.csv").exists())
 
     def test_more_ranks_than_blocks_have_nothing_to_do(self):
         options = [*DAM_BREAK, "--set", "/grid/cells=[8, 8]", "--set", "/time/end=0.04"]

@@ -134,6 +134,7 @@ void AcceptStepOnFaces<Dim>::operator()(
   require_solved(*solve, *tolerance);
   const double threshold = mass_threshold(numbers_of(m_f.span()), Dim, of_ranks(shared));
   require_moderate<Dim>(*grid, largest->cells, site.span(), u_f.span(), [&](std::size_t i) {
+    if (!owns(of_ranks(shared), i)) return 0.0;
     if (!u_f[i].allFinite()) return std::numeric_limits<double>::infinity();
     return (m_f[i].array() > threshold).select(u_f[i], Vec<Dim>(Vec<Dim>::Zero())).norm();
   });

@@ -2,6 +2,7 @@
 
 #include "systems/conforming/support.hpp"
 
+#include <limits>
 #include <map>
 
 namespace minamo {
@@ -61,8 +62,9 @@ void SiteExchange::add_up(std::size_t width, const std::function<double*(std::si
   add_of_ranks_below(ranks_->rank());
   add(summed_, own);
   add_of_ranks_below(ranks_->size());
+  const double unknown = ranks_->marks_unknown ? std::numeric_limits<double>::quiet_NaN() : 0;
   for (const std::uint32_t i : in_part_) {
-    if (double* row = at(i)) std::fill_n(row, width, 0.0);
+    if (double* row = at(i)) std::fill_n(row, width, unknown);
   }
 }
 

@@ -78,9 +78,9 @@ bool PressureFactors<Dim>::factorize_envelope() {
 
 template <int Dim>
 void PressureFactors<Dim>::prepare(const Operators<Dim>& t, const SchurOperator<Dim>& schur, const Grid<Dim>& grid,
-                                   std::span<const Index<Dim>> site, const Fluid& fluid,
-                                   const matrix::StabilizationScale& scale) {
-  approximation_.assemble(t, grid, site, fluid, laplacian_factor(t, fluid, scale), schur);
+                                   std::span<const Index<Dim>> site, std::span<const double> capacity,
+                                   const Fluid& fluid, const matrix::StabilizationScale& scale) {
+  approximation_.assemble(t, grid, capacity, fluid, laplacian_factor(t, fluid, scale), schur);
   find_order(site, t.node);
   find_envelope();
   is_complete_ = envelope_cost(first_) <= widest && factorize_envelope();

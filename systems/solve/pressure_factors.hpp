@@ -27,10 +27,12 @@ class PressureFactors {
   using rows_of = ActiveNodes;
   static constexpr ComponentInfo info{"solve.pressure_factors", "P^-1", "", Lifetime::scratch};
 
-  /// \param schur  assembled from the same terms
-  /// \param site   of every node
+  /// \param schur     assembled from the same terms
+  /// \param site      of every node
+  /// \param capacity  of every node
   void prepare(const Operators<Dim>& terms, const SchurOperator<Dim>& schur, const Grid<Dim>& grid,
-               std::span<const Index<Dim>> site, const Fluid& fluid, const matrix::StabilizationScale& scale);
+               std::span<const Index<Dim>> site, std::span<const double> capacity, const Fluid& fluid,
+               const matrix::StabilizationScale& scale);
   /// s_I = P_II^-1/2: light nodes weigh as much in a scaled residual as heavy ones.
   const Values& scale() const { return approximation_.scale(); }
   /// LU in the place of incomplete LU, with which GMRES may not converge where few particles have many nodes, as wide

@@ -1,7 +1,6 @@
 #include "systems/solve/schur_approximation.hpp"
 
 #include "engine/parallel.hpp"
-#include "systems/grid/node_volume.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,13 +136,13 @@ void SchurApproximation<Dim>::fill_row(const From& from, std::size_t r) {
 
 /// Also gives every row room for all entries that it may have.
 template <int Dim>
-void SchurApproximation<Dim>::find_reach(const From& from, const Grid<Dim>& grid, std::span<const Index<Dim>> site,
+void SchurApproximation<Dim>::find_reach(const From& from, const Grid<Dim>& grid, std::span<const double> capacity,
                                          const Fluid& fluid) {
   const Operators<Dim>& t = from.terms;
   const bool may_be_whole = wide_stencil_fits(grid);
   for_each_row(rows(), [&](std::size_t r) {
     const std::uint32_t i = t.node[r];
-    const bool is_full = t.m_i[i] >= full * fluid.density * full_volume<Dim>(grid, site[i]);
+    const bool is_full = t.m_i[i] >= full * fluid.density * capacity[i];
     reach_[r] = is_full || !may_be_whole ? 2 : 4;
     for (std::size_t d = 0; d < 4; ++d) {
       per_mass_[r][d] = d >= Dim || t.is_fixed(r, d) ? 0 : t.c_v / (t.c_a * t.m_i[i]);
@@ -175,14 +174,14 @@ void SchurApproximation<Dim>::close_gaps() {
 }
 
 template <int Dim>
-void SchurApproximation<Dim>::assemble(const Operators<Dim>& t, const Grid<Dim>& grid, std::span<const Index<Dim>> site,
+void SchurApproximation<Dim>::assemble(const Operators<Dim>& t, const Grid<Dim>& grid, std::span<const double> capacity,
                                        const Fluid& fluid, double of_laplacian, const SchurOperator<Dim>& schur) {
   const From from{t, schur, of_laplacian};
   scale_.resize(schur.rows());
   reach_.resize(schur.rows());
   entries_.resize(schur.rows());
   per_mass_.resize(schur.rows());
-  find_reach(from, grid, site, fluid);
+  find_reach(from, grid, capacity, fluid);
   for_each_row(
       rows(), [&](std::size_t r) { fill_row(from, r); }, rows_per_task);
   close_gaps();

@@ -18,10 +18,10 @@ namespace minamo {
 template <int Dim>
 class SchurApproximation {
  public:
-  /// \param site          of every node
+  /// \param capacity      of every node
   /// \param of_laplacian  the factor of T
   /// \param schur         assembled from the same terms
-  void assemble(const Operators<Dim>& terms, const Grid<Dim>& grid, std::span<const Index<Dim>> site,
+  void assemble(const Operators<Dim>& terms, const Grid<Dim>& grid, std::span<const double> capacity,
                 const Fluid& fluid, double of_laplacian, const SchurOperator<Dim>& schur);
 
   std::size_t rows() const { return scale_.size(); }
@@ -37,7 +37,7 @@ class SchurApproximation {
     const SchurOperator<Dim>& schur;
     double of_laplacian;
   };
-  void find_reach(const From& from, const Grid<Dim>& grid, std::span<const Index<Dim>> site, const Fluid& fluid);
+  void find_reach(const From& from, const Grid<Dim>& grid, std::span<const double> capacity, const Fluid& fluid);
   void add_surface(const From& from, std::size_t row, WideRow& wide) const;
   void add_entry(std::size_t row, const WideRow& wide, std::size_t at);
   void fill_row(const From& from, std::size_t row);

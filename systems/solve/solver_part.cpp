@@ -54,6 +54,10 @@ void add_all(Recipe& recipe, const std::vector<std::string>& systems) {
 
 Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene) {
   scene.facts.set(solver);
+  if (all_ranks() != nullptr && solver.project_on_faces.empty()) {
+    input.problem("scheme", "solves all equations in one process", shown(Json("block")) + " on several ranks",
+                  shown(Json(solver.name)));
+  }
   const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
   return [solver, options](const Scene& of, Recipe& recipe) {
     if (is_conforming(of) && of.facts.find<RepeatsBalances>() == nullptr) {

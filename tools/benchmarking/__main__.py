@@ -91,7 +91,16 @@ def write(path: Path, text: str) -> None:
     os.replace(new, path)
 
 
+def keep(results: dict) -> None:
+    """Puts cases in the place of those before, on the page, too."""
+    known = load() | results
+    known = {case.name: known[case.name] for case in CASES if case.name in known}
+    write(NUMBERS, json.dumps(known, indent=1) + "\n")
+    write(RESULTS, page(known))
+
+
 def measure_all(cases: list[Case], options: argparse.Namespace) -> dict:
+    """Every case is kept as soon as it is measured."""
     results = {}
     with tempfile.TemporaryDirectory(prefix="minamo_bench_") as folder:
         for case in cases:
@@ -103,6 +112,8 @@ def measure_all(cases: list[Case], options: argparse.Namespace) -> dict:
                 rows = measure(case, options.build / "minamo", 1 if options.quick else options.runs, Path(folder))
             results[case.name] = {"machine": machine(options.build), "load": load_before,
                                   "rows": rows}
+            if not options.quick:
+                keep(results)
     return results
 
 
@@ -115,21 +126,17 @@ def main() -> None:
     results = measure_all(chosen(options), options)
     if options.quick:
         print(page(results), end="")
-        return
-    known = load()
-    results = {case.name: (known | results)[case.name] for case in CASES if case.name in known | results}
-    write(NUMBERS, json.dumps(results, indent=1) + "\n")
-    write(RESULTS, page(results))
-    print(RESULTS.relative_to(ROOT))
+    else:
+        print(RESULTS.relative_to(ROOT))
 
 
 if __name__ == "__main__":
     try:
         main()
     except BenchmarkFailed as problem:
-        sys.exit(f"tools/bench: {problem}\n{RESULTS.relative_to(ROOT)} is as it was.")
+        sys.exit(f"tools/bench: {problem}\n{RESULTS.relative_to(ROOT)} has the cases before.")
     except (FileNotFoundError, PermissionError) as problem:  # no program
         sys.exit(f"tools/bench: {problem.filename}: {problem.strerror}\n{RESULTS.relative_to(ROOT)} is as it was.")
     except KeyboardInterrupt:
-        print(f"interrupted; {RESULTS.relative_to(ROOT)} is as it was", file=sys.stderr)
+        print(f"interrupted; {RESULTS.relative_to(ROOT)} has the cases before", file=sys.stderr)
         sys.exit(130)

@@ -53,47 +53,45 @@ def dam_break(cells: int, per_cell: int, step: float, **more: Any) -> dict[str, 
     return DEFAULTS | {"/grid/cells": [cells, cells], "/particles/0/per_cell": per_cell, "/time/step": step} | more
 
 
-def both(name: str, label: str, scene: str, overrides: dict[str, Any], repeat: int | None = None, **more: Any) -> Case:
+def both(name: str, label: str, scene: str, overrides: dict[str, Any], repeat: int | None = None,
+         section: str = "both", **more: Any) -> Case:
     """A run with either discretization, with TPIC."""
     runs = [Run(f"{label}, {discretization}", scene, method | {"/transfer": {"scheme": "tpic"}} | overrides, **more)
             for discretization, method in BOTH.items()]
-    return Case(name, "both", runs, repeat)
+    return Case(name, section, runs, repeat)
 
 
 def both_cases() -> list[Case]:
     made = []
-    for cells, ms, repeat in ((40, 2, None), (40, 8, None), (80, 1, 1), (80, 4, None)):
+    for cells, ms, repeat in ((40, 2, None), (40, 8, None), (80, 1, 1), (80, 4, None), (160, 2, 1)):
         of_scene = {"/grid/cells": [cells, cells], "/particles/0/per_cell": 2, "/time/step": 1e-3 * ms,
                     "/output/every": 0.1}
         made.append(both(f"both_{cells}_{ms}ms", f"{cells} x {cells}, {ms} ms", "dam_break", of_scene, repeat,
                          compare=True))
-    for cells, ms, steps in ((160, 0.5, 60), (320, 0.25, 20)):
-        of_scene = {"/grid/cells": [cells, cells], "/particles/0/per_cell": 4, "/time/step": 1e-3 * ms}
-        made.append(both(f"both_{cells}", f"{cells} x {cells}, {ms} ms, 4 x 4", "dam_break", of_scene | NO_FRAMES,
-                         steps=steps))
     for threads in (1, 2):
         made.append(both(f"both_large_{threads}", f"large, {threads} thread{'s' * (threads > 1)}", "dam_break_large",
                          NO_FRAMES, threads=threads, steps=250))
-    for cells, steps, repeat in ((32, 10, None), (68, 5, 1)):
-        of_scene = NO_FRAMES | {"/grid/cells": [cells, cells // 2, cells], "/time/step": 0.056 / cells}
-        made.append(both(f"both_space_{cells}", f"{cells} x {cells // 2} x {cells}", "dam_break_3d", of_scene, repeat,
-                         threads=2, steps=steps))
+    made.append(both("both_large_whole", "large, 2 threads, to 7 s", "dam_break_large", {}, 1, threads=2))
     return made
 
 
-def paper_cases() -> list[Case]:
+def size_cases() -> list[Case]:
     made = []
-    for cells, ms in ((40, 2), (40, 8), (80, 1), (80, 4)):
-        run = Run(f"{cells} x {cells}, {ms} ms", DAM_BREAK, dam_break(cells, 2, 1e-3 * ms), compare=True)
-        made.append(Case(f"dam_break_{cells}_{ms}ms", "dam_break", [run]))
+    for cells, steps in ((40, 100), (80, 100), (160, 60), (320, 40), (640, 40)):
+        of_scene = {"/grid/cells": [cells, cells], "/particles/0/per_cell": 4, "/time/step": 0.08 / cells}
+        made.append(both(f"size_{cells}", f"{cells} x {cells}, 4 x 4", "dam_break", of_scene | NO_FRAMES,
+                         1 if cells == 640 else None, steps=steps, section="size"))
     return made
 
 
-def thread_cases() -> list[Case]:
-    runs = [Run(f"large, {n} thread{'s' * (n > 1)}", "dam_break_large", DEFAULTS | NO_FRAMES, threads=n, steps=250)
-            for n in (1, 2)]
-    whole = Run("large, 2 threads, to 7 s", "dam_break_large", DEFAULTS, threads=2)
-    return [Case("threads_250_steps", "threads", runs), Case("threads_whole", "threads", [whole])]
+def space_cases() -> list[Case]:
+    made = []
+    for cells, threads, steps, repeat in ((32, 1, 10, None), (32, 2, 10, None), (68, 1, 10, 1), (68, 2, 10, 1), (108, 2, 3, 1)):
+        of_scene = NO_FRAMES | {"/grid/cells": [cells, cells // 2, cells], "/time/step": 0.056 / cells}
+        label = f"{cells} x {cells // 2} x {cells}, {threads} thread{'s' * (threads > 1)}"
+        made.append(both(f"space_{cells}_{threads}", label, "dam_break_3d", of_scene, repeat, threads=threads, steps=steps,
+                         section="space"))
+    return made
 
 
 def solver_cases() -> list[Case]:
@@ -106,27 +104,10 @@ def solver_cases() -> list[Case]:
     return made
 
 
-def size_cases() -> list[Case]:
-    return [Case(f"size_{cells}", "size",
-                 [Run(f"{cells} x {cells}, 4 x 4", DAM_BREAK, dam_break(cells, 4, 0.08 / cells) | NO_FRAMES,
-                      steps=steps)])
-            for cells, steps in ((40, 100), (80, 100), (160, 60), (320, 40), (640, 40))]
-
-
 def assembly_cases() -> list[Case]:
     runs = [Run(f"80 x 80, {n} x {n}", DAM_BREAK, dam_break(80, n, 1e-3) | NO_FRAMES, steps=100) for n in (2, 6)]
     return [Case("assembly_80", "assembly", runs)]
 
 
-def space_cases() -> list[Case]:
-    made = []
-    for cells, steps, repeat in ((32, 10, None), (68, 10, 1), (108, 3, 1)):
-        scene = DEFAULTS | NO_FRAMES | {"/grid/cells": [cells, cells // 2, cells], "/time/step": 0.056 / cells}
-        run = Run(f"{cells} x {cells // 2} x {cells}", "dam_break_3d", scene, threads=2, steps=steps)
-        made.append(Case(f"space_{cells}", "space", [run], repeat))
-    return made
-
-
-CASES = [*both_cases(), *paper_cases(), *thread_cases(), *solver_cases(), *size_cases(), *assembly_cases(),
-         *space_cases(), Case(KERNELS, KERNELS)]
+CASES = [*both_cases(), *size_cases(), *space_cases(), *solver_cases(), *assembly_cases(), Case(KERNELS, KERNELS)]
 SECTIONS = list(dict.fromkeys(case.section for case in CASES))

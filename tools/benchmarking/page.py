@@ -14,7 +14,7 @@ Results = dict[str, dict[str, Any]]  # by name of the case: "machine" and "rows"
 
 HEAD = """# Speed
 
-`tools/bench` measured these figures and wrote this page, in a quarter of an hour on two idle cores.
+`tools/bench` measured these figures and wrote this page, in half an hour on two idle cores.
 `tools/bench NAME...` replaces single cases, `tools/bench --list` names them. Accuracy is in
 [scenes/RESULTS.md](../../scenes/RESULTS.md).
 
@@ -23,10 +23,9 @@ HEAD = """# Speed
   the runs.
 - *Systems*: the three that take the largest shares of the time of all systems.
 - *Peak memory*: that of the process, libraries and work space of the solvers included.
-- *Method* of the first section: conforming (minamo's default) and equal order with their defaults, both with TPIC. Of
-  the others: equal order, TPIC, midpoint rule, PSPG, volume projection, corrected inertia, block solver. Particles per
-  cell, unless a label says something else: 2 x 2, in three dimensions 3 x 3 x 3, in the large tank 4 x 4. Dynamic
-  viscosity: 1e-3 Pa s.
+- *Method*: conforming (minamo's default) or equal order with their defaults, both with TPIC; equal order where a label
+  names none. Particles per cell, unless a label says something else: 2 x 2, in three dimensions 3 x 3 x 3, in the large
+  tank 4 x 4. Dynamic viscosity: 1e-3 Pa s.
 """
 BUSY_TEXT = """\
 Other programs used the processors while these sections were measured: {titles} (load before a case up to {load:.0f} on

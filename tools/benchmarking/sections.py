@@ -11,12 +11,10 @@ Row = dict[str, Any]
 
 TITLES = {
     "both": "Conforming and equal order",
-    "dam_break": "Dam break with equal order, beside other codes",
-    "threads": "Two threads",
-    "solvers": "Block solver and UMFPACK",
     "size": "Cost against size",
-    "assembly": "Assembly against particles per cell",
     "space": "Three dimensions",
+    "solvers": "Block solver and UMFPACK",
+    "assembly": "Assembly against particles per cell",
     "kernels": "Kernels",
 }
 
@@ -26,10 +24,10 @@ PEERS = {
     "80": {"interFoam": 23, "apic2d": 0.32, "MLS-MPM": 0.61},
 }
 PEERS_TEXT = """\
-CPU seconds per simulated second, beside three other codes with as many cells and particles: OpenFOAM's interFoam,
-apic2d (APIC, projection, CFL number 3, float) and an explicit, weakly compressible MLS-MPM (CFL number 0.7). Theirs were
-measured once, on one core of an AMD EPYC (Zen 4). A ratio above 1 means that theirs takes longer. More codes are in
-[scenes/COMPARISON.md](../../scenes/COMPARISON.md).
+CPU seconds per simulated second of conforming, beside three other codes with as many cells and particles: OpenFOAM's
+interFoam, apic2d (APIC, projection, CFL number 3, float) and an explicit, weakly compressible MLS-MPM (CFL number 0.7).
+Theirs were measured once, on one core of an AMD EPYC (Zen 4). A ratio above 1 means that theirs takes longer. More
+codes are in [scenes/COMPARISON.md](../../scenes/COMPARISON.md).
 """
 DISTANCE_TEXT = """\
 Distance from interFoam on 160 x 160 cells (`tools/compare_interfoam.py`: the area that is water in only one of the two,
@@ -37,63 +35,65 @@ over the area of the water), at output times within 2 ms of the reference's:
 """
 # Of these the systems that a run has.
 ASSEMBLY = ("find_full_nodes", "find_filled_nodes", "moments", "moments_mixed", "divergence_matrix", "laplacian_matrix",
-            "viscosity_matrix", "stabilize_pspg", "right_hand_side", "right_hand_side_viscous",
-            "add_inertia_correction")
+            "viscosity_matrix", "right_hand_side", "add_inertia_correction")
+METHODS = ("conforming", "equal order")
 
 
 def per_simulated_second(row: Row) -> float:
     return row["cpu_s"] / row["time"]
 
 
-def below_both(rows: list[Row]) -> str:
+def pairs(rows: list[Row]) -> list[tuple[str, Row, Row]]:
+    """Label, row of conforming and row of equal order of each case."""
+    return [(conforming["label"].removesuffix(", conforming"), conforming, equal)
+            for conforming, equal in zip(rows[::2], rows[1::2])]
+
+
+def thread_lines(rows: list[Row], what: str, name: str) -> str:
+    """`what` begins the labels, `name` is for the reader. How much faster a step is on two threads, for the runs whose labels differ in the number of threads alone."""
+    by_label = {row["label"]: row for row in rows}
     lines = []
-    for conforming, equal in zip(rows[::2], rows[1::2]):
-        times = sorted(set(conforming.get("distances", {})) & set(equal.get("distances", {})), key=float)
-        at = "0.8" if "0.8" in times else None
-        lines.append([conforming["label"].removesuffix(", conforming"),
-                      *(digits(per_simulated_second(row)) for row in (conforming, equal)),
-                      *(f"{equal[key] / conforming[key]:.1f}" for key in ("cpu_s", "step_s")),
-                      *(f"{row['distances'][at]:.3f}" if at else "" for row in (conforming, equal))])
-    head = ["run", "conforming: CPU per simulated second [s]", "equal order", "ratio", "ratio of a step",
-            "conforming: distance from interFoam at 0.8 s", "equal order"]
-    text = ("Conforming beside equal order. The ratios are by how many times equal order takes longer: CPU time of the run with\n"
+    for method in METHODS:
+        pair = [by_label.get(f"{what}, {threads}, {method}") for threads in ("1 thread", "2 threads")]
+        if all(pair):
+            lines.append(f"\nWith {method} a step of {name} is {pair[0]['step_s'] / pair[1]['step_s']:.2f} times as fast "
+                         "on two threads as on one.\n")
+    return "".join(lines)
+
+
+def ratios(rows: list[Row]) -> str:
+    lines = [[label, *(digits(per_simulated_second(row)) for row in (conforming, equal)),
+              *(f"{equal[key] / conforming[key]:.1f}" for key in ("cpu_s", "step_s"))]
+             for label, conforming, equal in pairs(rows)]
+    head = ["run", "conforming: CPU per simulated second [s]", "equal order", "ratio", "ratio of a step"]
+    return ("Conforming beside equal order. The ratios are by how many times equal order takes longer: CPU time of the run with\n"
             "start and output, wall time of a step.\n\n"
             + table(head, lines))
-    by_label = {row["label"]: row for row in rows}
-    for name in ("conforming", "equal order"):
-        pair = [by_label.get(f"large, {threads}, {name}") for threads in ("1 thread", "2 threads")]
-        if all(pair):
-            text += (f"\nWith {name} a step of the large tank is {pair[0]['step_s'] / pair[1]['step_s']:.2f} times as "
-                     "fast on two threads as on one.\n")
-    return text
 
 
-def below_dam_break(rows: list[Row]) -> str:
+def beside_peers(rows: list[Row]) -> str:
     lines = []
-    for row in rows:
-        peers = PEERS[row["label"].split()[0]]
-        ours = per_simulated_second(row)
-        lines.append([row["label"], digits(ours)] + [f"{digits(theirs)}: {digits(theirs / ours)}"
-                                                     for theirs in peers.values()])
+    for label, conforming, _ in pairs(rows):
+        ours = per_simulated_second(conforming)
+        peers = PEERS.get(label.split()[0], {})
+        lines += [[label, digits(ours)] + [f"{digits(theirs)}: {digits(theirs / ours)}" for theirs in peers.values()]
+                  for _ in range(bool(peers))]
     head = ["run", "minamo [s]", "interFoam: ratio", "apic2d: ratio", "MLS-MPM: ratio"]
-    text = f"{PEERS_TEXT}\n" + table(head, lines)
+    return f"\n{PEERS_TEXT}\n" + table(head, lines) if lines else ""
+
+
+def from_interfoam(rows: list[Row]) -> str:
     compared = [row for row in rows if row.get("distances")]
     times = sorted({time for row in compared for time in row["distances"]}, key=float)
-    if times:
-        shares = [[f"{row['distances'][time]:.3f}" if time in row["distances"] else "" for time in times]
-                  for row in compared]
-        text += f"\n{DISTANCE_TEXT}\n" + table(["run", *(f"{time} s" for time in times)],
-                                              ([row["label"], *share] for row, share in zip(compared, shares)))
-    return text
-
-
-def below_threads(rows: list[Row]) -> str:
-    one, two = ([row for row in rows if row["threads"] == n and row["steps"] <= 250] for n in (1, 2))
-    if not one or not two:
+    if not times:
         return ""
-    differ = any(two[0]["difference"].values())
-    return (f"A step on two threads is {one[0]['step_s'] / two[0]['step_s']:.2f} times as fast as on one. "
-            f"Energies in history.csv {'differ' if differ else 'are the same to the last digit'}.\n")
+    lines = [[row["label"], *(f"{row['distances'][time]:.3f}" if time in row["distances"] else "" for time in times)]
+             for row in compared]
+    return f"\n{DISTANCE_TEXT}\n" + table(["run", *(f"{time} s" for time in times)], lines)
+
+
+def below_both(rows: list[Row]) -> str:
+    return ratios(rows) + thread_lines(rows, "large", "the large tank") + beside_peers(rows) + from_interfoam(rows)
 
 
 def below_solvers(rows: list[Row]) -> str:
@@ -115,14 +115,16 @@ def slope(points: list[tuple[float, float]]) -> float:
 
 
 def below_size(rows: list[Row]) -> str:
-    if len(rows) < 2:
-        return ""
-    exponent = slope([(row["unknowns_max"], row["step_s"]) for row in rows])
-    last = slope([(row["unknowns_max"], row["step_s"]) for row in rows[-2:]])
-    most = rows[-1]
-    added = (most["peak_memory_bytes"] - rows[0]["peak_memory_bytes"]) / (most["particles"] - rows[0]["particles"])
-    return (f"A step costs as (unknowns)^{exponent:.2f}, fitted over all sizes; ^{last:.2f} over the two largest. "
-            f"Memory that a particle adds: {added:.0f} bytes.\n")
+    lines = []
+    for method, of_method in zip(METHODS, (rows[::2], rows[1::2])):
+        if len(of_method) < 2:
+            continue
+        points = [(row["unknowns_max"], row["step_s"]) for row in of_method]
+        least, most = of_method[0], of_method[-1]
+        added = ((most["peak_memory_bytes"] - least["peak_memory_bytes"]) / (most["particles"] - least["particles"]))
+        lines.append(f"With {method} a step costs as (unknowns)^{slope(points):.2f}, fitted over all sizes; "
+                     f"^{slope(points[-2:]):.2f} over the two largest. Memory that a particle adds: {added:.0f} bytes.\n")
+    return "\n".join(lines)
 
 
 def below_assembly(rows: list[Row]) -> str:
@@ -138,13 +140,15 @@ def below_assembly(rows: list[Row]) -> str:
 
 
 def below_space(rows: list[Row]) -> str:
-    lines = [[row["label"], str(row["particles"]), f"{row['step_s']:.3f}",
-              digits(1e6 * row["step_s"] / row["particles"])] for row in rows]
-    return table(["run", "particles", "seconds per step", "us per particle and step"], lines)
+    lines = [[row["label"], str(row["particles"]), digits(row["step_s"]), digits(1e6 * row["step_s"] / row["particles"])]
+             for row in rows]
+    grids = dict.fromkeys(row["label"].split(",")[0] for row in rows)
+    return (table(["run", "particles", "seconds per step", "us per particle and step"], lines)
+            + "".join(thread_lines(rows, grid, grid) for grid in grids))
 
 
-BELOW = {"both": below_both, "dam_break": below_dam_break, "threads": below_threads, "solvers": below_solvers,
-         "size": below_size, "assembly": below_assembly, "space": below_space}
+BELOW = {"both": below_both, "size": below_size, "space": below_space, "solvers": below_solvers,
+         "assembly": below_assembly}
 KERNEL_HEAD = """
 The bytes and operations that a kernel needs at least, by the formulas in [work.hpp](work.hpp), over its time. *Of
 triad*: share of the bandwidth of a = b + s c over as many bytes. *Of peak*: share of the peak of fused multiply-adds.

@@ -2,6 +2,7 @@
 
 #include <petscsys.h>
 
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -184,6 +185,7 @@ MpiSession::MpiSession() {
   PetscInitializeNoArguments();
   PetscPopSignalHandler();  // signals are ours
   communicator_ = std::make_unique<MpiCommunicator>();
+  communicator_->marks_unknown = std::getenv("MINAMO_MARK_UNKNOWN") != nullptr;
   set_all_ranks(communicator_.get());
 }
 
