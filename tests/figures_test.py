@@ -206,7 +206,7 @@ class Figures(unittest.TestCase):
         shutil.copy(WORK / "dam_break_tpic/scene.json", empty)
         self.expect_error("empty: no frames to draw; expected: at least one in fields.h5", "empty")
         known = ("speed, pressure, velocity_x, velocity_y, vorticity, velocity_gradient_xx, velocity_gradient_xy, "
-                 "velocity_gradient_yx, velocity_gradient_yy, id")
+                 "velocity_gradient_yx, velocity_gradient_yy, id, mass, volume")
         self.expect_error(f"dam_break_tpic: unknown field \"presure\"; expected one of: {known}; nearest: pressure",
                           "dam_break_tpic", "--field", "presure")
         self.expect_error("dam_break_tpic: t = 3 s is outside the run; expected: between 0 and 0.1 s",

@@ -108,6 +108,7 @@ void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> 
 template <int Dim>
 void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
+                                 Read<particle::Mass> m_p, Read<particle::Volume> V_p,
                                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                  Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
                                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<Ranks>> ranks,
@@ -131,6 +132,8 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
     extra_fields.emplace_back(field);
     data.emplace_back(name + "/" + field, values, width);
   };
+  add_field("mass", m_p.span(), 1);
+  add_field("volume", V_p.span(), 1);
   if (grad_v_p) add_field("velocity_gradient", std::span(gradients), Dim * Dim);
   if (g_p) add_field("shear_rate", g_p.span(), 1);
   if (mu_p) add_field("viscosity", mu_p.span(), 1);

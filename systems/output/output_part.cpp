@@ -6,13 +6,29 @@
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/memory.hpp"
+#include "systems/surface/level_set.hpp"
 #include "systems/surface/write_surfaces.hpp"
 
 namespace minamo {
 
 namespace {
 
-OutputScene read_times(Input& input, double end) {
+std::string read_surface(Input& input, int dimension) {
+  const auto format = input.choice("surface", std::vector<std::string>{"none", "vtp", "ply", "vdb"},
+                                   "of every frame: lines or triangles for ParaView (vtp) or Blender (ply), or in space a "
+                                   "level set (vdb, with OpenVDB)",
+                                   "none");
+  if (format != "vdb") return format;
+  if (dimension == 2) {
+    input.problem("surface", "level sets are of scenes in space", "vtp or ply in the plane", shown(Json("vdb")));
+  } else if (!can_write_level_sets()) {
+    input.problem("surface", "this program was built without OpenVDB", "vtp or ply, or `tools/run --openvdb SCENE`",
+                  shown(Json("vdb")));
+  }
+  return format;
+}
+
+OutputScene read_times(Input& input, int dimension, double end) {
   Number every{.unit = "s", .doc = "simulated time between frames; by default end/50", .above = 0};
   OutputScene output;
   if (input.describing()) {
@@ -27,21 +43,19 @@ OutputScene read_times(Input& input, double end) {
   output.history = input.integer(
       "history",
       {.doc = "steps from one row of history.csv to the next; the last has one, too", .fallback = 1, .at_least = 1});
-  output.surface = input.choice("surface", std::vector<std::string>{"none", "vtp", "ply"},
-                                "of every frame: lines or triangles for ParaView (vtp) or Blender (ply)", "none");
+  output.surface = read_surface(input, dimension);
   return output;
 }
 
 void add_surfaces(const Scene& scene, Recipe& recipe) {
   if (scene.output.surface == "none") return;
-  recipe.constant(SurfaceOutput{scene.output.surface == "vtp" ? SurfaceFormat::vtp : SurfaceFormat::ply,
-                                scene.grid.spacing / fewest_per_cell(scene)});
+  recipe.constant(SurfaceOutput{surface_format_of(scene.output.surface), scene.grid.spacing / fewest_per_cell(scene)});
   recipe.add_output("write_surfaces");
 }
 
 Contribution read_output(Input& input, Scene& scene) {
   input.object("output", "what is written when", Input::Presence::optional,
-               [&](Input& in) { scene.output = read_times(in, scene.time.end); });
+               [&](Input& in) { scene.output = read_times(in, scene.dimension, scene.time.end); });
   return [](const Scene& of, Recipe& recipe) {
     add_systems(of, recipe, "accept", {{"accept_step"}, {"accept_step_on_faces"}}, When::step);
     recipe.add("accept", "note_step");

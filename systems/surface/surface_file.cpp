@@ -1,9 +1,12 @@
 #include "systems/surface/surface_file.hpp"
 
 #include "engine/text_file.hpp"
+#include "systems/surface/level_set.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -97,16 +100,30 @@ std::string ply(const ParticleSurface<Dim>& surface) {
   return text;
 }
 
-}  // namespace
-
-std::string name_of(SurfaceFormat format) { return format == SurfaceFormat::vtp ? "vtp" : "ply"; }
+constexpr std::array names{"vtp", "ply", "vdb"};
 
 template <int Dim>
-void write_surface(const ParticleSurface<Dim>& surface, SurfaceFormat format, const std::string& path) {
-  write_text(path, format == SurfaceFormat::vtp ? vtp<Dim>(surface) : ply<Dim>(surface));
+std::string bytes_of(const ParticleSurface<Dim>& surface, SurfaceFormat format, double voxel) {
+  if constexpr (Dim == 3) {
+    if (format == SurfaceFormat::vdb) return level_set_of(surface, voxel);
+  }
+  return format == SurfaceFormat::vtp ? vtp<Dim>(surface) : ply<Dim>(surface);
 }
 
-template void write_surface<2>(const ParticleSurface<2>&, SurfaceFormat, const std::string&);
-template void write_surface<3>(const ParticleSurface<3>&, SurfaceFormat, const std::string&);
+}  // namespace
+
+std::string name_of(SurfaceFormat format) { return names[static_cast<std::size_t>(format)]; }
+
+SurfaceFormat surface_format_of(const std::string& name) {
+  return static_cast<SurfaceFormat>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+template <int Dim>
+void write_surface(const ParticleSurface<Dim>& surface, SurfaceFormat format, double voxel, const std::string& path) {
+  write_text(path, bytes_of<Dim>(surface, format, voxel));
+}
+
+template void write_surface<2>(const ParticleSurface<2>&, SurfaceFormat, double, const std::string&);
+template void write_surface<3>(const ParticleSurface<3>&, SurfaceFormat, double, const std::string&);
 
 }  // namespace minamo

@@ -53,7 +53,7 @@ void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> ou
   }
   std::filesystem::create_directories(fields->folder + "/surface");
   const std::size_t frame = fields->frames.size() - 1;
-  write_surface<Dim>(surface_of<Dim>(of), output->format,
+  write_surface<Dim>(surface_of<Dim>(of), output->format, output->spacing,
                      fields->folder + "/surface/" + file_of(frame, output->format));
   if (output->format == SurfaceFormat::vtp) write_index(*fields, output->format);
 }

@@ -52,7 +52,7 @@ std::vector<std::string> differing_fields(const std::string& a, const std::strin
   const Hdf5File file_a(a + "/fields.h5", Hdf5File::Access::read);
   const Hdf5File file_b(b + "/fields.h5", Hdf5File::Access::read);
   std::vector<std::string> names;
-  for (const char* field : {"position", "velocity", "pressure", "id", "velocity_gradient"}) {
+  for (const char* field : {"position", "velocity", "pressure", "id", "mass", "volume", "velocity_gradient"}) {
     const std::string dataset = "/particles/" + frame + "/" + field;
     if (file_a.read_bytes(dataset) != file_b.read_bytes(dataset)) names.emplace_back(field);
   }

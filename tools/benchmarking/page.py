@@ -14,7 +14,7 @@ Results = dict[str, dict[str, Any]]  # by name of the case: "machine" and "rows"
 
 HEAD = """# Speed
 
-`tools/bench` measured these figures and wrote this page, in half an hour on two idle cores.
+`tools/bench` measured these figures and wrote this page, in a quarter of an hour on two idle cores.
 `tools/bench NAME...` replaces single cases, `tools/bench --list` names them. Accuracy is in
 [scenes/RESULTS.md](../../scenes/RESULTS.md).
 

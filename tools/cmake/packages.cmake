@@ -51,6 +51,11 @@ endif()
 minamo_import(suitesparse umfpack.h LIBRARIES umfpack cholmod suitesparseconfig SUFFIXES suitesparse)
 # CHOLMOD runs on the compiler's OpenMP, which is told to keep to one thread.
 target_link_libraries(minamo::suitesparse INTERFACE minamo::blas gomp)
+if(MINAMO_OPENVDB)
+  minamo_import(openvdb openvdb/openvdb.h LIBRARIES openvdb)
+  target_compile_definitions(minamo::openvdb INTERFACE MINAMO_OPENVDB)
+  set(minamo_openvdb minamo::openvdb)
+endif()
 minamo_import(hdf5 hdf5.h LIBRARIES hdf5 SUFFIXES hdf5/serial)
 
 # Debian's HDF5 can also read from the web. Its shared library brings curl, TLS and Kerberos along, 30 libraries, whose

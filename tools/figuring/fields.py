@@ -15,6 +15,7 @@ from reporting.runs import NoResults, Run
 
 AXES = "xyz"
 SEQUENTIAL, SIGNED = "viridis", "coolwarm"  # perceptually uniform; told apart by all eyes
+UNITS = {"mass": ("kg/m", "kg"), "volume": ("m²", "m³")}  # in the plane, in space
 NOT_FINITE = "#ff00ff"  # in none of the maps
 
 
@@ -54,12 +55,13 @@ def fields_of(run: Run) -> dict[str, Field]:
     for name, values in columns.items():
         if name not in ("fluid", "position", "velocity", "pressure", "velocity_gradient"):
             parts = range(values[0].size) if values.ndim > 1 else ()
-            found += [_part(name, "", k, str(k)) for k in parts] or [_whole(name)]
+            unit = UNITS.get(name, ("", ""))[dimension - 2]
+            found += [_part(name, unit, k, str(k)) for k in parts] or [_whole(name, unit)]
     return {field.name: field for field in found}
 
 
-def _whole(column: str) -> Field:
-    return Field(column, "", lambda columns: columns[column].astype(float))
+def _whole(column: str, unit: str) -> Field:
+    return Field(column, unit, lambda columns: columns[column].astype(float))
 
 
 def _part(column: str, unit: str, k: int, name: str) -> Field:

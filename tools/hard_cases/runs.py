@@ -31,6 +31,7 @@ class Frame:
 
     time: float
     id: np.ndarray
+    mass: np.ndarray
     position: np.ndarray
     velocity: np.ndarray
     pressure: np.ndarray
@@ -79,18 +80,10 @@ class Run:
     def mass(self) -> float:
         return self.summary["conservation"]["mass"]
 
-    @cached_property
+    @property
     def masses(self) -> np.ndarray:
-        """By id, which counts through one region after the other; of one or two regions. [kg]"""
-        count = len(self.frames[0].id)
-        regions = self.scene["particles"]
-        of_region = [self.scene["fluid"]["density"] * (self.spacing / region["per_cell"])**len(self.low)
-                     for region in regions]
-        if len(set(of_region)) == 1:
-            return np.full(count, of_region[0])
-        # Their counts add up to that of all particles, and their masses to that of the water.
-        counts = np.linalg.solve([[1, 1], of_region], [count, self.mass])
-        return np.repeat(of_region, np.round(counts).astype(int))
+        """By id, which no particle of these scenes comes by later. [kg]"""
+        return self.frames[0].mass
 
     @cached_property
     def energy(self) -> np.ndarray:
@@ -172,5 +165,5 @@ def frame(group: h5py.Group) -> Frame:
     gradient = None
     if "velocity_gradient" in group:
         gradient = group["velocity_gradient"][:][order].reshape(len(order), position.shape[1], position.shape[1])
-    return Frame(float(group.attrs["time"]), ids[order], position, group["velocity"][:][order],
+    return Frame(float(group.attrs["time"]), ids[order], group["mass"][:][order], position, group["velocity"][:][order],
                  group["pressure"][:].ravel()[order], gradient)

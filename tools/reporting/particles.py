@@ -54,10 +54,11 @@ class Quantity:
 
 
 def quantities(columns: dict[str, np.ndarray], dimension: int) -> dict[str, tuple[np.ndarray, str, bool]]:
-    """Scalars of a frame by name: values, unit, whether both signs matter. All that fields.h5 holds is here."""
+    """Scalars of a frame by name: values, unit, whether both signs matter. All that fields.h5 holds is
+    here, but for what no particle changes."""
     found: dict[str, tuple[np.ndarray, str, bool]] = {}
     for name, values in columns.items():
-        if name in ("id", "position"):
+        if name in ("id", "mass", "position", "volume"):
             continue
         unit, words = UNITS.get(name, ""), name.replace("_", " ")
         if values.ndim == 1:
