@@ -2,13 +2,6 @@
 
 namespace minamo {
 
-namespace {
-
-/// Of a projection. With 1e-6 friction takes a tenth more iterations, and what of the divergence is left adds up.
-constexpr double projection_tolerance = 1e-10;
-
-}  // namespace
-
 template <int Dim>
 void MultiplierMatrix<Dim>::prepare(const Splines<Dim>& splines, const Incidence<Dim>& incidence, const Graph& graph,
                                     std::span<const double> per_d) {
@@ -28,9 +21,9 @@ void MultiplierMatrix<Dim>::prepare(const Splines<Dim>& splines, const Incidence
 }
 
 template <int Dim>
-void MultiplierMatrix<Dim>::solve(std::span<const double> b, std::span<double> x) {
+void MultiplierMatrix<Dim>::solve(std::span<const double> b, double tolerance, std::span<double> x) {
   for_each_row(b.size(), [&](std::size_t l) { b_[l][0] = b[l]; });
-  solver_.solve(matrix_, null_vector_, projection_tolerance, b_, x_, 1);
+  solver_.solve(matrix_, null_vector_, tolerance, b_, x_, 1);
   for_each_row(x.size(), [&](std::size_t l) { x[l] = x_[l][0]; });
 }
 

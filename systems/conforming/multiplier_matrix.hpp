@@ -24,8 +24,9 @@ class MultiplierMatrix {
   void prepare(const Splines<Dim>& splines, const Incidence<Dim>& incidence, const Graph& graph,
                std::span<const double> per_d);
   /// x = (B D^-1 B^T)^-1 b, up to the null vectors of closed boxes.
+  /// \param tolerance  |b - B D^-1 B^T x| / |b|, where the matrix is not factorized [1]
   /// \pre what prepare() has seen is still there
-  void solve(std::span<const double> b, std::span<double> x);
+  void solve(std::span<const double> b, double tolerance, std::span<double> x);
 
  private:
   StaggeredLaplacian<Dim> matrix_;

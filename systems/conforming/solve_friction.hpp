@@ -33,7 +33,7 @@ struct FrictionWork {
   Values through;         ///< a_f^2 G^-1
   Values tie;             ///< of closed faces where bodies rub, else empty [kg/s]
   Values extended;        ///< room for velocities of closed faces
-  Values f, v, r, z, direction, product;
+  Values f, v, start, r, z, direction, product;
   Values divergence, y, sum_of_y;
   static constexpr ComponentInfo info{"solve.friction_work", "", "", Lifetime::cache};
 };

@@ -31,11 +31,11 @@ template <int Dim>
 struct WriteFrame {
   static constexpr std::string_view doc = "a frame of fields.h5";
   void operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
-                  Read<particle::Mass> m_p, Read<particle::Volume> V_p,
-                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<particle::ShearRate>> g_p,
-                  Optional<Read<particle::Viscosity>> mu_p, Optional<Read<particle::FluidIndex>> k_p,
-                  Optional<Read<Ranks>> ranks, Update<FieldsFile> fields) const;
+                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p, Read<particle::Mass> m_p,
+                  Read<particle::Volume> V_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                  Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
+                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<Ranks>> ranks,
+                  Update<FieldsFile> fields) const;
 };
 
 /// Rewrites fields.xdmf, the index that ParaView opens. With bodies a frame is a collection of particles and bodies.

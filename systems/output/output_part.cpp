@@ -14,10 +14,11 @@ namespace minamo {
 namespace {
 
 std::string read_surface(Input& input, int dimension) {
-  const auto format = input.choice("surface", std::vector<std::string>{"none", "vtp", "ply", "vdb"},
-                                   "of every frame: lines or triangles for ParaView (vtp) or Blender (ply), or in space a "
-                                   "level set (vdb, with OpenVDB)",
-                                   "none");
+  const auto format =
+      input.choice("surface", std::vector<std::string>{"none", "vtp", "ply", "vdb"},
+                   "of every frame: lines or triangles for ParaView (vtp) or Blender (ply), or in space a "
+                   "level set (vdb, with OpenVDB)",
+                   "none");
   if (format != "vdb") return format;
   if (dimension == 2) {
     input.problem("surface", "level sets are of scenes in space", "vtp or ply in the plane", shown(Json("vdb")));

@@ -188,9 +188,8 @@ void FactorizeVelocity<Dim>::operator()(Read<node::Mass> m_i, Read<matrix::Node>
 
 template <int Dim>
 void FactorizePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed,
-                                        Read<node::Mass> m_i, Read<node::Site<Dim>> site,
-                                        Read<node::Capacity> capacity, Read<matrix::Node> node,
-                                        Read<matrix::Divergence<Dim>> divergence,
+                                        Read<node::Mass> m_i, Read<node::Site<Dim>> site, Read<node::Capacity> capacity,
+                                        Read<matrix::Node> node, Read<matrix::Divergence<Dim>> divergence,
                                         Read<matrix::StabilizationScale> scale,
                                         Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                                         Read<SchurOperator<Dim>> schur, Write<PressureFactors<Dim>> factors) const {

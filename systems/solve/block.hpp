@@ -65,8 +65,9 @@ struct FactorizePressure {
   static constexpr std::string_view doc = "(E56) (E57) preconditioner of the pressure";
   void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed, Read<node::Mass> m_i,
                   Read<node::Site<Dim>> site, Read<node::Capacity> capacity, Read<matrix::Node> node,
-                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
-                  Read<SchurOperator<Dim>> schur, Write<PressureFactors<Dim>> factors) const;
+                  Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
+                  Optional<Read<matrix::Viscosity<Dim>>> viscosity, Read<SchurOperator<Dim>> schur,
+                  Write<PressureFactors<Dim>> factors) const;
 };
 
 /// The operators are read for products with the viscous part, and for the fallback.

@@ -29,7 +29,7 @@ openvdb::Vec3SGrid::Ptr velocities(const ParticleSurface<3>& surface, const open
   for (auto voxel = distance.cbeginValueOn(); voxel; ++voxel) {
     Vec<3> mean = Vec<3>::Zero();
     for (const std::uint32_t corner :
-         surface.outline.elements[static_cast<std::size_t>(triangle_at.getValue(voxel.getCoord()))]) {
+         surface.outline.element[static_cast<std::size_t>(triangle_at.getValue(voxel.getCoord()))]) {
       mean += surface.velocity[corner] / 3;
     }
     into.setValue(voxel.getCoord(), vector_of(mean));
@@ -46,8 +46,8 @@ std::string level_set_of(const ParticleSurface<3>& surface, double voxel) {
   const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
   std::vector<openvdb::Vec3s> points;  // [voxel]
   std::vector<openvdb::Vec4I> triangles;
-  for (const Vec<3>& x : surface.outline.points) points.push_back(vector_of(x / voxel));
-  for (const auto& corners : surface.outline.elements) {
+  for (const Vec<3>& x : surface.outline.point) points.push_back(vector_of(x / voxel));
+  for (const auto& corners : surface.outline.element) {
     triangles.emplace_back(corners[0], corners[1], corners[2], openvdb::util::INVALID_IDX);
   }
   const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec4I> mesh(points, triangles);

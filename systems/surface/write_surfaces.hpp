@@ -20,9 +20,9 @@ struct SurfaceOutput {
   static constexpr ComponentInfo info{"surface.output", "", "", Lifetime::constant};
 };
 
-/// (E111) as surface/NNNN.vtp, .ply or .vdb, NNNN the number of the frame; of VTP also surface.pvd with the times of all. Of
-/// several ranks the first one gathers the particles of all and writes.
-/// \throws std::runtime_error if a file cannot be written
+/// (E111) as surface/NNNN.vtp, .ply or .vdb, NNNN the number of the frame; of VTP also surface.pvd with the times of
+/// all. Of several ranks the first one gathers the particles of all and writes. \throws std::runtime_error if a file
+/// cannot be written
 template <int Dim>
 struct WriteSurfaces {
   static constexpr std::string_view doc = "(E111) the surface of a frame, to a file";

@@ -168,7 +168,7 @@ TEST_CASE("block solve in two dimensions", "[!benchmark][roofline][solve]") {
 
 TEST_CASE("block solve in three dimensions", "[!benchmark][roofline][solve]") {
   // A tolerance that the pressure of the step before does not meet.
-  measure_solve<3>("dam_break_3d.json",
-                   {R"(/discretization={"scheme": "equal_order"})", R"(/solver={"scheme": "block", "tolerance": 1e-11})"},
-                   5);
+  measure_solve<3>(
+      "dam_break_3d.json",
+      {R"(/discretization={"scheme": "equal_order"})", R"(/solver={"scheme": "block", "tolerance": 1e-11})"}, 5);
 }

@@ -53,7 +53,6 @@ minamo_import(suitesparse umfpack.h LIBRARIES umfpack cholmod suitesparseconfig 
 target_link_libraries(minamo::suitesparse INTERFACE minamo::blas gomp)
 if(MINAMO_OPENVDB)
   minamo_import(openvdb openvdb/openvdb.h LIBRARIES openvdb)
-  target_compile_definitions(minamo::openvdb INTERFACE MINAMO_OPENVDB)
   set(minamo_openvdb minamo::openvdb)
 endif()
 minamo_import(hdf5 hdf5.h LIBRARIES hdf5 SUFFIXES hdf5/serial)
