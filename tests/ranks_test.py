@@ -167,6 +167,13 @@ class Alike(unittest.TestCase):
             self.check("marked", SCENES / "dam_break.json", [*DAM_BREAK, "--set", "/time/end=0.1"], [3])
             self.check("marked_space", SCENES / "dam_break_3d.json", [*SPACE, "--set", "/time/end=0.05"], [3])
 
+    def test_thick_liquids(self):
+        thick = ["--set", "/fluid/viscosity=100", "--set", "/time/end=0.2"]
+        self.check("thick", SCENES / "dam_break.json", [*DAM_BREAK, *thick], [2, 3])
+        sticky = [*thick, "--set", '/walls="no_slip"', "--set", "/time/end=0.1"]
+        with unittest.mock.patch.dict(os.environ, {"MINAMO_MARK_UNKNOWN": "1"}):
+            self.check("sticky", SCENES / "dam_break_3d.json", [*SPACE, *sticky], [3])
+
     def test_probes_see_the_same(self):
         options = ["--set", "/time={\"end\": 0.1, \"step\": 0.005}", "--set", "/particles/0/per_cell=2", "--set",
                    "/fluid/viscosity=1e-3", "--set", "/solver={\"tolerance\": 1e-12}"]

@@ -27,6 +27,7 @@ struct FrictionSystem {
   std::span<const std::int32_t> row;
   Passage<Dim> passage;
   FrictionWork<Dim>& work;
+  const SiteExchange* shared = nullptr;
   bool has_streams = false;
 
   bool walls_rub() const { return friction.cut != nullptr; }
@@ -43,7 +44,26 @@ struct FrictionSystem {
     } else {
       std::fill(out.begin(), out.end(), 0.0);
       apply_friction<Dim>(friction, v.data(), out.data());
+      add_up_faces(out);
     }
+  }
+  /// What every rank has of its cells.
+  void add_up_faces(Values& out) const {
+    if (shared != nullptr) shared->add_up(Dim, [&](std::size_t i) { return &out[Dim * i]; });
+  }
+  /// A sum over the faces of all ranks, each once.
+  template <class Value>
+  double sum_of_faces(const Value& value) const {
+    if (shared == nullptr) return reduce_rows(work.mass.size(), 0.0, value, std::plus<>());
+    return shared->ranks().sum(reduce_rows(
+        work.mass.size(), 0.0, [&](std::size_t f) { return shared->owns(f / Dim) ? value(f) : 0; }, std::plus<>()));
+  }
+  double product(const Values& x, const Values& y) const {
+    return sum_of_faces([&](std::size_t f) { return x[f] * y[f]; });
+  }
+  /// In the norm of G^-1.
+  double size_of(const Values& x) const {
+    return std::sqrt(sum_of_faces([&](std::size_t f) { return work.per_g[f] * x[f] * x[f]; }));
   }
   /// G^-1 by face, and the ties: as stiff as whole cells around.
   void precondition() const {
@@ -54,6 +74,7 @@ struct FrictionSystem {
       });
     };
     add_diagonal(work.per_g, [&](std::size_t c) { return friction.matrix_of(c); });
+    add_up_faces(work.per_g);
     if (walls_rub()) {
       add_diagonal(work.tie,
                    [&](std::size_t c) { return friction.matrices.of(friction.splines, friction.cells.cells[c].node); });
@@ -73,11 +94,11 @@ struct FrictionSystem {
   /// G z = r - B^T y with B z = 0; r becomes r - B^T y. \return r . z
   double project(double tolerance) const {
     find_divergence([&](std::size_t f) { return work.per_g[f] * work.r[f]; });
-    work.multipliers.solve(work.divergence, tolerance, work.y);
+    work.multipliers->solve(work.divergence, tolerance, work.y);
     add_scaled(1, work.y, work.sum_of_y);
     subtract_gradient(work.y, work.r);
     for_each_row(work.r.size(), [&](std::size_t f) { work.z[f] = work.per_g[f] * work.r[f]; });
-    return dot(work.r, work.z);
+    return product(work.r, work.z);
   }
   /// (E119) pays where a tenth of many faces have much more friction than inertia.
   bool is_stiff() const {
@@ -95,7 +116,7 @@ struct FrictionSystem {
   double add_streams(double left) const {
     if (!has_streams) return left;
     work.streams.correct(work.r, work.z);
-    return dot(work.r, work.z);
+    return product(work.r, work.z);
   }
   /// B a v
   template <class VelocityOf>
@@ -139,7 +160,7 @@ struct FrictionSystem {
     apply(work.v, work.product);
     for_each_row(work.f.size(), [&](std::size_t f) { work.r[f] = work.f[f] - work.product[f]; });
     subtract_gradient(work.sum_of_y, work.r);
-    return std::sqrt(weighted_square(work.per_g, work.r));
+    return size_of(work.r);
   }
   /// Improves v, B v = 0, until |f - A v + B^T lambda| <= target in the norm of G^-1. \return iterations
   std::int64_t solve(double target) const {
@@ -147,10 +168,10 @@ struct FrictionSystem {
     for_each_row(work.f.size(), [&](std::size_t f) { work.r[f] = work.f[f] - work.product[f]; });
     std::fill(work.sum_of_y.begin(), work.sum_of_y.end(), 0.0);
     work.start = work.v;
-    const auto tolerance_for = [&](double square) {
-      return std::clamp(share_of_projection * target / std::sqrt(square), finest_projection, coarsest_projection);
+    const auto tolerance_for = [&](double size) {
+      return std::clamp(share_of_projection * target / size, finest_projection, coarsest_projection);
     };
-    double left = project(tolerance_for(weighted_square(work.per_g, work.r)));
+    double left = project(tolerance_for(size_of(work.r)));
     double sloped = add_streams(left);
     work.direction = work.z;
     for (std::int64_t k = 0;; ++k) {
@@ -159,10 +180,10 @@ struct FrictionSystem {
         return k;
       }
       apply(work.direction, work.product);
-      const double step = sloped / dot(work.direction, work.product);
+      const double step = sloped / product(work.direction, work.product);
       add_scaled(step, work.direction, work.v);
       add_scaled(-step, work.product, work.r);
-      left = project(tolerance_for(left));
+      left = project(tolerance_for(std::sqrt(left)));
       const double before = std::exchange(sloped, add_streams(left));
       for_each_row(work.z.size(),
                    [&](std::size_t f) { work.direction[f] = work.z[f] + sloped / before * work.direction[f]; });
@@ -171,7 +192,7 @@ struct FrictionSystem {
   /// What projections have left of the divergence of the change since the start.
   void take_divergence_out() const {
     find_divergence([&](std::size_t f) { return work.v[f] - work.start[f]; });
-    work.multipliers.solve(work.divergence, finest_projection, work.y);
+    work.multipliers->solve(work.divergence, finest_projection, work.y);
     std::fill(work.z.begin(), work.z.end(), 0.0);
     subtract_gradient(work.y, work.z);
     for_each_row(work.v.size(), [&](std::size_t f) { work.v[f] += work.per_g[f] * work.z[f]; });
@@ -200,7 +221,8 @@ void SolveFriction<Dim>::operator()(
     Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest, Read<cell::Viscosity> mu_c,
     Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
     Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
-    Read<unknown::NullVector> null_vector, Read<multiplier::Row> row, Update<FrictionWork<Dim>> work,
+    Read<unknown::NullVector> null_vector, Read<multiplier::Row> row, Optional<Read<SiteExchange>> shared,
+    Update<FrictionWork<Dim>> work,
     Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda, Write<FrictionOnWalls<Dim>> on_walls,
     Update<SolveReport> report) const {
   const double per_tau = rates->acceleration / rates->velocity;
@@ -211,7 +233,8 @@ void SolveFriction<Dim>::operator()(
                              of_unknown.span(),
                              row.span(),
                              {open.span(), {}},
-                             *work};
+                             *work,
+                             of_ranks(shared)};
   if (walls_rub) {
     system.friction.extension = &*extension;
     system.friction.cut = &*cut;
@@ -229,11 +252,13 @@ void SolveFriction<Dim>::operator()(
   });
   system.precondition();
   if (walls_rub) system.subtract_moving_walls();
-  work->multipliers.prepare(*splines, system.incidence,
-                            {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span()},
-                            work->through);
+  if (!work->multipliers) work->multipliers = new_multipliers<Dim>(system.shared);
+  work->multipliers->prepare(
+      *splines, system.incidence,
+      {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span(), system.shared},
+      work->through);
   if constexpr (Dim == 2) {
-    if (system.is_stiff()) {
+    if (!shared && system.is_stiff()) {
       // Of faces that bodies cut the streams take no part.
       for_each_row(work->z.size(), [&](std::size_t f) {
         work->z[f] = system.passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) < 1 ? 0 : work->mass[f];
@@ -242,7 +267,7 @@ void SolveFriction<Dim>::operator()(
       system.has_streams = true;
     }
   }
-  const double size = std::sqrt(weighted_square(work->per_g, work->f));
+  const double size = system.size_of(work->f);
   report->iterations = system.solve(tolerance->relative * size);
   if (size > 0) report->residual = std::max(report->residual, system.residual() / size);
   on_walls->of.assign(walls_rub ? cut->motion.size() : 0, RigidVector<Dim>::Zero());

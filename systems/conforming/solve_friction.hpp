@@ -22,12 +22,14 @@
 #include "systems/conforming/multiplier_matrix.hpp"
 #include "systems/krylov/gmres.hpp"
 
+#include <memory>
+
 namespace minamo {
 
 /// Room for a solve.
 template <int Dim>
 struct FrictionWork {
-  MultiplierMatrix<Dim> multipliers;
+  std::unique_ptr<MultiplierMatrix<Dim>> multipliers;
   CoarseStreams streams;  ///< in the plane
   Values mass, per_g;     ///< m/tau, 0 at faces that walls hold; G^-1
   Values through;         ///< a_f^2 G^-1
@@ -52,7 +54,8 @@ struct SolveFriction {
                   Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
                   Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
                   Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::NullVector> null_vector,
-                  Read<multiplier::Row> row, Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
+                  Read<multiplier::Row> row, Optional<Read<SiteExchange>> shared,
+                  Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
                   Update<multiplier::Force> lambda, Write<FrictionOnWalls<Dim>> on_walls,
                   Update<SolveReport> report) const;
 };

@@ -42,7 +42,7 @@ Contribution read_random_map(Input& input, Scene&) {
 int main(int argc, char** argv) {
   const MpiSession session;
   return run(argc, argv, [](SystemRegistry& registry) {
-    registry.add<SolveMultipliersPetsc>("solve_multipliers_petsc");
+    add_petsc(registry);
     registry.add(Part{"random_map", "which rank has which block", read_random_map});
   });
 }

@@ -4,7 +4,5 @@
 
 int main(int argc, char** argv) {
   const minamo::MpiSession session;
-  return minamo::run(argc, argv, [](minamo::SystemRegistry& registry) {
-    registry.add<minamo::SolveMultipliersPetsc>("solve_multipliers_petsc");
-  });
+  return minamo::run(argc, argv, minamo::add_petsc);
 }

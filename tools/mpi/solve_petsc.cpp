@@ -35,6 +35,21 @@ void set_options_of_multigrid() {
   }
 }
 
+/// The matrix of all ranks as one of them sees it, between the unknowns that it knows.
+template <int Dim>
+struct MatrixOfRanks {
+  const SiteExchange& shared;
+  std::span<const std::uint32_t> of_unknown;  ///< site of every unknown
+  std::span<const typename unknown::Neighbour<Dim>::value_type> neighbour;
+  std::span<const typename unknown::Conductance<Dim>::value_type> conductance;
+  std::span<const double> diagonal, null_vector;
+};
+
+struct Solved {
+  std::int64_t iterations = 0;
+  double residual = 0;  ///< |b - S x| / |b|
+};
+
 }  // namespace
 
 /// Matrix and vectors of a step. The solver itself stays, for its options.
@@ -44,6 +59,9 @@ struct PetscSolver::Impl {
   ::Vec right = nullptr;
   ::Vec solution = nullptr;
   MatNullSpace null_space = nullptr;
+  std::vector<std::size_t> own;    ///< unknowns that this rank answers for: its rows of the matrix and of vectors
+  std::vector<PetscInt> number;    ///< of every unknown among those of all ranks; -1: no rank owns it
+  PetscInt all = 0;                ///< unknowns of all ranks
 
   Impl() {
     check(KSPCreate(PETSC_COMM_WORLD, &solver));
@@ -71,55 +89,100 @@ struct PetscSolver::Impl {
     VecDestroy(&solution);
     MatNullSpaceDestroy(&null_space);
   }
+
+  template <int Dim>
+  void set(const MatrixOfRanks<Dim>& of) {
+    forget();
+    number_unknowns(of.shared, of.of_unknown);
+    if (all == 0) return;
+    const auto rows = static_cast<PetscInt>(own.size());
+    check(MatCreateAIJ(PETSC_COMM_WORLD, rows, rows, all, all, 2 * Dim + 1, nullptr, 2 * Dim, nullptr, &matrix));
+    check(MatCreateVecs(matrix, &solution, &right));
+    for (const std::size_t l : own) set_row<Dim>(of, l);
+    check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+    check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
+    note_closed_box(of.shared, of.null_vector, of.diagonal);
+    check(KSPSetOperators(solver, matrix, matrix));
+  }
+  /// \param b    of an unknown
+  /// \param use  use(unknown, x) for those that this rank owns; not called where b is zero on all ranks
+  template <class SourceOf, class Use>
+  Solved solve(const SourceOf& b, double tolerance, const Use& use) {
+    double* values = nullptr;
+    check(VecGetArray(right, &values));
+    for (std::size_t k = 0; k < own.size(); ++k) values[k] = b(own[k]);
+    check(VecRestoreArray(right, &values));
+    if (null_space != nullptr) check(MatNullSpaceRemove(null_space, right));
+    double size = 0;
+    check(VecNorm(right, NORM_2, &size));
+    if (size == 0) return {};
+    check(KSPSetTolerances(solver, tolerance, 0, PETSC_DEFAULT, most_iterations));
+    check(KSPSolve(solver, right, solution));
+    PetscInt iterations = 0;
+    double residual = 0;
+    check(KSPGetIterationNumber(solver, &iterations));
+    check(KSPGetResidualNorm(solver, &residual));
+    const double* x = nullptr;
+    check(VecGetArrayRead(solution, &x));
+    for (std::size_t k = 0; k < own.size(); ++k) use(own[k], x[k]);
+    check(VecRestoreArrayRead(solution, &x));
+    return {iterations, residual / size};
+  }
+
+ private:
+  void number_unknowns(const SiteExchange& shared, std::span<const std::uint32_t> of_unknown) {
+    own.clear();
+    for (std::size_t l = 0; l < of_unknown.size(); ++l) {
+      if (shared.owns(of_unknown[l])) own.push_back(l);
+    }
+    all = static_cast<PetscInt>(shared.ranks().sum(static_cast<std::int64_t>(own.size())));
+    auto next = static_cast<double>(shared.ranks().sum_below(static_cast<std::int64_t>(own.size()))) + 1;
+    std::vector<double> one_past(shared.rows(), 0);
+    for (const std::size_t l : own) one_past[of_unknown[l]] = next++;
+    shared.copy_from_owner(std::span(one_past));
+    number.clear();
+    for (const std::uint32_t i : of_unknown) number.push_back(static_cast<PetscInt>(one_past[i]) - 1);
+  }
+  template <int Dim>
+  void set_row(const MatrixOfRanks<Dim>& of, std::size_t l) {
+    const auto set = [&](PetscInt column, double value) {
+      check(MatSetValues(matrix, 1, &number[l], 1, &column, &value, INSERT_VALUES));
+    };
+    set(number[l], of.diagonal[l]);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto set_neighbour = [&](std::int32_t m, bool is_below) {
+        if (m == staggered::none) return;
+        const auto other = static_cast<std::size_t>(m);
+        if (number[other] >= 0) set(number[other], -of.conductance[is_below ? other : l][d]);
+      };
+      set_neighbour(of.neighbour[l][2 * d], true);
+      set_neighbour(of.neighbour[l][2 * d + 1], false);
+    }
+  }
+  /// Sets the null space where walls enclose the liquid all around: S n = 0.
+  void note_closed_box(const SiteExchange& shared, std::span<const double> null_vector,
+                       std::span<const double> diagonal) {
+    double* values = nullptr;
+    double largest = 0;
+    check(VecGetArray(right, &values));
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      values[k] = null_vector[own[k]];
+      largest = std::max(largest, diagonal[own[k]] * null_vector[own[k]]);
+    }
+    check(VecRestoreArray(right, &values));
+    check(MatMult(matrix, right, solution));
+    double left = 0;
+    check(VecNorm(solution, NORM_INFINITY, &left));
+    if (left > 1e-10 * shared.ranks().largest(largest)) return;
+    check(VecNormalize(right, nullptr));
+    check(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, 1, &right, &null_space));
+    check(MatSetNullSpace(matrix, null_space));
+    // The space holds on to this vector.
+    check(VecDestroy(&right));
+    check(MatCreateVecs(matrix, nullptr, &right));
+  }
 };
-
-namespace {
-
-/// The unknowns that this rank answers for, in their order: its rows of the matrix and of vectors.
-std::vector<std::size_t> own_unknowns(const SiteExchange& shared, std::span<const std::uint32_t> of_unknown) {
-  std::vector<std::size_t> own;
-  for (std::size_t l = 0; l < of_unknown.size(); ++l) {
-    if (shared.owns(of_unknown[l])) own.push_back(l);
-  }
-  return own;
-}
-
-/// Numbers of the unknowns among those of all ranks; none of what no rank owns. \param sites  rows of their table
-std::vector<PetscInt> number_globally(const SiteExchange& shared, std::size_t sites,
-                                      std::span<const std::uint32_t> of_unknown, std::span<const std::size_t> own) {
-  auto next = static_cast<double>(shared.ranks().sum_below(static_cast<std::int64_t>(own.size()))) + 1;
-  std::vector<double> one_past(sites, 0);
-  for (const std::size_t l : own) one_past[of_unknown[l]] = next++;
-  shared.copy_from_owner(std::span(one_past));
-  std::vector<PetscInt> number;
-  for (const std::uint32_t i : of_unknown) number.push_back(static_cast<PetscInt>(one_past[i]) - 1);
-  return number;
-}
-
-/// Sets the null space where walls enclose the liquid all around: S n = 0.
-void note_closed_box(PetscSolver::Impl& petsc, const SiteExchange& shared, std::span<const std::size_t> own,
-                     std::span<const double> null_vector, std::span<const double> diagonal) {
-  double* values = nullptr;
-  double largest = 0;
-  check(VecGetArray(petsc.right, &values));
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    values[k] = null_vector[own[k]];
-    largest = std::max(largest, diagonal[own[k]] * null_vector[own[k]]);
-  }
-  check(VecRestoreArray(petsc.right, &values));
-  check(MatMult(petsc.matrix, petsc.right, petsc.solution));
-  double left = 0;
-  check(VecNorm(petsc.solution, NORM_INFINITY, &left));
-  if (left > 1e-10 * shared.ranks().largest(largest)) return;
-  check(VecNormalize(petsc.right, nullptr));
-  check(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, 1, &petsc.right, &petsc.null_space));
-  check(MatSetNullSpace(petsc.matrix, petsc.null_space));
-  // The space holds on to this vector.
-  check(VecDestroy(&petsc.right));
-  check(MatCreateVecs(petsc.matrix, nullptr, &petsc.right));
-}
-
-}  // namespace
 
 template <int Dim>
 void SolveMultipliersPetsc<Dim>::operator()(Read<SiteExchange> shared, Read<SolverTolerance> tolerance,
@@ -129,64 +192,54 @@ void SolveMultipliersPetsc<Dim>::operator()(Read<SiteExchange> shared, Read<Solv
                                             Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector,
                                             Read<unknown::Source> source, Update<PetscSolver> solver,
                                             Write<unknown::Solution> solution, Write<SolveReport> report) const {
-  const std::vector<std::size_t> own = own_unknowns(*shared, of_unknown.span());
-  const auto rows = static_cast<PetscInt>(own.size());
-  const auto all = static_cast<PetscInt>(shared->ranks().sum(static_cast<std::int64_t>(rows)));
-  const auto number = number_globally(*shared, row.size(), of_unknown.span(), own);
-  *report = {.unknowns = all, .active = all, .iterations = 0, .residual = 0};
-  for (auto& x : solution) x = {};
-  if (all == 0) return;
-
   auto& petsc = solver->impl();
-  petsc.forget();
-  check(MatCreateAIJ(PETSC_COMM_WORLD, rows, rows, all, all, 2 * Dim + 1, nullptr, 2 * Dim, nullptr, &petsc.matrix));
-  check(MatCreateVecs(petsc.matrix, &petsc.solution, &petsc.right));
-  for (const std::size_t l : own) {
-    const auto set = [&](PetscInt column, double value) {
-      check(MatSetValues(petsc.matrix, 1, &number[l], 1, &column, &value, INSERT_VALUES));
-    };
-    set(number[l], diagonal[l]);
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const auto set_neighbour = [&](std::int32_t m, bool is_below) {
-        if (m == staggered::none) return;
-        const auto other = static_cast<std::size_t>(m);
-        if (number[other] >= 0) set(number[other], -conductance[is_below ? other : l][d]);
-      };
-      set_neighbour(neighbour[l][2 * d], true);
-      set_neighbour(neighbour[l][2 * d + 1], false);
-    }
-  }
-  check(MatAssemblyBegin(petsc.matrix, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(petsc.matrix, MAT_FINAL_ASSEMBLY));
-  check(MatSetOption(petsc.matrix, MAT_SPD, PETSC_TRUE));
-  note_closed_box(petsc, *shared, own, null_vector.span(), diagonal.span());
-  check(KSPSetOperators(petsc.solver, petsc.matrix, petsc.matrix));
-  check(KSPSetTolerances(petsc.solver, tolerance->relative, 0, PETSC_DEFAULT, most_iterations));
-
+  petsc.set(MatrixOfRanks<Dim>{*shared, of_unknown.span(), neighbour.span(), conductance.span(), diagonal.span(),
+                               null_vector.span()});
+  *report = {.unknowns = petsc.all, .active = petsc.all, .iterations = 0, .residual = 0};
+  for (auto& x : solution) x = {};
+  if (petsc.all == 0) return;
   std::vector<Sources> of_site(row.size(), Sources{});
   for (std::size_t s = 0; s < most_sources; ++s) {
-    double* values = nullptr;
-    check(VecGetArray(petsc.right, &values));
-    for (std::size_t k = 0; k < own.size(); ++k) values[k] = source[own[k]][s];
-    check(VecRestoreArray(petsc.right, &values));
-    if (petsc.null_space != nullptr) check(MatNullSpaceRemove(petsc.null_space, petsc.right));
-    double size = 0;
-    check(VecNorm(petsc.right, NORM_2, &size));
-    if (size == 0) continue;
-    check(KSPSolve(petsc.solver, petsc.right, petsc.solution));
-    PetscInt iterations = 0;
-    double residual = 0;
-    check(KSPGetIterationNumber(petsc.solver, &iterations));
-    check(KSPGetResidualNorm(petsc.solver, &residual));
-    report->iterations = std::max<std::int64_t>(report->iterations, iterations);
-    report->residual = std::max(report->residual, residual / size);
-    const double* x = nullptr;
-    check(VecGetArrayRead(petsc.solution, &x));
-    for (std::size_t k = 0; k < own.size(); ++k) of_site[of_unknown[own[k]]][s] = x[k];
-    check(VecRestoreArrayRead(petsc.solution, &x));
+    const Solved solved = petsc.solve([&](std::size_t l) { return source[l][s]; }, tolerance->relative,
+                                      [&](std::size_t l, double x) { of_site[of_unknown[l]][s] = x; });
+    report->iterations = std::max(report->iterations, solved.iterations);
+    report->residual = std::max(report->residual, solved.residual);
   }
   shared->copy_from_owner(std::span(of_site));
-  for (std::size_t l = 0; l < number.size(); ++l) solution[l] = of_site[of_unknown[l]];
+  for (std::size_t l = 0; l < solution.size(); ++l) solution[l] = of_site[of_unknown[l]];
+}
+
+template <int Dim>
+void PetscMultiplierMatrix<Dim>::start(const Splines<Dim>&, const Graph& graph) {
+  graph_ = graph;
+  solver_.impl().set(MatrixOfRanks<Dim>{*graph.shared, graph.staggered, graph.neighbour, this->conductance_,
+                                        this->diagonal_, graph.null_vector});
+}
+
+template <int Dim>
+void PetscMultiplierMatrix<Dim>::solve(std::span<const double> b, double tolerance, std::span<double> x) {
+  std::fill(x.begin(), x.end(), 0.0);
+  if (solver_.impl().all == 0) return;
+  std::vector<double> of_site(graph_.shared->rows(), 0.0);
+  solver_.impl().solve([&](std::size_t l) { return b[l]; }, tolerance,
+                       [&](std::size_t l, double value) { of_site[graph_.staggered[l]] = value; });
+  graph_.shared->copy_from_owner(std::span(of_site));
+  for (std::size_t l = 0; l < x.size(); ++l) x[l] = of_site[graph_.staggered[l]];
+}
+
+namespace {
+
+template <int Dim>
+std::unique_ptr<MultiplierMatrix<Dim>> new_petsc_matrix() {
+  return std::make_unique<PetscMultiplierMatrix<Dim>>();
+}
+
+}  // namespace
+
+void add_petsc(SystemRegistry& registry) {
+  registry.add<SolveMultipliersPetsc>("solve_multipliers_petsc");
+  set_multipliers_of_ranks<2>(new_petsc_matrix<2>);
+  set_multipliers_of_ranks<3>(new_petsc_matrix<3>);
 }
 
 PetscSolver::PetscSolver() = default;
@@ -201,5 +254,7 @@ PetscSolver::Impl& PetscSolver::impl() {
 
 template struct SolveMultipliersPetsc<2>;
 template struct SolveMultipliersPetsc<3>;
+template class PetscMultiplierMatrix<2>;
+template class PetscMultiplierMatrix<3>;
 
 }  // namespace minamo

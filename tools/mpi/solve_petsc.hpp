@@ -1,12 +1,14 @@
 #pragma once
 /// \file
-/// (E79) on several ranks: conjugate gradients of PETSc with an algebraic multigrid of hypre.
+/// (E79) on several ranks, and the projections of (E82): conjugate gradients of PETSc with an algebraic multigrid of
+/// hypre.
 
 #include "components/staggered.hpp"
 #include "components/step.hpp"
 #include "engine/linear_solver.hpp"
+#include "engine/registry.hpp"
 #include "engine/system.hpp"
-#include "systems/conforming/staggered_laplacian.hpp"
+#include "systems/conforming/multiplier_matrix.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 #include <memory>
@@ -39,5 +41,22 @@ struct SolveMultipliersPetsc {
                   Read<unknown::NullVector> null_vector, Read<unknown::Source> source, Update<PetscSolver> solver,
                   Write<unknown::Solution> solution, Write<SolveReport> report) const;
 };
+
+/// What projects velocities of a stiff liquid on all ranks; every rank has the solutions of the unknowns that it knows.
+template <int Dim>
+class PetscMultiplierMatrix final : public MultiplierMatrix<Dim> {
+ public:
+  using typename MultiplierMatrix<Dim>::Graph;
+  void solve(std::span<const double> b, double tolerance, std::span<double> x) override;
+
+ private:
+  void start(const Splines<Dim>& splines, const Graph& graph) override;
+
+  PetscSolver solver_;
+  Graph graph_;
+};
+
+/// Makes PETSc what solves on several ranks.
+void add_petsc(SystemRegistry& registry);
 
 }  // namespace minamo
