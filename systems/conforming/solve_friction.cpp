@@ -222,9 +222,8 @@ void SolveFriction<Dim>::operator()(
     Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
     Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
     Read<unknown::NullVector> null_vector, Read<multiplier::Row> row, Optional<Read<SiteExchange>> shared,
-    Update<FrictionWork<Dim>> work,
-    Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda, Write<FrictionOnWalls<Dim>> on_walls,
-    Update<SolveReport> report) const {
+    Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda,
+    Write<FrictionOnWalls<Dim>> on_walls, Update<SolveReport> report) const {
   const double per_tau = rates->acceleration / rates->velocity;
   const bool walls_rub = static_cast<bool>(cut);
   resize(*work, Dim * v_f.size(), of_unknown.size(), walls_rub);

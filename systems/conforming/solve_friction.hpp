@@ -54,10 +54,9 @@ struct SolveFriction {
                   Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
                   Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
                   Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::NullVector> null_vector,
-                  Read<multiplier::Row> row, Optional<Read<SiteExchange>> shared,
-                  Update<FrictionWork<Dim>> work, Update<face::BalanceVelocity<Dim>> v_f,
-                  Update<multiplier::Force> lambda, Write<FrictionOnWalls<Dim>> on_walls,
-                  Update<SolveReport> report) const;
+                  Read<multiplier::Row> row, Optional<Read<SiteExchange>> shared, Update<FrictionWork<Dim>> work,
+                  Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda,
+                  Write<FrictionOnWalls<Dim>> on_walls, Update<SolveReport> report) const;
 };
 
 }  // namespace minamo

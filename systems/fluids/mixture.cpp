@@ -11,8 +11,10 @@ template <int Dim>
 void FindFaceDensity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                                       Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                       Read<particle::Mass> m_p, Read<particle::Volume> V_p,
-                                      Write<face::LiquidVolume<Dim>> V_f, Write<face::Density<Dim>> rho_f) const {
-  scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), V_p.span()}, V_f.span(), rho_f.span(),
+                                      Optional<Read<SiteExchange>> shared, Write<face::LiquidVolume<Dim>> V_f,
+                                      Write<face::Density<Dim>> rho_f) const {
+  scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), V_p.span(), of_ranks(shared)}, V_f.span(),
+                    rho_f.span(),
                     [&](std::size_t p) { return series::Constant<Dim>{Vec<Dim>::Constant(m_p[p] / V_p[p])}; });
 }
 

@@ -10,6 +10,7 @@
 #include "systems/conforming/cut_friction.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/conforming/support.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -19,7 +20,8 @@ struct FindFaceDensity {
   static constexpr std::string_view doc = "(E118) density of the liquids around faces";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Volume> V_p,
-                  Write<face::LiquidVolume<Dim>> V_f, Write<face::Density<Dim>> rho_f) const;
+                  Optional<Read<SiteExchange>> shared, Write<face::LiquidVolume<Dim>> V_f,
+                  Write<face::Density<Dim>> rho_f) const;
 };
 
 /// (E118)  mu_c = sum_k V_k/sum_k (V_k/mu_k) over the liquids of a cell, mu_k of a liquid by (E96) where it depends on

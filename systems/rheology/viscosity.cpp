@@ -97,15 +97,21 @@ void KeepBalanceVelocity<Dim>::operator()(Read<face::BalanceVelocity<Dim>> v_f,
 
 template <int Dim>
 void CompareBalanceVelocity<Dim>::operator()(Read<Rheology> rheology, Read<face::BalanceVelocity<Dim>> v_f,
-                                             Update<ViscosityLoop> loop,
+                                             Optional<Read<SiteExchange>> shared, Update<ViscosityLoop> loop,
                                              Update<face::LastBalanceVelocity<Dim>> last) const {
   constexpr double settled = 1e-4;
   double largest = 0;
   double change = 0;
   for (std::size_t i = 0; i < v_f.size(); ++i) {
-    largest = std::max(largest, v_f[i].squaredNorm());
-    change = std::max(change, (v_f[i] - last[i]).squaredNorm());
+    if (owns(of_ranks(shared), i)) {
+      largest = std::max(largest, v_f[i].squaredNorm());
+      change = std::max(change, (v_f[i] - last[i]).squaredNorm());
+    }
     last[i] = v_f[i];
+  }
+  if (shared) {
+    largest = shared->ranks().largest(largest);
+    change = shared->ranks().largest(change);
   }
   // One solve is done before the loop, and one in each pass.
   loop->enough = change <= settled * settled * largest || loop->pass + 2 >= rheology->iterations;

@@ -10,6 +10,7 @@
 #include "systems/conforming/cut_friction.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/conforming/support.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -64,8 +65,8 @@ struct KeepBalanceVelocity {
 template <int Dim>
 struct CompareBalanceVelocity {
   static constexpr std::string_view doc = "(E96) whether the viscosity fits the velocities";
-  void operator()(Read<Rheology> rheology, Read<face::BalanceVelocity<Dim>> v_f, Update<ViscosityLoop> loop,
-                  Update<face::LastBalanceVelocity<Dim>> last) const;
+  void operator()(Read<Rheology> rheology, Read<face::BalanceVelocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
+                  Update<ViscosityLoop> loop, Update<face::LastBalanceVelocity<Dim>> last) const;
 };
 
 }  // namespace minamo

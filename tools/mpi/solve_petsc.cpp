@@ -59,9 +59,9 @@ struct PetscSolver::Impl {
   ::Vec right = nullptr;
   ::Vec solution = nullptr;
   MatNullSpace null_space = nullptr;
-  std::vector<std::size_t> own;    ///< unknowns that this rank answers for: its rows of the matrix and of vectors
-  std::vector<PetscInt> number;    ///< of every unknown among those of all ranks; -1: no rank owns it
-  PetscInt all = 0;                ///< unknowns of all ranks
+  std::vector<std::size_t> own;  ///< unknowns that this rank answers for: its rows of the matrix and of vectors
+  std::vector<PetscInt> number;  ///< of every unknown among those of all ranks; -1: no rank owns it
+  PetscInt all = 0;              ///< unknowns of all ranks
 
   Impl() {
     check(KSPCreate(PETSC_COMM_WORLD, &solver));
