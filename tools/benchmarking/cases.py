@@ -86,11 +86,12 @@ def size_cases() -> list[Case]:
 
 def space_cases() -> list[Case]:
     made = []
-    for cells, threads, steps, repeat in ((32, 1, 10, None), (32, 2, 10, None), (68, 1, 10, 1), (68, 2, 10, 1), (108, 2, 3, 1)):
+    for cells, threads, steps, repeat in ((32, 1, 10, None), (32, 2, 10, None), (68, 1, 10, 1), (68, 2, 10, 1),
+                                          (108, 2, 3, 1)):
         of_scene = NO_FRAMES | {"/grid/cells": [cells, cells // 2, cells], "/time/step": 0.056 / cells}
         label = f"{cells} x {cells // 2} x {cells}, {threads} thread{'s' * (threads > 1)}"
-        made.append(both(f"space_{cells}_{threads}", label, "dam_break_3d", of_scene, repeat, threads=threads, steps=steps,
-                         section="space"))
+        made.append(both(f"space_{cells}_{threads}", label, "dam_break_3d", of_scene, repeat, section="space",
+                         threads=threads, steps=steps))
     return made
 
 

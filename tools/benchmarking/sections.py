@@ -50,7 +50,10 @@ def pairs(rows: list[Row]) -> list[tuple[str, Row, Row]]:
 
 
 def thread_lines(rows: list[Row], what: str, name: str) -> str:
-    """`what` begins the labels, `name` is for the reader. How much faster a step is on two threads, for the runs whose labels differ in the number of threads alone."""
+    """How much faster a step is on two threads, for runs whose labels differ in the number of threads alone.
+
+    `what` begins the labels, `name` is for the reader.
+    """
     by_label = {row["label"]: row for row in rows}
     lines = []
     for method in METHODS:
@@ -74,10 +77,12 @@ def ratios(rows: list[Row]) -> str:
 def beside_peers(rows: list[Row]) -> str:
     lines = []
     for label, conforming, _ in pairs(rows):
+        peers = PEERS.get(label.split()[0])
+        if peers is None:
+            continue
         ours = per_simulated_second(conforming)
-        peers = PEERS.get(label.split()[0], {})
-        lines += [[label, digits(ours)] + [f"{digits(theirs)}: {digits(theirs / ours)}" for theirs in peers.values()]
-                  for _ in range(bool(peers))]
+        lines.append([label, digits(ours)] + [f"{digits(theirs)}: {digits(theirs / ours)}"
+                                              for theirs in peers.values()])
     head = ["run", "minamo [s]", "interFoam: ratio", "apic2d: ratio", "MLS-MPM: ratio"]
     return f"\n{PEERS_TEXT}\n" + table(head, lines) if lines else ""
 
@@ -121,7 +126,7 @@ def below_size(rows: list[Row]) -> str:
             continue
         points = [(row["unknowns_max"], row["step_s"]) for row in of_method]
         least, most = of_method[0], of_method[-1]
-        added = ((most["peak_memory_bytes"] - least["peak_memory_bytes"]) / (most["particles"] - least["particles"]))
+        added = (most["peak_memory_bytes"] - least["peak_memory_bytes"]) / (most["particles"] - least["particles"])
         lines.append(f"With {method} a step costs as (unknowns)^{slope(points):.2f}, fitted over all sizes; "
                      f"^{slope(points[-2:]):.2f} over the two largest. Memory that a particle adds: {added:.0f} bytes.\n")
     return "\n".join(lines)
