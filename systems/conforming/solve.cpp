@@ -97,6 +97,7 @@ SolveReport MultiplierSolver<Dim>::solve(const StaggeredLaplacian<Dim>& matrix, 
     report.iterations = done.iterations;
     report.residual = done.residual;
   }
+  closed_.remove_null_part(null_vector, x);
   return report;
 }
 

@@ -23,7 +23,7 @@ class MultiplierSolver {
 
   /// \throws StepRejected if S is not positive definite.
   void prepare(const StaggeredLaplacian<Dim>& matrix, std::span<const double> null_vector);
-  /// x = S^-1 b up to null vectors and parts of b along them, for the first so many right-hand sides of every row; the
+  /// x = S^-1 b, neither with a part along null vectors, for the first so many right-hand sides of every row; the
   /// others are zero.
   /// \param tolerance  |b - S x| / |b| of every right-hand side [1]
   /// \return unknowns, iterations and the largest residual

@@ -8,6 +8,13 @@ namespace minamo {
 
 namespace {
 
+void remove_null_part(const ClosedComponents& closed, std::span<const double> null_vector, std::vector<double>& x) {
+  std::vector<unknown::Sources> side_by_side(x.size(), unknown::Sources{});
+  for (std::size_t l = 0; l < x.size(); ++l) side_by_side[l][0] = x[l];
+  closed.remove_null_part(null_vector, side_by_side);
+  for (std::size_t l = 0; l < x.size(); ++l) x[l] = side_by_side[l][0];
+}
+
 /// A row of every closed component, and how large its entry on the diagonal is to be.
 std::vector<Grounded> grounded_rows(const ClosedComponents& closed, double tau, std::span<const double> diagonal) {
   std::vector<Grounded> rows;
@@ -73,6 +80,7 @@ void SolveFacesUmfpack<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid,
   solve({}, divergence_of(sources, unknown::damping), damping.span());
   solve({}, divergence_of(sources, unknown::volume), shift.span());
   solve(momentum<Dim>(per_tau, mobility.span(), predictor.span(), damping.span()), {}, v_f.span());
+  remove_null_part(closed, null_vector.span(), of_unknown_row);
   set_force(of_unknown_row, of_unknown.span(), lambda.span());
 }
 
@@ -101,6 +109,7 @@ void SolveFrictionUmfpack<Dim>::operator()(
   const double before = report->residual;
   *report = matrix.solve(force, {}, v_f.span(), of_unknown_row);
   report->residual = std::max(report->residual, before);
+  remove_null_part(closed, null_vector.span(), of_unknown_row);
   set_force(of_unknown_row, of_unknown.span(), lambda.span());
 }
 
