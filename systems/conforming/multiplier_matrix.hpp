@@ -28,7 +28,7 @@ class MultiplierMatrix {
   /// \throws StepRejected if the matrix is not positive definite.
   void prepare(const Splines<Dim>& splines, const Incidence<Dim>& incidence, const Graph& graph,
                std::span<const double> per_d);
-  /// x = (B D^-1 B^T)^-1 b, up to the null vectors of closed boxes.
+  /// x = (B D^-1 B^T)^-1 b, neither with a part along the null vectors of closed boxes.
   /// \param tolerance  |b - B D^-1 B^T x| / |b|, where the matrix is not factorized [1]
   /// \pre what prepare() has seen is still there
   virtual void solve(std::span<const double> b, double tolerance, std::span<double> x) = 0;

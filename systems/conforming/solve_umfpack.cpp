@@ -8,6 +8,7 @@ namespace minamo {
 
 namespace {
 
+/// ClosedComponents' own is for right-hand sides side by side.
 void remove_null_part(const ClosedComponents& closed, std::span<const double> null_vector, std::vector<double>& x) {
   std::vector<unknown::Sources> side_by_side(x.size(), unknown::Sources{});
   for (std::size_t l = 0; l < x.size(); ++l) side_by_side[l][0] = x[l];
