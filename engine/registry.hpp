@@ -20,18 +20,23 @@ class SystemRegistry {
   struct Entry {
     std::string name;
     std::string doc;  ///< `Kernel::doc` where it has one: one line, with the equation's number
-    System (*make_named)(std::string name, int dimension, Input* options);
+    struct Kernel {
+      const detail::Erased* system;
+      std::shared_ptr<const void> (*make)(Input* options);  ///< null if it has neither members nor options
+    };
+    Kernel plane;
+    Kernel space;
     /// \param options  may be null: no options given
-    System make(int dimension, Input* options) const { return make_named(name, dimension, options); }
+    System make(int dimension, Input* options) const;
   };
 
   /// Registers `Kernel<2>` and `Kernel<3>`. A kernel with a constructor from `Input&` reads its options there.
   /// \throws std::logic_error if the name is taken.
   template <template <int> class Kernel>
-  void add(std::string name) {
-    std::string doc;
+  void add(std::string_view name) {
+    std::string_view doc;
     if constexpr (requires { Kernel<2>::doc; }) doc = Kernel<2>::doc;
-    insert({std::move(name), std::move(doc), &instance<Kernel>});
+    insert(name, doc, erased<Kernel<2>>(), erased<Kernel<3>>());
   }
 
   /// Adds something that is chosen by its member `name`, like a transfer scheme.
@@ -78,19 +83,20 @@ class SystemRegistry {
     return found == choices_.end() ? none : std::any_cast<const Registered<Choice>&>(found->second);
   }
 
-  template <template <int> class Kernel>
-  static System instance(std::string name, int dimension, Input* options) {
-    return dimension == 2 ? made<Kernel<2>>(std::move(name), options) : made<Kernel<3>>(std::move(name), options);
+  template <class Kernel>
+  static constexpr Entry::Kernel erased() {
+    constexpr bool bare = std::is_empty_v<Kernel> && !std::is_constructible_v<Kernel, Input&>;
+    return {&detail::Declared<Kernel>::erased, bare ? nullptr : &make_kernel<Kernel>};
   }
   template <class Kernel>
-  static System made(std::string name, Input* options) {
+  static std::shared_ptr<const void> make_kernel(Input* options) {
     if constexpr (std::is_constructible_v<Kernel, Input&>) {
-      if (options) return make_system(std::move(name), Kernel(*options));
+      if (options) return std::make_shared<const Kernel>(*options);
     }
     (void)options;
-    return make_system(std::move(name), Kernel());
+    return std::make_shared<const Kernel>();
   }
-  void insert(Entry entry);
+  void insert(std::string_view name, std::string_view doc, const Entry::Kernel& plane, const Entry::Kernel& space);
 
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::type_index, std::any> choices_;  ///< Registered<Choice> per type

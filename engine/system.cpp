@@ -4,22 +4,24 @@ namespace minamo::detail {
 
 namespace {
 
-std::function<void(World&)> run_without(const Absent& absent, const Erased& erased) {
-  return [run = erased.run, kernel = erased.kernel, absent](World& world) { run(kernel.get(), world, absent); };
+using Kernel = std::shared_ptr<const void>;
+
+std::function<void(World&)> run_without(const Absent& absent, const Erased& erased, const Kernel& kernel) {
+  return [run = erased.run, kernel, absent](World& world) { run(kernel.get(), world, absent); };
 }
 
 }  // namespace
 
-System make_system(std::string name, const Erased& erased) {
+System make_system(std::string name, const Erased& erased, Kernel kernel) {
   System system{std::move(name),
                 {erased.access.begin(), erased.access.end()},
                 [create = erased.create](World& world) {
                   for (const auto create_one : create) create_one(world);
                 },
-                run_without({}, erased)};
-  system.without = [erased, rest = system](const Absent& absent) {
+                run_without({}, erased, kernel)};
+  system.without = [erased, kernel = std::move(kernel), rest = system](const Absent& absent) {
     System less = rest;
-    less.run = run_without(absent, erased);
+    less.run = run_without(absent, erased, kernel);
     std::erase_if(less.access, [&](const Access& access) {
       return access.optional && std::find(absent.begin(), absent.end(), access.component) != absent.end();
     });

@@ -4,6 +4,7 @@
 /// `Update<C>`, `Resize<Table>`. make_system() turns it into what the schedule runs. It cannot touch what it did not
 /// declare.
 
+#include "engine/parallel.hpp"
 #include "engine/world.hpp"
 
 #include <algorithm>
@@ -187,39 +188,39 @@ void create(World& world) {
   if constexpr (!std::is_constructible_v<Arg, World&, const Absent&>) (void)Arg(world);
 }
 
-/// A system without its types: what is compiled once for each is no more than this.
+/// A system without its types: all that is compiled for each is these constants, `run` and the creators.
 struct Erased {
   std::span<const Access> access;
   std::span<void (*const)(World&)> create;  ///< by access
-  std::shared_ptr<const void> kernel;       ///< null if it has no members
   void (*run)(const void* kernel, World& world, const Absent& absent);
 };
-System make_system(std::string name, const Erased& erased);
+/// \param kernel  may be null if it has no members
+System make_system(std::string name, const Erased& erased, std::shared_ptr<const void> kernel);
 
+template <class Kernel, class Call = decltype(&Kernel::operator())>
+struct Declared;
 template <class Kernel, class... Args>
-void run(const void* kernel, World& world, const Absent& absent) {
-  if constexpr (std::is_empty_v<Kernel>) {
-    Kernel{}(view<Args>(world, absent)...);
-  } else {
-    (*static_cast<const Kernel*>(kernel))(view<Args>(world, absent)...);
+struct Declared<Kernel, void (Kernel::*)(Args...) const> {
+  static void run(const void* kernel, World& world, const Absent& absent) {
+    if constexpr (std::is_empty_v<Kernel>) {
+      Kernel{}(view<Args>(world, absent)...);
+    } else {
+      (*static_cast<const Kernel*>(kernel))(view<Args>(world, absent)...);
+    }
   }
-}
-
-template <class Kernel, class... Args>
-System make_system(std::string name, const Kernel& kernel, void (Kernel::*)(Args...) const) {
   static constexpr std::array<Access, sizeof...(Args)> access{Args::access()...};
   static constexpr std::array<void (*)(World&), sizeof...(Args)> creators{&create<Args>...};
-  Erased erased{access, creators, {}, &run<Kernel, Args...>};
-  if constexpr (!std::is_empty_v<Kernel>) erased.kernel = std::make_shared<const Kernel>(kernel);
-  return make_system(std::move(name), erased);
-}
+  static constexpr Erased erased{access, creators, &run};
+};
 
 }  // namespace detail
 
 /// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Optional, Write, Update or Resize.
 template <class Kernel>
 System make_system(std::string name, Kernel kernel = {}) {
-  return detail::make_system(std::move(name), kernel, &Kernel::operator());
+  std::shared_ptr<const void> members;
+  if constexpr (!std::is_empty_v<Kernel>) members = std::make_shared<const Kernel>(std::move(kernel));
+  return detail::make_system(std::move(name), detail::Declared<Kernel>::erased, std::move(members));
 }
 
 }  // namespace minamo

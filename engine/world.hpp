@@ -4,7 +4,6 @@
 /// Systems do not see it; they see what they declare (system.hpp).
 
 #include "engine/component.hpp"
-#include "engine/parallel.hpp"
 
 #include <array>
 #include <map>
@@ -139,6 +138,13 @@ constexpr ValueLayout layout_of() {
   }
 }
 
+/// Row k of `to` becomes row `order[k]` of `from`, or stays as it is if there is none; rows are of `size` bytes. Compiled
+/// once, not for every type of value.
+void gather_rows(std::span<std::byte> to, std::span<const std::byte> from, std::span<const std::uint32_t> order,
+                 std::size_t size);
+void gather_rows(std::span<std::byte> to, std::span<const std::byte> from,
+                 std::span<const std::optional<std::uint32_t>> order, std::size_t size);
+
 /// Whether a change keeps what was there before it.
 enum class Keeping {
   off,
@@ -160,12 +166,12 @@ class ColumnStorage final : public Storage {
   }
   void reorder(std::span<const std::uint32_t> order) override {
     spare_.resize(order.size(), zero<T>());
-    for_each_row(order.size(), [&](std::size_t k) { spare_[k] = values_[order[k]]; });
+    gather(order);
     take_spare();
   }
   void renumber(std::span<const std::optional<std::uint32_t>> from) override {
-    spare_.resize(from.size(), zero<T>());
-    for_each_row(from.size(), [&](std::size_t k) { spare_[k] = from[k] ? values_[*from[k]] : zero<T>(); });
+    spare_.assign(from.size(), zero<T>());
+    gather(from);
     take_spare();
   }
   void mark() override { keeping_ = detail::Keeping::due; }
@@ -200,6 +206,16 @@ class ColumnStorage final : public Storage {
     } else {
       kept_.swap(values_);
       values_.resize(kept_.size(), zero<T>());
+    }
+  }
+  template <class Row>
+  void gather(std::span<const Row> from) {
+    if constexpr (detail::bytes_are_value<T>) {
+      detail::gather_rows(std::as_writable_bytes(std::span(spare_)), std::as_bytes(std::span(values_)), from, sizeof(T));
+    } else {
+      for (std::size_t k = 0; k != from.size(); ++k) {
+        if (const std::optional<std::uint32_t> row = from[k]) spare_[k] = values_[*row];
+      }
     }
   }
   /// The rows in spare_ become the values; the old ones are kept if that is due, which costs nothing.
