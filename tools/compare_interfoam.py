@@ -11,12 +11,13 @@ the middles of cells. That of a run is sum_p V_p N((x - x_p)/h) N((y - y_p)/h) /
 mirrored at the walls, h = 14.6 mm whatever the grid of the run, so that runs can be compared.
 With --mean the mean over all times of the reference up to that one, a single number, as studies want it.
 For scenes with the tank and the column of scenes/dam_break.json; the tank may be a body, turned by an angle, that the
-grid is cut by.
+grid is cut by. A run of scenes/obstacle.json is compared with interFoam over the same obstacle.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -28,12 +29,13 @@ try:
     import h5py
     import numpy as np
 
+    from reporting.overlays import fits
     from reporting.runs import NoResults, Run
 except ModuleNotFoundError as missing:
     sys.exit(f"tools/compare_interfoam.py needs the python module {missing.name}. Type this line, then call it again:\n"
              "  sudo apt-get install --yes --no-install-recommends python3-h5py python3-matplotlib")
 
-REFERENCE = Path(__file__).resolve().parent.parent / "scenes/reference/dam_break_interfoam/alpha_160.npz"
+REFERENCES = Path(__file__).resolve().parent.parent / "scenes/reference"
 TANK = 0.584  # side [m]
 COLUMN = 0.146 * 0.292  # area of the water at the start [m^2]
 WIDTH = TANK / 40  # of the B-spline [m]
@@ -54,13 +56,27 @@ def spread(place: np.ndarray) -> np.ndarray:
     return sum(b_spline((CENTRES - image[:, None]) / WIDTH) for image in images)
 
 
-def water_of_particles(position: np.ndarray, share: np.ndarray) -> np.ndarray:
+def open_share(run: Run) -> np.ndarray:
+    """Share of the B-spline at pixels [y, x] that fixed boxes along the grid leave open; 0 inside of them."""
+    share = np.ones((len(CENTRES), len(CENTRES)))
+    for body in run.scene.get("bodies", []):
+        box = body["shape"].get("box")
+        if not box or box.get("angle") or "motion" in body:
+            continue
+        inside = [(CENTRES > low) & (CENTRES < high) for low, high in zip(box["low"], box["high"])]
+        x, y = (spread(CENTRES[within]).sum(axis=0) * PIXEL / WIDTH for within in inside)
+        share -= np.outer(y, x)
+        share[np.ix_(inside[1], inside[0])] = 0
+    return share
+
+
+def water_of_particles(position: np.ndarray, share: np.ndarray, open_part: np.ndarray) -> np.ndarray:
     """Pixels [y, x] that are water, from the places of particles and their shares of the area of the column."""
     fraction = np.zeros((len(CENTRES), len(CENTRES)))
     for part in np.array_split(np.arange(len(position)), -(-len(position) // 1000)):
         x, y = position[part].T
         fraction += (spread(y) * share[part, None]).T @ spread(x)
-    return fraction * COLUMN / WIDTH**2 > 0.5
+    return (open_part > 0) & (fraction * COLUMN / WIDTH**2 > 0.5 * open_part)
 
 
 def shares(run: Run, count: int) -> np.ndarray:
@@ -74,23 +90,32 @@ def shares(run: Run, count: int) -> np.ndarray:
     return mass / mass.sum()
 
 
-def water_of_cells(fraction: np.ndarray) -> np.ndarray:
-    """Pixels [y, x] that are water, from the volume fraction of cells [y, x]; constant next to the walls."""
-    cells = len(fraction)
-    place = np.clip(CENTRES / TANK * cells - 0.5, 0, cells - 1)
+def between(middles: np.ndarray) -> np.ndarray:
+    """Weights of the middles of cells at pixels, linear between them and constant next to the walls: pixels x cells."""
+    cells = len(middles)
+    place = np.interp(CENTRES, middles, np.arange(cells))
     low = np.minimum(place.astype(int), cells - 2)
-    to_pixels = np.zeros((len(CENTRES), cells))
+    weights = np.zeros((len(CENTRES), cells))
     rows = np.arange(len(CENTRES))
-    to_pixels[rows, low] = 1 - (place - low)
-    to_pixels[rows, low + 1] = place - low
-    return to_pixels @ fraction @ to_pixels.T > 0.5
+    weights[rows, low] = 1 - (place - low)
+    weights[rows, low + 1] = place - low
+    return weights
 
 
-def reference() -> dict[float, np.ndarray]:
-    """Water of interFoam by time [s]."""
-    with np.load(REFERENCE) as file:
-        frames = zip(file["time"], file["alpha"])
-        return {round(float(time), 6): water_of_cells(alpha / 255.0) for time, alpha in frames}
+def reference_of(run: Run) -> Path:
+    """The folder with interFoam's water: over the obstacle if the scene is that one, else without."""
+    obstacle = REFERENCES / "obstacle_interfoam"
+    is_that_one = fits(json.loads((obstacle / "fits.json").read_text()), run.scene)
+    return obstacle if is_that_one else REFERENCES / "dam_break_interfoam"
+
+
+def reference(folder: Path, open_part: np.ndarray) -> dict[float, np.ndarray]:
+    """Pixels [y, x] that are water of interFoam, by time [s]; a file without places of cells has squares."""
+    with np.load(folder / "alpha_160.npz") as file:
+        frames = list(zip(file["time"], file["alpha"]))
+        y, x = (between(file[axis] if axis in file else (np.arange(count) + 0.5) * TANK / count)
+                for axis, count in zip("yx", frames[0][1].shape))
+    return {round(float(time), 6): (y @ (alpha / 255.0) @ x.T > 0.5) & (open_part > 0) for time, alpha in frames}
 
 
 @dataclass(frozen=True)
@@ -121,8 +146,9 @@ def tank_of(run: Run) -> Tank:
 def water_of_run(run: Run, times: Iterable[float]) -> dict[float, np.ndarray]:
     """Water of a run by time [s], at those of the times that it has written."""
     tank = tank_of(run)
+    open_part = open_share(run)
     frames = {time: run.frame_at(time, TOLERANCE) for time in times}
-    return {time: water_of_particles(tank.inside(frame.position), shares(run, len(frame.position)))
+    return {time: water_of_particles(tank.inside(frame.position), shares(run, len(frame.position)), open_part)
             for time, frame in frames.items() if frame}
 
 
@@ -149,7 +175,10 @@ def main() -> None:
     parser.add_argument("--from", dest="other", metavar="DIR", help="another run, to compare with in place of interFoam")
     options = parser.parse_args()
     runs = [Run(folder) for folder in options.folders]
-    water = reference()
+    folder, *others = {reference_of(run) for run in runs}
+    if others:
+        raise NoResults("runs with the obstacle and without are not compared with one reference; name them apart")
+    water = reference(folder, open_share(runs[0]))
     if options.other:
         water = water_of_run(Run(options.other), water)
     if options.mean is not None:
@@ -157,7 +186,7 @@ def main() -> None:
             print(mean_distance(run, {time: w for time, w in water.items() if time < options.mean + TOLERANCE}))
         return
     width = max(5, *(len(run.name) for run in runs))
-    print(f"{'t [s]':{width}}", *(f"{time:6.1f}" for time in water))
+    print(f"{'t [s]':{width}}", *(f"{time:6g}" for time in water))
     for run in runs:
         found = distances(run, water)
         print(f"{run.name:{width}}", *(f"{found[time]:6.3f}" if time in found else "     -" for time in water))
