@@ -17,10 +17,11 @@ namespace {
 
 /// `size` is known when this is compiled where it is a constant there: copies are then of registers.
 template <class Row, class Size>
-void gather_rows_of(std::span<std::byte> to, std::span<const std::byte> from, std::span<const Row> order, Size size) {
+void gather_rows_of(std::span<std::byte> to, std::span<const std::byte> from, std::span<const Row> order,
+                    const std::byte* zero, Size size) {
   for_each_row(order.size(), [&](std::size_t k) {
     const std::optional<std::uint32_t> row = order[k];
-    if (row) std::memcpy(to.data() + k * size, from.data() + *row * size, size);
+    std::memcpy(to.data() + k * size, row ? from.data() + *row * size : zero, size);
   });
 }
 
@@ -29,35 +30,36 @@ using Bytes = std::integral_constant<std::size_t, n>;
 
 template <class Row>
 void gather_rows_of_any(std::span<std::byte> to, std::span<const std::byte> from, std::span<const Row> order,
-                        std::size_t size) {
-  switch (size) {
-    case 4:
-      return gather_rows_of(to, from, order, Bytes<4>());
-    case 8:
-      return gather_rows_of(to, from, order, Bytes<8>());
-    case 16:
-      return gather_rows_of(to, from, order, Bytes<16>());
-    case 24:
-      return gather_rows_of(to, from, order, Bytes<24>());
-    case 32:
-      return gather_rows_of(to, from, order, Bytes<32>());
-    case 72:
-      return gather_rows_of(to, from, order, Bytes<72>());
-    default:
-      return gather_rows_of(to, from, order, size);
+                        std::span<const std::byte> zero) {
+  const auto gather = [&](auto size) { gather_rows_of(to, from, order, zero.data(), size); };
+  switch (zero.size()) {
+  case 4:
+    return gather(Bytes<4>());
+  case 8:
+    return gather(Bytes<8>());
+  case 16:
+    return gather(Bytes<16>());
+  case 24:
+    return gather(Bytes<24>());
+  case 32:
+    return gather(Bytes<32>());
+  case 72:
+    return gather(Bytes<72>());
+  default:
+    return gather(zero.size());
   }
 }
 
 }  // namespace
 
-void detail::gather_rows(std::span<std::byte> to, std::span<const std::byte> from,
-                         std::span<const std::uint32_t> order, std::size_t size) {
-  gather_rows_of_any(to, from, order, size);
+void detail::gather_rows(std::span<std::byte> to, std::span<const std::byte> from, std::span<const std::uint32_t> order,
+                         std::span<const std::byte> zero) {
+  gather_rows_of_any(to, from, order, zero);
 }
 
 void detail::gather_rows(std::span<std::byte> to, std::span<const std::byte> from,
-                         std::span<const std::optional<std::uint32_t>> order, std::size_t size) {
-  gather_rows_of_any(to, from, order, size);
+                         std::span<const std::optional<std::uint32_t>> order, std::span<const std::byte> zero) {
+  gather_rows_of_any(to, from, order, zero);
 }
 
 std::size_t World::rows(std::string_view table) const {

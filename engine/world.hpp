@@ -138,12 +138,12 @@ constexpr ValueLayout layout_of() {
   }
 }
 
-/// Row k of `to` becomes row `order[k]` of `from`, or stays as it is if there is none; rows are of `size` bytes. Compiled
-/// once, not for every type of value.
+/// Row k of `to` becomes row `order[k]` of `from`, or `zero` if there is none; a row has as many bytes as `zero`.
+/// Compiled once, not for every type of value.
 void gather_rows(std::span<std::byte> to, std::span<const std::byte> from, std::span<const std::uint32_t> order,
-                 std::size_t size);
+                 std::span<const std::byte> zero);
 void gather_rows(std::span<std::byte> to, std::span<const std::byte> from,
-                 std::span<const std::optional<std::uint32_t>> order, std::size_t size);
+                 std::span<const std::optional<std::uint32_t>> order, std::span<const std::byte> zero);
 
 /// Whether a change keeps what was there before it.
 enum class Keeping {
@@ -170,7 +170,7 @@ class ColumnStorage final : public Storage {
     take_spare();
   }
   void renumber(std::span<const std::optional<std::uint32_t>> from) override {
-    spare_.assign(from.size(), zero<T>());
+    spare_.resize(from.size(), zero<T>());
     gather(from);
     take_spare();
   }
@@ -210,11 +210,14 @@ class ColumnStorage final : public Storage {
   }
   template <class Row>
   void gather(std::span<const Row> from) {
+    const T none = zero<T>();
     if constexpr (detail::bytes_are_value<T>) {
-      detail::gather_rows(std::as_writable_bytes(std::span(spare_)), std::as_bytes(std::span(values_)), from, sizeof(T));
+      detail::gather_rows(std::as_writable_bytes(std::span(spare_)), std::as_bytes(std::span(values_)), from,
+                          std::as_bytes(std::span(&none, 1)));
     } else {
       for (std::size_t k = 0; k != from.size(); ++k) {
-        if (const std::optional<std::uint32_t> row = from[k]) spare_[k] = values_[*row];
+        const std::optional<std::uint32_t> row = from[k];
+        spare_[k] = row ? values_[*row] : none;
       }
     }
   }
