@@ -53,7 +53,7 @@ TEST_CASE("stiff friction takes few iterations under a surface", "[property]") {
   CHECK(most_iterations(slump(), 3) <= 20);  // 15 measured, 142 by the diagonal alone
 }
 
-TEST_CASE("stiff friction has the solution of the sparse LU", "[property]") {
+TEST_CASE("stiff friction has the solution of the sparse LU", "[property][long]") {
   const Json scene =
       GENERATE(disc(48, 1e4), with(scene_of_file("bingham_channel.json"), {"/grid/cells=[32, 64]"}),
                with(scene_of_file("slump.json"), {"/grid/cells=[96, 48]", "/fluid/rheology/iterations=1"}),

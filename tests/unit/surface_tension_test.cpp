@@ -176,7 +176,7 @@ TEMPLATE_TEST_CASE_SIG("forces of surface tension on a drop are zero in sum", "[
   CHECK(sum_of_forces<Dim>(run.world()).norm() < 1e-13 * sizes);
 }
 
-TEMPLATE_TEST_CASE_SIG("the force of surface tension is what the energy of the surface loses", "[unit]",
+TEMPLATE_TEST_CASE_SIG("the force of surface tension is what the energy of the surface loses", "[unit][long]",
                        ((int Dim), Dim), 2, 3) {
   SceneRun run(drop<Dim>(0.52));
   run.step();
@@ -356,8 +356,8 @@ TEMPLATE_TEST_CASE_SIG("a drop on a body wets it, and its contact line is pulled
   CHECK((sum_of_forces<Dim>(world) + of_body).norm() < 1e-12);
 }
 
-TEMPLATE_TEST_CASE_SIG("on a body the force of surface tension is what the energy of surface and wall loses", "[unit]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("on a body the force of surface tension is what the energy of surface and wall loses",
+                       "[unit][long]", ((int Dim), Dim), 2, 3) {
   SceneRun run(drop_on_body<Dim>(up<Dim>()));
   run.step();
   World& world = run.world();
