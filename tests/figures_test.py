@@ -24,6 +24,7 @@ PICTURES = {
               "paper/dam_break_tpic": "dam_break.png", "paper/rotating_square_flip": "rotating_square.png",
               "paper/rotating_square_tpic": "rotating_square.png"},
     "readme": {"dam_break": "dam_break.png"},
+    "results": {"obstacle": "obstacle.png"},
 }
 COARSE = {"/grid/cells": [16, 8, 16], "/particles/0/per_cell": 2, "/time/end": 0.06, "/time/step": 0.01}
 
@@ -232,7 +233,7 @@ class Figures(unittest.TestCase):
         for name in names:
             scene = json.loads((ROOT / f"scenes/{name}.json").read_text())
             cells = 40 if "rotating" in name else 16
-            scene["grid"]["cells"], scene["time"]["step"] = [cells, cells], 0.02
+            scene["grid"]["cells"], scene["time"]["step"] = [cells, cells], 0.025  # frames at all times that are shown
             last = scenes / f"{Path(name).name}.json"
             last.write_text(json.dumps(scene))
         command = (call, "--scenes", scenes, "--results", results, "--out", out)
@@ -241,7 +242,7 @@ class Figures(unittest.TestCase):
             self.assertAlmostEqual(size_of_png(out / picture)[0], 1440, delta=1)
         written = {path: path.stat().st_mtime_ns for path in results.glob("*/summary.json")}
         self.assertEqual(len(written), len(names))
-        scene["time"]["step"] = 0.04
+        scene["time"]["step"] = 0.05
         last.write_text(json.dumps(scene))
         self.assertEqual(figures(*command).returncode, 0)
         again = [path.parent.name for path, time in written.items() if path.stat().st_mtime_ns != time]

@@ -32,6 +32,7 @@ class Figure:
 
 
 INTERFOAM = ROOT / "scenes/reference/dam_break_interfoam"
+INTERFOAM_OBSTACLE = ROOT / "scenes/reference/obstacle_interfoam"
 
 
 @dataclass(frozen=True)
@@ -47,6 +48,8 @@ class Pictures:
 DOCUMENTS = {
     "readme": Pictures("the pictures of the README", ROOT / "scenes", (
         Figure("dam_break", ("dam_break",), (0.2, 0.4, 0.6, 0.8), INTERFOAM),), ROOT / "scenes/studies"),
+    "results": Pictures("the picture of scenes/RESULTS.md that no study makes", ROOT / "scenes", (
+        Figure("obstacle", ("obstacle",), (0.1, 0.2, 0.25, 0.3), INTERFOAM_OBSTACLE),)),
     "paper": Pictures("the figures of the paper that scenes/paper reproduces", ROOT / "scenes/paper", (
         Figure("dam_break", ("dam_break_pic", "dam_break_flip", "dam_break_tpic"), (0.3, 0.6, 5.0), INTERFOAM),
         Figure("rotating_square", ("rotating_square_flip", "rotating_square_tpic"), (1.0, 2.0, 4.0), corners=True))),
