@@ -16,6 +16,12 @@ namespace {
 constexpr double stir_strength = 5;
 /// Fill fraction of all multipliers of a cell from which on it is stirred: not at the surface.
 constexpr double stirred_from = 0.6;
+/// What a shift lifts and what it lowers. [J]
+struct Lift {
+  double up = 0;
+  double down = 0;
+  Lift operator+(const Lift& other) const { return {up + other.up, down + other.down}; }
+};
 
 /// Of cells that particles of several ranks fill. The site in the middle of 3^d cells stands for one, for all of them
 /// touch it.
@@ -118,11 +124,16 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
                                          Update<particle::Stir<Dim>> s_p) const {
   Vec<Dim> everywhere = Vec<Dim>::Zero();
   if (!b_p) everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
-  double lifted = -reduce_rows(
-      m_p.size(), 0.0, [&](std::size_t p) { return m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); },
+  const auto lift_of = [&](std::size_t p) { return -m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); };
+  Lift lift = reduce_rows(
+      m_p.size(), Lift{},
+      [&](std::size_t p) {
+        const double of_particle = lift_of(p);
+        return of_particle > 0 ? Lift{of_particle, 0} : Lift{0, -of_particle};
+      },
       std::plus<>());
-  if (shared) lifted = shared->ranks().sum(lifted);
-  if (lifted <= 0) return;
+  if (shared) lift = {shared->ranks().sum(lift.up), shared->ranks().sum(lift.down)};
+  if (lift.up == 0) return;
   const auto work_at = [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); };
   const double work = reduce_rows(
       u_f.size(), 0.0, [&](std::size_t i) { return owns(of_ranks(shared), i) ? work_at(i) : 0; }, std::plus<>());
@@ -133,9 +144,10 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
   if (W_o) given -= W_o->value;
   double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
   if (shared) lost = shared->ranks().sum(lost);
-  const double share = std::clamp(lost / lifted, 0.0, 1.0);
+  const double share = std::min(1.0, (lift.down + std::max(0.0, lost)) / lift.up);
   if (share == 1) return;
   for_each_row(d_p.size(), [&](std::size_t p) {
+    if (lift_of(p) <= 0) return;
     d_p[p] *= share;
     s_p[p] *= share;
   });

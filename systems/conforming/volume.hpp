@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// What keeps particles apart on the staggered grid: the shift of the volume projection, (E36) to (E38), and stirring,
-/// both limited by (E69).
+/// both limited by (E124).
 
 #include "components/body.hpp"
 #include "components/cells.hpp"
@@ -75,11 +75,11 @@ struct GatherFaceShift {
                   Write<particle::Shift<Dim>> d_p) const;
 };
 
-/// (E69) over all that moves particles without a velocity. Stirring hardly lifts, but where the step has nothing left
-/// to lose it would raise the energy: by 0.26 % instead of 0.1 % in a dam break at 8 ms.
+/// (E124) over all that moves particles without a velocity, so that shift and stirring raise no energy and go on where a
+/// step has lost none.
 template <int Dim>
 struct LimitParticleShift {
-  static constexpr std::string_view doc = "(E69) shifts lift no more than the step has lost";
+  static constexpr std::string_view doc = "(E124) shifts lift no more than they lower and the step has lost";
   void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
                   Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,

@@ -5,6 +5,7 @@
 #include "components/staggered.hpp"
 #include "support/extremes.hpp"
 #include "support/factorizations.hpp"
+#include "support/kernels.hpp"
 #include "support/scenes.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/conforming/volume.hpp"
@@ -215,6 +216,65 @@ TEST_CASE("nothing is stirred in liquid that moves as a rigid body", "[property]
   Largest stir;
   for (const Vec<2>& s : run.world().column<particle::Stir<2>>()) stir.add(s.norm());
   CHECK(stir.value() <= 1e-12);
+}
+
+TEST_CASE("a collapsing column is stirred in every step", "[property]") {
+  SceneRun run(conforming(Json::parse(R"json({"dimension": 2,
+      "grid": {"low": [0, 0], "high": [1, 1], "cells": [16, 16]}, "fluid": {"density": 1000, "viscosity": 1e-3},
+      "body_force": [0, -9.81],
+      "particles": [{"shape": {"box": {"low": [0, 0], "high": [0.5, 0.75]}}, "per_cell": 2}],
+      "time": {"end": 1, "step": 5e-3}})json"),
+                          2));
+  run.step(5);
+  for (int k = 0; k < 40; ++k) {
+    run.step();
+    Largest stir;
+    for (const Vec<2>& s : run.world().column<particle::Stir<2>>()) stir.add(s.norm());
+    CAPTURE(k);
+    CHECK(stir.value() > 0);
+  }
+}
+
+namespace {
+
+/// What is left of a shift that lifts half of the particles and lowers the others by half as much, in a step that has
+/// lost `loss` of what this lifts on the whole: the lift on the whole, and what is lowered, as shares of those before.
+struct LeftOfShift {
+  double lift;
+  double lowered;
+};
+LeftOfShift left_of_shift(double loss) {
+  SceneRun run(plane_scene(2));
+  run.step(3);
+  World& world = run.world();
+  const Vec<2> b(1, -9.81);
+  const auto m_p = world.column<particle::Mass>();
+  const auto d_p = world.column<particle::Shift<2>>();
+  for (std::size_t p = 0; p < d_p.size(); ++p) d_p[p] = (p % 2 == 0 ? -1e-3 : 0.5e-3) * b;
+  for (Vec<2>& s : world.column<particle::Stir<2>>()) s.setZero();
+  const auto lift = [&] {
+    double sum = 0;
+    for (std::size_t p = 0; p < d_p.size(); ++p) sum -= m_p[p] * b.dot(d_p[p]);
+    return sum;
+  };
+  const double before = lift();
+  const auto m_f = world.column<face::Mass<2>>();
+  const auto b_f = world.column<face::BodyForce<2>>();
+  const auto u_f = world.column<face::Displacement<2>>();
+  double work = 0;
+  for (std::size_t f = 0; f < m_f.size(); ++f) work += m_f[f].cwiseProduct(b_f[f]).dot(u_f[f]);
+  world.resource<EnergyBefore>().kinetic = world.resource<measure::Energy>().kinetic - work + loss * before;
+  kernels::run<LimitParticleShift<2>>(world);
+  return {lift() / before, d_p[1].norm() / (0.5e-3 * b.norm())};
+}
+
+}  // namespace
+
+TEST_CASE("a shift lifts no more than it lowers and the step has lost, and lowers as before", "[property]") {
+  CHECK(left_of_shift(2).lift == Approx(1).epsilon(1e-14));
+  CHECK(left_of_shift(0.5).lift == Approx(0.5).epsilon(1e-12));
+  CHECK(std::abs(left_of_shift(-1).lift) < 1e-12);  // the step has gained energy
+  for (const double loss : {2.0, 0.5, -1.0}) CHECK(left_of_shift(loss).lowered == Approx(1).epsilon(1e-14));
 }
 
 TEST_CASE("water moves the same way upside down", "[property]") {
