@@ -116,6 +116,7 @@ void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
 template <int Dim>
 void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                                          Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
+                                         Optional<Read<multiplier::OpenShare>> open_share,
                                          Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
                                          Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared,
                                          Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
@@ -133,7 +134,8 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
       },
       std::plus<>());
   if (shared) lift = {shared->ranks().sum(lift.up), shared->ranks().sum(lift.down)};
-  if (lift.up == 0) return;
+  const double net = lift.up - lift.down;
+  if (net <= 0) return;
   const auto work_at = [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); };
   const double work = reduce_rows(
       u_f.size(), 0.0, [&](std::size_t i) { return owns(of_ranks(shared), i) ? work_at(i) : 0; }, std::plus<>());
@@ -144,10 +146,14 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
   if (W_o) given -= W_o->value;
   double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
   if (shared) lost = shared->ranks().sum(lost);
-  const double share = std::min(1.0, (lift.down + std::max(0.0, lost)) / lift.up);
-  if (share == 1) return;
+  const double allowed = std::clamp(lost, 0.0, net);
+  if (allowed == net) return;
+  // Multipliers beside bodies are never exactly full: what that moves up and down would go on in a liquid at rest.
+  const double share_of_up = (lift.down + allowed) / lift.up;
+  const double share_of_all = allowed / net;
   for_each_row(d_p.size(), [&](std::size_t p) {
-    if (lift_of(p) <= 0) return;
+    if (!open_share && lift_of(p) <= 0) return;
+    const double share = open_share ? share_of_all : share_of_up;
     d_p[p] *= share;
     s_p[p] *= share;
   });
