@@ -37,11 +37,13 @@ class PressureOfFewParticles {
     cell_volume_ = std::pow(grid.spacing, Dim);
     lumped_.assign(lambda.size(), 0);
     has_few_.assign(lambda.size(), false);
+    is_crowded_.assign(lambda.size(), false);
     tells_.assign(lambda.size(), false);
     std::vector<std::size_t> at_surface;
     for (std::size_t i = 0; i < lambda.size(); ++i) {
       if (lambda[i] == 0) continue;
       has_few_[i] = has_few(i);
+      is_crowded_[i] = is_crowded(i);
       tells_[i] = is_whole(i) || (open_share(i) < 1 && full_share(i) == 1);
       if (open_share(i) < 1 && !tells_[i]) at_surface.push_back(i);
       const double filled = filled_around(i);
@@ -58,7 +60,7 @@ class PressureOfFewParticles {
     for (std::size_t k = 0; k < at_surface.size(); ++k) lumped_[at_surface[k]] = levelled[k];
   }
 
-  bool is_known(std::size_t i) const { return open_share(i) < 1 || has_few_[i]; }
+  bool is_known(std::size_t i) const { return open_share(i) < 1 || has_few_[i] || is_crowded_[i]; }
   double operator()(std::size_t i) const {
     return is_inside(i) ? continued(i, [](std::size_t) { return true; }).value_or(0) : lumped_[i];
   }
@@ -67,7 +69,21 @@ class PressureOfFewParticles {
   double open_share(std::size_t i) const { return open_share_.empty() ? 1 : open_share_[i]; }
   bool has_few(std::size_t i) const {
     constexpr double few = 0.5;
-    return open_share(i) == 1 && volume_[i] < few * filled_share(i, 0) * whole_volume(i);
+    return open_share(i) == 1 && (volume_[i] < few * filled_share(i, 0) * whole_volume(i) || is_hole_at_wall(i));
+  }
+  /// Particles that flow along a wall leave holes beside it: no surface, for the liquid is on the other side.
+  bool is_hole_at_wall(std::size_t i) const {
+    constexpr double few = 0.75;
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (!splines_.ends_at(site_[i], side)) continue;
+      const auto j = beside(i, side ^ 1);
+      if (j && volume_[i] / whole_volume(i) < few * std::min(1.0, volume_[*j] / whole_volume(*j))) return true;
+    }
+    return false;
+  }
+  bool is_crowded(std::size_t i) const {
+    constexpr double many = 1.3;
+    return open_share(i) == 1 && volume_[i] > many * whole_volume(i);
   }
   /// Whether particles tell where the middle of its liquid is.
   bool is_whole(std::size_t i) const { return !middle_.empty() && open_share(i) == 1 && !has_few_[i]; }
@@ -150,8 +166,9 @@ class PressureOfFewParticles {
   std::vector<Vec<Dim>> middle_;
   double cell_volume_;
   std::vector<double> lumped_;
-  std::vector<bool> has_few_;  ///< of those that carry a force
-  std::vector<bool> tells_;    ///< of multipliers: their pressure is what lumped_ says, beside a body, too
+  std::vector<bool> has_few_;     ///< of those that carry a force
+  std::vector<bool> is_crowded_;  ///< more particles than there is room
+  std::vector<bool> tells_;       ///< of multipliers: their pressure is what lumped_ says, beside a body, too
 };
 
 }  // namespace minamo

@@ -7,6 +7,7 @@
 #include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
+#include "systems/conforming/pressure.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/conforming/volume.hpp"
 
@@ -216,6 +217,36 @@ TEST_CASE("nothing is stirred in liquid that moves as a rigid body", "[property]
   Largest stir;
   for (const Vec<2>& s : run.world().column<particle::Stir<2>>()) stir.add(s.norm());
   CHECK(stir.value() <= 1e-12);
+}
+
+TEST_CASE("the pressure at a wall does not depend on how many particles are there", "[property]") {
+  // Water at rest; then particles in a corner count five times, and a third where those above touch the wall.
+  SceneRun run(column(2, 2));
+  run.step(1);
+  World& world = run.world();
+  const double h = world.resource<Grid<2>>().spacing;
+  const auto y_p = world.column<particle::QuadraturePosition<2>>();
+  const auto pressure_at_wall = [&](double from, double to) {
+    kernels::run<RecoverPressure<2>>(world);
+    const auto p_p = world.column<particle::Pressure>();
+    Largest largest;
+    Smallest least;
+    for (std::size_t p = 0; p < p_p.size(); ++p) {
+      if (y_p[p][0] > h || y_p[p][1] < from * h || y_p[p][1] > to * h) continue;
+      largest.add(p_p[p]);
+      least.add(p_p[p]);
+    }
+    return std::pair{least.value(), largest.value()};
+  };
+  const auto [lowest, highest] = pressure_at_wall(0, 3);
+  REQUIRE(lowest > 0);
+  const auto V_p = world.column<particle::Volume>();
+  for (std::size_t p = 0; p < V_p.size(); ++p) {
+    if (y_p[p][0] < 0.5 * h && y_p[p][1] < 3 * h) V_p[p] *= y_p[p][1] < 0.5 * h ? 5 : 0.3;
+  }
+  const auto [low, high] = pressure_at_wall(0, 3);
+  CHECK(low > 0.8 * lowest);
+  CHECK(high < 1.2 * highest);
 }
 
 TEST_CASE("a collapsing column is stirred in every step", "[property]") {

@@ -79,7 +79,7 @@ CASES = (
          Figure("P1", "arrival", figure.arrival(0.5)), Figure("P1", "first peak", figure.peak(2, 3)),
          Figure("P1", "mean from 3 to 5", figure.mean(3, 5)), Figure("P3", "mean from 3 to 5", figure.mean(3, 5)),
          Figure("P4", "mean from 3 to 5", figure.mean(3, 5))),
-        (("H/30", {}), ("H/60", {"/grid/cells": [322, 180]}))),
+        (("H/30", {}), ("H/60", {"/grid/cells": [322, 300]}))),
     Case(
         "dam_break_pressure_3d", "The same in space",
         LOBOVSKY,
