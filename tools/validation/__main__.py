@@ -106,7 +106,8 @@ def validate(case: Case, options: argparse.Namespace) -> dict[str, Any]:
     write_curves(case, results, options.out / f"{case.name}.csv")
     return {result.resolution: {
         "figures": [finite(figure.of(result.curves[figure.curve], points[figure.curve])) for figure in case.figures],
-        "particles": result.particles, "steps": result.steps, "cpu_s": round(result.cpu_s, 2)} for result in results}
+        "particles": result.particles, "steps": result.steps, "cpu_s": round(result.cpu_s, 2),
+        "machine": machine()} for result in results}
 
 
 def without_stale(stored: dict[str, Any]) -> dict[str, Any]:
@@ -133,13 +134,11 @@ def main() -> None:
         return
     options.out.mkdir(parents=True, exist_ok=True)
     numbers = options.out / "results.json"
-    stored = json.loads(numbers.read_text()) if numbers.exists() else {"machine": "", "cases": {}}
-    stored["cases"] = without_stale(stored["cases"])
+    stored = without_stale(json.loads(numbers.read_text()) if numbers.exists() else {})
     for case in chosen(options):
-        stored["cases"][case.name] = validate(case, options)
-        stored["machine"] = machine()
+        stored[case.name] = validate(case, options)
         numbers.write_text(json.dumps(stored, indent=1) + "\n")
-        (options.out / "README.md").write_text(page(stored["cases"], stored["machine"], scene_file))
+        (options.out / "README.md").write_text(page(stored, scene_file))
     print(f"written: {options.out / 'README.md'}")
 
 

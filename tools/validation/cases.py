@@ -68,7 +68,7 @@ CASES = (
         f"B. Buchner, PhD thesis, TU Delft (2002), and {LOBOVSKY}",
         "The same tank in two sizes: water of height H, 2H wide, in a tank 5.366 H long. Buchner's plate is 90 mm across "
         "(ours is the mean of four points), H = 0.6 m; Lobovsky's sensors are 4 mm, at 3, 30 and 80 mm, H = 0.3 m. In the "
-        "plane and without air: where the front has turned over, from 5.5 on, it encloses none.",
+        "plane and without air: where the front has turned over, from 5.5 on, it encloses none. The water reaches no lid.",
         "t (g/H)^0.5",
         (Curve("Buchner", "Buchner: pressure over rho g H", mean_pressure("B1", "B2", "B3", "B4"),
                "buchner_2002_pressure.csv", "p_over_rho_g_H", scale=1 / WEIGHT, time_column="t_sqrt_2g_over_H",

@@ -18,7 +18,7 @@ replaces an experiment. The data are their authors' and not part of minamo: what
   theirs, less one; a delay is in units of the picture's axis.
 - Curves are means over 1/200 of the time shown; pressures of single steps are noisier.
 - Air is not computed: a cavity is empty, and closes without a cushion.
-- *CPU time* is of all threads together{machine}.
+- *CPU time* is of all threads together, on the machine that is named with it.
 """
 
 
@@ -38,15 +38,15 @@ def section(case: Any, stored: dict[str, Any], scene: str) -> list[str]:
         values = [number(stored[label]["figures"][k], figure.unit) for label in labels]
         lines.append(f"| {figure.curve}: {figure.what} | " + " | ".join(values) + " |")
     for name, of in (("particles", lambda r: f"{r['particles']}"), ("steps", lambda r: f"{r['steps']}"),
-                     ("CPU time", lambda r: f"{r['cpu_s']:.3g} s")):
+                     (f"CPU time, {stored[labels[0]]['machine']}", lambda r: f"{r['cpu_s']:.3g} s")):
         lines.append(f"| {name} | " + " | ".join(of(stored[label]) for label in labels) + " |")
     files = sorted({curve.file for curve in case.curves})
     return [*lines, "", "Our curves: [" + f"{case.name}.csv]({case.name}.csv). Measured: "
             + ", ".join(f"`{file}`" for file in files) + ".", ""]
 
 
-def page(results: dict[str, Any], machine: str, scene_of: Any) -> str:
-    lines = [HEAD.format(machine=f", on one of {machine}" if machine else "")]
+def page(results: dict[str, Any], scene_of: Any) -> str:
+    lines = [HEAD]
     for case in CASES:
         if case.name in results:
             lines += section(case, results[case.name], scene_of(case))
