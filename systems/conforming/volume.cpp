@@ -16,12 +16,27 @@ namespace {
 constexpr double stir_strength = 5;
 /// Fill fraction of all multipliers of a cell from which on it is stirred: not at the surface.
 constexpr double stirred_from = 0.6;
+/// Strain of a step over which particles get out of order as fast as a shift puts them in order again, one over it.
+constexpr double per_strain = 30;
+
 /// What a shift lifts and what it lowers. [J]
 struct Lift {
   double up = 0;
   double down = 0;
   Lift operator+(const Lift& other) const { return {up + other.up, down + other.down}; }
 };
+
+template <class OfParticle>
+Lift sum_lifts(std::size_t particles, const OfParticle& lift_of, const SiteExchange* shared) {
+  const Lift sum = reduce_rows(
+      particles, Lift{},
+      [&](std::size_t p) {
+        const double lift = lift_of(p);
+        return lift > 0 ? Lift{lift, 0} : Lift{0, -lift};
+      },
+      std::plus<>());
+  return shared != nullptr ? Lift{shared->ranks().sum(sum.up), shared->ranks().sum(sum.down)} : sum;
+}
 
 /// Of cells that particles of several ranks fill. The site in the middle of 3^d cells stands for one, for all of them
 /// touch it.
@@ -114,9 +129,10 @@ void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
 }
 
 template <int Dim>
-void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+void LimitParticleShift<Dim>::operator()(Read<Clock> clock, Read<BodyForce> b, Read<Rates> rates,
+                                         Optional<Read<ode::AtBalances>> ode,
                                          Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
-                                         Optional<Read<multiplier::OpenShare>> open_share,
+                                         Optional<Read<particle::VelocityGradient<Dim>>> grad_v,
                                          Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
                                          Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared,
                                          Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
@@ -126,14 +142,7 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
   Vec<Dim> everywhere = Vec<Dim>::Zero();
   if (!b_p) everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
   const auto lift_of = [&](std::size_t p) { return -m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); };
-  Lift lift = reduce_rows(
-      m_p.size(), Lift{},
-      [&](std::size_t p) {
-        const double of_particle = lift_of(p);
-        return of_particle > 0 ? Lift{of_particle, 0} : Lift{0, -of_particle};
-      },
-      std::plus<>());
-  if (shared) lift = {shared->ranks().sum(lift.up), shared->ranks().sum(lift.down)};
+  const Lift lift = sum_lifts(m_p.size(), lift_of, of_ranks(shared));
   const double net = lift.up - lift.down;
   if (net <= 0) return;
   const auto work_at = [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); };
@@ -146,14 +155,20 @@ void LimitParticleShift<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, O
   if (W_o) given -= W_o->value;
   double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
   if (shared) lost = shared->ranks().sum(lost);
-  const double allowed = std::clamp(lost, 0.0, net);
-  if (allowed == net) return;
-  // Multipliers beside bodies are never exactly full: what that moves up and down would go on in a liquid at rest.
-  const double share_of_up = (lift.down + allowed) / lift.up;
-  const double share_of_all = allowed / net;
+  const double of_all = std::clamp(lost / net, 0.0, 1.0);
+  if (of_all == 1) return;
+  // What is left goes on as far as it lifts no more than it lowers: where liquid is strained, for slow waves would feel
+  // it, and water beside bodies, whose multipliers are never exactly full, would not rest.
+  const auto left = [&](std::size_t p) {
+    if (!grad_v) return 1 - of_all;
+    const double strain = clock->step * (grad_v[p] + grad_v[p].transpose()).norm() / std::sqrt(2.0);
+    return (1 - of_all) * std::min(1.0, per_strain * strain);
+  };
+  const Lift lift_left = sum_lifts(
+      m_p.size(), [&](std::size_t p) { return left(p) * lift_of(p); }, of_ranks(shared));
+  const double of_lifts = lift_left.up > lift_left.down ? lift_left.down / lift_left.up : 1;
   for_each_row(d_p.size(), [&](std::size_t p) {
-    if (!open_share && lift_of(p) <= 0) return;
-    const double share = open_share ? share_of_all : share_of_up;
+    const double share = of_all + left(p) * (lift_of(p) > 0 ? of_lifts : 1);
     d_p[p] *= share;
     s_p[p] *= share;
   });

@@ -75,14 +75,14 @@ struct GatherFaceShift {
                   Write<particle::Shift<Dim>> d_p) const;
 };
 
-/// (E124) over all that moves particles without a velocity, so that shift and stirring raise no energy and go on where
-/// a step has lost none.
+/// (E69) and (E124) over all that moves particles without a velocity, so that shift and stirring raise no energy, and
+/// go on where a step has lost none.
 template <int Dim>
 struct LimitParticleShift {
-  static constexpr std::string_view doc = "(E124) shifts lift no more than they lower and the step has lost";
-  void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
+  static constexpr std::string_view doc = "(E69) (E124) shifts lift no more than they lower and the step has lost";
+  void operator()(Read<Clock> clock, Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
-                  Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<body::Work>> W_b,
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v, Optional<Read<body::Work>> W_b,
                   Optional<Read<body::OldWork>> W_old, Optional<Read<opening::StepWork>> W_o,
                   Optional<Read<SiteExchange>> shared, Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
                   Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f, Read<face::Displacement<Dim>> u_f,
