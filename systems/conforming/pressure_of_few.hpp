@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E75) Pressure where particles are too few to tell it: beside bodies, and of multipliers with little of the liquid.
+/// (E75) Pressure where particles do not tell it: beside bodies, and of multipliers with few of them or too many.
 
 #include "systems/conforming/sites_around.hpp"
 #include "systems/grid/filled_nodes.hpp"
@@ -37,13 +37,11 @@ class PressureOfFewParticles {
     cell_volume_ = std::pow(grid.spacing, Dim);
     lumped_.assign(lambda.size(), 0);
     has_few_.assign(lambda.size(), false);
-    is_crowded_.assign(lambda.size(), false);
     tells_.assign(lambda.size(), false);
     std::vector<std::size_t> at_surface;
     for (std::size_t i = 0; i < lambda.size(); ++i) {
       if (lambda[i] == 0) continue;
       has_few_[i] = has_few(i);
-      is_crowded_[i] = is_crowded(i);
       tells_[i] = is_whole(i) || (open_share(i) < 1 && full_share(i) == 1);
       if (open_share(i) < 1 && !tells_[i]) at_surface.push_back(i);
       const double filled = filled_around(i);
@@ -60,7 +58,7 @@ class PressureOfFewParticles {
     for (std::size_t k = 0; k < at_surface.size(); ++k) lumped_[at_surface[k]] = levelled[k];
   }
 
-  bool is_known(std::size_t i) const { return open_share(i) < 1 || has_few_[i] || is_crowded_[i]; }
+  bool is_known(std::size_t i) const { return open_share(i) < 1 || has_few_[i] || is_crowded(i); }
   double operator()(std::size_t i) const {
     return is_inside(i) ? continued(i, [](std::size_t) { return true; }).value_or(0) : lumped_[i];
   }
@@ -81,6 +79,7 @@ class PressureOfFewParticles {
     }
     return false;
   }
+  /// Particles that a corner holds back are more than it has room for.
   bool is_crowded(std::size_t i) const {
     constexpr double many = 1.3;
     return open_share(i) == 1 && volume_[i] > many * whole_volume(i);
@@ -166,9 +165,8 @@ class PressureOfFewParticles {
   std::vector<Vec<Dim>> middle_;
   double cell_volume_;
   std::vector<double> lumped_;
-  std::vector<bool> has_few_;     ///< of those that carry a force
-  std::vector<bool> is_crowded_;  ///< more particles than there is room
-  std::vector<bool> tells_;       ///< of multipliers: their pressure is what lumped_ says, beside a body, too
+  std::vector<bool> has_few_;  ///< of those that carry a force
+  std::vector<bool> tells_;    ///< of multipliers: their pressure is what lumped_ says, beside a body, too
 };
 
 }  // namespace minamo

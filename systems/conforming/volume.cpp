@@ -16,7 +16,7 @@ namespace {
 constexpr double stir_strength = 5;
 /// Fill fraction of all multipliers of a cell from which on it is stirred: not at the surface.
 constexpr double stirred_from = 0.6;
-/// Strain of a step over which particles get out of order as fast as a shift puts them in order again, one over it.
+/// A step that strains the liquid by one over this takes particles out of order as fast as a whole shift puts them in.
 constexpr double per_strain = 30;
 
 /// What a shift lifts and what it lowers. [J]

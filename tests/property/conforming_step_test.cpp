@@ -274,7 +274,7 @@ struct LeftOfShift {
   double lift;
   double lowered;
 };
-LeftOfShift left_of_shift(double loss, double strain_rate) {
+LeftOfShift left_of_particle_shift(double loss, double strain_rate) {
   SceneRun run(plane_scene(2));
   run.step(3);
   World& world = run.world();
@@ -304,14 +304,15 @@ LeftOfShift left_of_shift(double loss, double strain_rate) {
 
 TEST_CASE("a shift lifts no more than it lowers and the step has lost", "[property]") {
   constexpr double fast = 1e3;
-  CHECK(left_of_shift(2, fast).lift == Approx(1).epsilon(1e-14));
-  CHECK(left_of_shift(0.5, fast).lift == Approx(0.5).epsilon(1e-12));
-  CHECK(std::abs(left_of_shift(-1, fast).lift) < 1e-12);  // the step has gained energy
+  CHECK(left_of_particle_shift(2, fast).lift == Approx(1).epsilon(1e-14));
+  CHECK(left_of_particle_shift(0.5, fast).lift == Approx(0.5).epsilon(1e-12));
+  CHECK(std::abs(left_of_particle_shift(-1, fast).lift) < 1e-12);  // the step has gained energy
   // What sinks does so as before; in a liquid that is not strained there is one share for all.
-  for (const double loss : {2.0, 0.5, -1.0}) CHECK(left_of_shift(loss, fast).lowered == Approx(1).epsilon(1e-14));
-  CHECK(left_of_shift(0.5, 0).lift == Approx(0.5).epsilon(1e-12));
-  CHECK(left_of_shift(0.5, 0).lowered == Approx(0.5).epsilon(1e-12));
-  CHECK(left_of_shift(-1, 0).lowered == 0);
+  for (const double loss : {2.0, 0.5, -1.0})
+    CHECK(left_of_particle_shift(loss, fast).lowered == Approx(1).epsilon(1e-14));
+  CHECK(left_of_particle_shift(0.5, 0).lift == Approx(0.5).epsilon(1e-12));
+  CHECK(left_of_particle_shift(0.5, 0).lowered == Approx(0.5).epsilon(1e-12));
+  CHECK(left_of_particle_shift(-1, 0).lowered == 0);
 }
 
 TEST_CASE("water moves the same way upside down", "[property]") {
