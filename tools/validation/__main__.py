@@ -26,7 +26,7 @@ from case import Case, Points, Result
 from cases import CASES
 from page import page
 from picture import draw
-from runs import SCENES, measured, run, scene_file
+from runs import SCENES, computed, measured, run, scene_file
 
 ROWS = 200  # of the files of our curves
 
@@ -102,12 +102,17 @@ def validate(case: Case, options: argparse.Namespace) -> dict[str, Any]:
     for label, changes in case.resolutions:
         print(f"{case.name}, {label}", flush=True)
         results.append(run(case, label, changes, options.threads))
-    draw(case, results, points, options.out / f"{case.name}.png")
+    beside = {label: computed(case, file) for label, file in case.beside}
+    draw(case, results, beside, points, options.out / f"{case.name}.png")
     write_curves(case, results, options.out / f"{case.name}.csv")
-    return {result.resolution: {
-        "figures": [finite(figure.of(result.curves[figure.curve], points[figure.curve])) for figure in case.figures],
-        "particles": result.particles, "steps": result.steps, "cpu_s": round(result.cpu_s, 2),
-        "machine": machine()} for result in results}
+
+    def figures(curves: dict[str, Points]) -> list[float | None]:
+        return [finite(figure.of(curves[figure.curve], points[figure.curve])) for figure in case.figures]
+
+    ours = {result.resolution: {"figures": figures(result.curves), "particles": result.particles,
+                                "steps": result.steps, "cpu_s": round(result.cpu_s, 2), "machine": machine()}
+            for result in results}
+    return ours | {label: {"figures": figures(curves)} for label, curves in beside.items()}
 
 
 def without_stale(stored: dict[str, Any]) -> dict[str, Any]:
@@ -117,7 +122,7 @@ def without_stale(stored: dict[str, Any]) -> dict[str, Any]:
         of_case = stored.get(case.name)
         if of_case is None:
             continue
-        if set(of_case) == {label for label, _ in case.resolutions}:
+        if set(of_case) == {label for label, _ in (*case.resolutions, *case.beside)}:
             kept[case.name] = of_case
         else:
             print(f"{case.name}: its results are of other resolutions; left out until it is run again")

@@ -61,6 +61,8 @@ class Case:
     # What a picture calls a resolution, and what it sets in the scene.
     resolutions: tuple[tuple[str, dict[str, Any]], ...]
     scene: str = ""  # whose file it is; that of its own name unless given
+    # Computations of others, by what a picture calls them: files beside the page with a column per curve.
+    beside: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass

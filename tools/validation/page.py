@@ -29,7 +29,8 @@ def number(value: float | None, unit: str) -> str:
 
 
 def section(case: Any, stored: dict[str, Any], scene: str) -> list[str]:
-    labels = [label for label, _ in case.resolutions]
+    ours = [label for label, _ in case.resolutions]
+    labels = ours + [label for label, _ in case.beside]
     name = scene.rpartition("/")[2].removesuffix(".json")
     lines = [f"## {case.title}", "", f"[{name}]({scene}). {case.paper}.", "", case.text, "",
              f"![{case.title}: computed and measured]({case.name}.png)", "",
@@ -37,9 +38,10 @@ def section(case: Any, stored: dict[str, Any], scene: str) -> list[str]:
     for k, figure in enumerate(case.figures):
         values = [number(stored[label]["figures"][k], figure.unit) for label in labels]
         lines.append(f"| {figure.curve}: {figure.what} | " + " | ".join(values) + " |")
+    elsewhere = " |" * len(case.beside)
     for name, of in (("particles", lambda r: f"{r['particles']}"), ("steps", lambda r: f"{r['steps']}"),
-                     (f"CPU time, {stored[labels[0]]['machine']}", lambda r: f"{r['cpu_s']:.3g} s")):
-        lines.append(f"| {name} | " + " | ".join(of(stored[label]) for label in labels) + " |")
+                     (f"CPU time, {stored[ours[0]]['machine']}", lambda r: f"{r['cpu_s']:.3g} s")):
+        lines.append(f"| {name} | " + " | ".join(of(stored[label]) for label in ours) + " |" + elsewhere)
     files = sorted({curve.file for curve in case.curves})
     return [*lines, "", "Our curves: [" + f"{case.name}.csv]({case.name}.csv). Measured: "
             + ", ".join(f"`{file}`" for file in files) + ".", ""]

@@ -13,9 +13,11 @@ from matplotlib.figure import Figure
 from case import Case, Points, Result
 
 COLOURS = ("#56b4e9", "#0072b2")
+COLOURS_BESIDE = ("#999999", "#009e73")
 
 
-def draw(case: Case, results: list[Result], measured: dict[str, Points], file: Path) -> None:
+def draw(case: Case, results: list[Result], beside: dict[str, dict[str, Points]], measured: dict[str, Points],
+         file: Path) -> None:
     across = min(2, len(case.curves))
     down = -(-len(case.curves) // across)
     figure = Figure(figsize=(5.0 * across, 2.9 * down + 0.2), constrained_layout=True)
@@ -26,6 +28,8 @@ def draw(case: Case, results: list[Result], measured: dict[str, Points], file: P
         for result, colour in zip(results, COLOURS):
             ours = result.curves[curve.name]
             panel.plot(ours.x, ours.y, color=colour, linewidth=1.1, label=f"minamo, {result.resolution}")
+        for (label, curves), colour in zip(beside.items(), COLOURS_BESIDE):
+            panel.plot(curves[curve.name].x, curves[curve.name].y, color=colour, linewidth=0.9, label=label)
         points = measured[curve.name]
         dense = len(points.x) > 150
         panel.plot(points.x, points.y, color="#d55e00", linestyle="solid" if dense else "none", linewidth=0.9,

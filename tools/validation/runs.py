@@ -46,6 +46,14 @@ def measured(curve: Curve, folder: Path) -> Points:
     return Points(*np.array(rows).T)
 
 
+def computed(case: Case, file: str) -> dict[str, Points]:
+    """The curves that another program computed; x is the first column."""
+    with open(SCENES / file, newline="") as table:
+        rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(table)]
+    x = np.array([row[case.x_label] for row in rows])
+    return {curve.name: Points(x, np.array([row[curve.name] for row in rows])) for curve in case.curves}
+
+
 def smoothed(points: Points) -> Points:
     """Mean over 1/200 of the time shown, around every step."""
     half = (points.x[-1] - points.x[0]) / 400
