@@ -6,8 +6,10 @@ namespace minamo {
 
 namespace {
 
-/// Multiplications from which on an envelope is slower than incomplete factors.
-constexpr double widest = 1e10;
+/// Multiplications from which on an envelope is slower than incomplete factors: in space a step of 27 648 particles
+/// takes 1.35 times as long with 1e10.
+template <int Dim>
+constexpr double widest = Dim == 2 ? 1e10 : 1e8;
 
 }  // namespace
 
@@ -83,7 +85,7 @@ void PressureFactors<Dim>::prepare(const Operators<Dim>& t, const SchurOperator<
   approximation_.assemble(t, grid, capacity, fluid, laplacian_factor(t, fluid, scale), schur);
   find_order(site, t.node);
   find_envelope();
-  is_complete_ = envelope_cost(first_) <= widest && factorize_envelope();
+  is_complete_ = envelope_cost(first_) <= widest<Dim> && factorize_envelope();
   if (!is_complete_) incomplete_.factorize(approximation_.matrix());
   const double b = t.viscosity.empty() ? 0 : viscous_part<Dim>(t, grid, fluid, scale);
   of_mass_.resize(b == 0 ? 0 : t.node.size());
