@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -125,7 +126,8 @@ class PressureOfFewParticles {
     return filled_indicator(least);
   }
   /// At the site i the linear function nearest to the pressures within two cells, each in the middle of its liquid, by
-  /// least squares with weights 1/r^4.
+  /// least squares with weights 1/r^4; no farther outside of the range of these pressures than it is wide, for where a
+  /// front meets a wall few tell of slopes.
   template <class Counts>
   std::optional<double> continued(std::size_t i, const Counts& counts) const {
     using Square = Eigen::Matrix<double, Dim + 1, Dim + 1>;
@@ -133,6 +135,8 @@ class PressureOfFewParticles {
     Square normal = Square::Zero();
     Line right = Line::Zero();
     double weights = 0;
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
     for_each_site_around<Dim, 2>(splines_, site_[i], [&](const Index<Dim>& site, const Index<Dim>& steps) {
       if (!splines_.has_multiplier(site)) return;
       const auto j = rows_.find(site);
@@ -140,6 +144,8 @@ class PressureOfFewParticles {
       const double p = lumped_[*j];
       Vec<Dim> r = Eigen::Map<const Eigen::Matrix<int, Dim, 1>>(steps.data()).template cast<double>();
       const double weight = 1 / (r.squaredNorm() * r.squaredNorm());
+      least = std::min(least, p);
+      most = std::max(most, p);
       if (is_whole(*j)) r += middle_[*j];
       Line row;
       row << 1, r;
@@ -150,7 +156,8 @@ class PressureOfFewParticles {
     if (weights == 0) return {};
     // Slopes that none around tell of are zero.
     for (int d = 1; d <= Dim; ++d) normal(d, d) += 1e-6 * weights;
-    return normal.ldlt().solve(right)[0];
+    const double range = most - least;
+    return std::clamp(normal.ldlt().solve(right)[0], least - range, most + range);
   }
 
   /// Open share below which a multiplier that carries no force lies inside of a body, not in the air.
