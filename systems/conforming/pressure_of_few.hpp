@@ -157,7 +157,7 @@ class PressureOfFewParticles {
     // Slopes that none around tell of are zero.
     for (int d = 1; d <= Dim; ++d) normal(d, d) += 1e-6 * weights;
     const double range = most - least;
-    return std::clamp(normal.ldlt().solve(right)[0], least - range, most + range);
+    return std::min(std::max(normal.ldlt().solve(right)[0], least - range), most + range);
   }
 
   /// Open share below which a multiplier that carries no force lies inside of a body, not in the air.
