@@ -199,9 +199,8 @@ void FindFaceExtension<Dim>::operator()(
   }
   std::vector<std::uint8_t> is_near_target(site.size(), 0);
   for (const auto& target : extension->targets) {
-    for_each_site_around<Dim, rings>(*splines, site[target.row], [&](const Index<Dim>& at, const Index<Dim>&) {
-      if (const auto row = rows->find(at)) is_near_target[*row] = 1;
-    });
+    for_each_row_around<Dim, rings>(*splines, *rows, site[target.row],
+                                    [&](std::uint32_t row, const auto&, const auto&) { is_near_target[row] = 1; });
   }
   std::vector<Vec<Dim>> filled;
   if (tension) {
@@ -217,18 +216,16 @@ void FindFaceExtension<Dim>::operator()(
     const Index<Dim> own = site[target.row];
     const Vec<Dim> x = places.face(own, direction);
     Around<Dim> around;
-    for_each_site_around<Dim, rings>(*splines, own, [&](const Index<Dim>& at, const Index<Dim>& steps) {
-      if (!splines->has_face(at, direction)) return;
-      const auto row = rows->find(at);
-      if (!row || (is_open[*row] & (1U << direction)) == 0) return;
+    for_each_row_around<Dim, rings>(*splines, *rows, own, [&](std::uint32_t row, const auto& at, const auto& steps) {
+      if (!splines->has_face(at, direction) || (is_open[row] & (1U << direction)) == 0) return;
       const Vec<Dim> y = places.face(at, direction);
       Vec<Dim> offset;
       for (std::size_t d = 0; d < Dim; ++d) {
         const auto axis = static_cast<Eigen::Index>(d);
         offset[axis] = splines->axis[d].periodic() ? steps[d] : (y[axis] - x[axis]) / grid->spacing;
       }
-      around.row[around.count] = *row;
-      around.filled[around.count] = filled[*row][target.direction];
+      around.row[around.count] = row;
+      around.filled[around.count] = filled[row][target.direction];
       around.offset[around.count++] = offset;
     });
     const auto weight = std::span(extension->weight).subspan(target.begin, most);

@@ -54,12 +54,11 @@ template <int Dim>
 RowsAround<Dim> rows_around(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
   RowsAround<Dim> around;
   around.fill(staggered::none);
-  for_each_site_around<Dim, reach>(faces.splines, faces.site[row],
-                                   [&](const Index<Dim>& site, const Index<Dim>& steps) {
-                                     if (!faces.splines.has_face(site, faces.direction)) return;
-                                     if (const auto i = faces.rows.find(site))
-                                       around[place_of<Dim>(steps)] = static_cast<std::int32_t>(*i);
-                                   });
+  for_each_row_around<Dim, reach>(faces.splines, faces.rows, faces.site[row],
+                                  [&](std::uint32_t i, const Index<Dim>& site, const Index<Dim>& steps) {
+                                    if (faces.splines.has_face(site, faces.direction))
+                                      around[place_of<Dim>(steps)] = static_cast<std::int32_t>(i);
+                                  });
   return around;
 }
 
@@ -69,14 +68,13 @@ template <int Dim>
 bool is_whole(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
   if (faces.open_volume[row][static_cast<Eigen::Index>(faces.direction)] != 1) return false;
   bool is_whole = true;
-  for_each_site_around<Dim, reach>(faces.splines, faces.site[row],
-                                   [&](const Index<Dim>& site, const Index<Dim>& steps) {
-                                     for (std::size_t d = 0; d < Dim; ++d) {
-                                       if (steps[d] == reach || (steps[d] == -reach && d != faces.direction)) return;
-                                     }
-                                     if (const auto i = faces.rows.find(site); i && faces.open_share[*i] < outside_from)
-                                       is_whole = false;
-                                   });
+  for_each_row_around<Dim, reach>(faces.splines, faces.rows, faces.site[row],
+                                  [&](std::uint32_t i, const Index<Dim>&, const Index<Dim>& steps) {
+                                    for (std::size_t d = 0; d < Dim; ++d) {
+                                      if (steps[d] == reach || (steps[d] == -reach && d != faces.direction)) return;
+                                    }
+                                    if (faces.open_share[i] < outside_from) is_whole = false;
+                                  });
   return is_whole;
 }
 

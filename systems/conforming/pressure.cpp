@@ -4,6 +4,8 @@
 #include "systems/conforming/support.hpp"
 #include "systems/krylov/conjugate_gradients.hpp"
 
+#include <Eigen/Core>
+
 #include <cmath>
 
 namespace minamo {
@@ -19,7 +21,8 @@ template <int Dim, int K>
 class PressureMass {
  public:
   static constexpr std::size_t local = power(K, Dim);
-  using Local = std::array<double, local>;
+  using Column = Eigen::Matrix<double, static_cast<int>(local), 1>;
+  using Square = Eigen::Matrix<double, static_cast<int>(local), static_cast<int>(local)>;
 
   PressureMass(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
                std::span<const Index<Dim>> site, std::span<const Vec<Dim>> y_p, std::span<const double> V_p,
@@ -27,8 +30,8 @@ class PressureMass {
       : V_p_(V_p), shared_(shared) {
     list_runs(grid, splines, rows, y_p);
     find_weights(grid, splines, y_p);
-    find_exact_shares(grid, splines, site);
-    lump(site.size());
+    find_volume(site.size());
+    find_products(grid, splines, site);
     is_free_.resize(lambda.size());
     for (std::size_t i = 0; i < lambda.size(); ++i) is_free_[i] = lambda[i] != 0;
   }
@@ -69,12 +72,8 @@ class PressureMass {
   std::vector<double> diagonal() const {
     std::vector<double> sum = lumped_;
     for (const Run& run : runs_) {
-      for (std::size_t k = 0; k < local; ++k) {
-        double of_run = run.exact * exact_entry(run, k, k);
-        for (std::size_t p = run.begin; p < run.end; ++p)
-          of_run += by_particles(run, p) * weights_[p][k] * weights_[p][k];
-        sum[run.rows[k]] += of_run;
-      }
+      for (Eigen::Index k = 0; k < run.products.rows(); ++k)
+        sum[run.rows[static_cast<std::size_t>(k)]] += run.products(k, k);
     }
     add_up(sum);
     return sum;
@@ -83,23 +82,10 @@ class PressureMass {
   void times(const std::vector<double>& x, std::vector<double>& out) const {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = lumped_[i] * x[i];
     for (const Run& run : runs_) {
-      Local of_run{};
-      Local x_of_run;
-      for (std::size_t k = 0; k < local; ++k) x_of_run[k] = x[run.rows[k]];
-      if (run.exact < 1) {
-        for (std::size_t p = run.begin; p < run.end; ++p) {
-          double value = 0;
-          for (std::size_t k = 0; k < local; ++k) value += weights_[p][k] * x_of_run[k];
-          value *= by_particles(run, p);
-          for (std::size_t k = 0; k < local; ++k) of_run[k] += weights_[p][k] * value;
-        }
-      }
-      if (run.exact > 0) {
-        for (std::size_t k = 0; k < local; ++k) {
-          for (std::size_t j = 0; j < local; ++j) of_run[k] += run.exact * exact_entry(run, k, j) * x_of_run[j];
-        }
-      }
-      for (std::size_t k = 0; k < local; ++k) out[run.rows[k]] += of_run[k];
+      Column x_of_run;
+      for (std::size_t k = 0; k < local; ++k) x_of_run.data()[k] = x[run.rows[k]];
+      const Column of_run = run.products * x_of_run;
+      for (std::size_t k = 0; k < local; ++k) out[run.rows[k]] += of_run.data()[k];
     }
     add_up(out);
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -125,17 +111,13 @@ class PressureMass {
     std::size_t begin;
     std::size_t end;
     std::array<std::uint32_t, local> rows;
-    double exact = 0;  ///< share of the integral that is exact
-    double volume = 0;
-    std::array<std::array<std::array<double, K>, K>, static_cast<std::size_t>(Dim)> axis_mass{};
+    Square products;  ///< integrals of the products of its weights
   };
 
   /// With what particles of other ranks bring.
   void add_up(std::vector<double>& column) const {
     if (shared_ != nullptr) shared_->add_up(std::span<double>(column));
   }
-  /// Volume of a particle in the products of weights.
-  double by_particles(const Run& run, std::size_t p) const { return (1 - lumped_share) * (1 - run.exact) * V_p_[p]; }
 
   void list_runs(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
                  std::span<const Vec<Dim>> y_p) {
@@ -145,12 +127,10 @@ class PressureMass {
         runs_.back().end = p + 1;
         continue;
       }
-      Run run{cell, p, p + 1, {}};
+      Run run{cell, p, p + 1, {}, Square::Zero()};
       std::size_t m = 0;
       for_each_multiplier<Dim, K>(
           [&](std::size_t, const Index<Dim>& offset) { run.rows[m++] = *rows.find(splines.site(cell, offset)); });
-      for (std::size_t d = 0; d < Dim; ++d) run.axis_mass[d] = axis_mass(splines.axis[d].of_cell(cell[d]));
-      run.volume = std::pow(grid.spacing, Dim);
       runs_.push_back(run);
     }
   }
@@ -166,36 +146,36 @@ class PressureMass {
       }
     }
   }
-  void find_exact_shares(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Index<Dim>> site) {
-    volume_.assign(site.size(), 0);
+  void find_volume(std::size_t rows) {
+    volume_.assign(rows, 0);
     for (const Run& run : runs_) {
       for (std::size_t p = run.begin; p < run.end; ++p) {
         for (std::size_t k = 0; k < local; ++k) volume_[run.rows[k]] += V_p_[p] * weights_[p][k];
       }
     }
     add_up(volume_);
-    std::vector<double> fill = volume_;
-    for (std::size_t i = 0; i < site.size(); ++i) {
-      if (fill[i] > 0) fill[i] /= std::pow(grid.spacing, Dim) * splines.widths(site[i]);
-    }
-    for (Run& run : runs_) {
-      double least = 1;
-      for (const std::uint32_t row : run.rows) least = std::min(least, fill[row]);
-      run.exact = filled_indicator(least);
-    }
+  }
+  void find_products(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Index<Dim>> site) {
+    const double cell_volume = std::pow(grid.spacing, Dim);
     // A cell whose particles come in several runs is counted once, in parts.
     std::vector<double> runs_at(site.size(), 0);
     for (const Run& run : runs_) runs_at[run.rows[0]] += 1;
-    for (Run& run : runs_) run.volume /= runs_at[run.rows[0]];
+    lumped_.assign(site.size(), 0);
+    for (Run& run : runs_) {
+      double least = 1;
+      for (const std::uint32_t row : run.rows)
+        least = std::min(least, volume_[row] / (cell_volume * splines.widths(site[row])));
+      const double exact = filled_indicator(least);
+      if (exact > 0) run.products = exact * cell_volume / runs_at[run.rows[0]] * exact_products(splines, run.cell);
+      if (exact < 1) add_particles(run, 1 - exact);
+    }
   }
-  void lump(std::size_t rows) {
-    lumped_.assign(rows, 0);
-    for (const Run& run : runs_) {
-      for (std::size_t p = run.begin; p < run.end; ++p) {
-        for (std::size_t k = 0; k < local; ++k) {
-          lumped_[run.rows[k]] += lumped_share * (1 - run.exact) * V_p_[p] * weights_[p][k];
-        }
-      }
+  /// Of the particles of a run, a part of their volume.
+  void add_particles(Run& run, double part) {
+    for (std::size_t p = run.begin; p < run.end; ++p) {
+      const Eigen::Map<const Column> weight(weights_[p].data());
+      run.products += (1 - lumped_share) * part * V_p_[p] * weight * weight.transpose();
+      for (std::size_t k = 0; k < local; ++k) lumped_[run.rows[k]] += lumped_share * part * V_p_[p] * weights_[p][k];
     }
   }
   /// Integrals over the cell of products of two splines of degree K - 1, in units of h.
@@ -212,16 +192,25 @@ class PressureMass {
     }
     return mass;
   }
-  double exact_entry(const Run& run, std::size_t k, std::size_t j) const {
-    double product = run.volume;
-    for (std::size_t d = 0; d < Dim; ++d, k /= K, j /= K) product *= run.axis_mass[d][k % K][j % K];
+  /// Integrals over a cell of products of the multipliers' splines, in units of h^d.
+  static Square exact_products(const Splines<Dim>& splines, const Index<Dim>& cell) {
+    Square product = Square::Ones();
+    std::size_t stride = 1;
+    for (std::size_t d = 0; d < Dim; ++d, stride *= K) {
+      const auto of_axis = axis_mass(splines.axis[d].of_cell(cell[d]));
+      for (std::size_t k = 0; k < local; ++k) {
+        for (std::size_t j = 0; j < local; ++j)
+          product(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) *=
+              of_axis[k / stride % K][j / stride % K];
+      }
+    }
     return product;
   }
 
   std::span<const double> V_p_;
   const SiteExchange* shared_;
   std::vector<Run> runs_;
-  std::vector<Local> weights_;  ///< of every particle
+  std::vector<std::array<double, local>> weights_;  ///< of every particle
   std::vector<double> lumped_;  ///< of every multiplier, on the diagonal, by the particles of this rank
   std::vector<double> volume_;  ///< v_l of every multiplier
   std::vector<bool> is_free_;

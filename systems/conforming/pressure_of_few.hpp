@@ -137,16 +137,14 @@ class PressureOfFewParticles {
     double weights = 0;
     double least = std::numeric_limits<double>::infinity();
     double most = -least;
-    for_each_site_around<Dim, 2>(splines_, site_[i], [&](const Index<Dim>& site, const Index<Dim>& steps) {
-      if (!splines_.has_multiplier(site)) return;
-      const auto j = rows_.find(site);
-      if (!j || *j == i || lumped_[*j] == 0 || !counts(*j)) return;
-      const double p = lumped_[*j];
+    for_each_row_around<Dim, 2>(splines_, rows_, site_[i], [&](auto j, const auto& site, const Index<Dim>& steps) {
+      if (j == i || !splines_.has_multiplier(site) || lumped_[j] == 0 || !counts(j)) return;
+      const double p = lumped_[j];
       Vec<Dim> r = Eigen::Map<const Eigen::Matrix<int, Dim, 1>>(steps.data()).template cast<double>();
       const double weight = 1 / (r.squaredNorm() * r.squaredNorm());
       least = std::min(least, p);
       most = std::max(most, p);
-      if (is_whole(*j)) r += middle_[*j];
+      if (is_whole(j)) r += middle_[j];
       Line row;
       row << 1, r;
       normal += weight * row * row.transpose();

@@ -2,6 +2,7 @@
 /// \file
 /// Sites near a site, whether it is in a cell of particles or not.
 
+#include "components/sites.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/grid/support.hpp"
 
@@ -24,6 +25,45 @@ void for_each_site_around(const Splines<Dim>& splines, const Index<Dim>& site, c
     std::size_t rest = k;
     for (std::size_t d = 0; d < Dim; ++d, rest /= side) steps[d] = static_cast<int>(rest % side) - Reach;
     if (const auto other = splines.site_at(site, steps)) use(*other, steps);
+  }
+}
+
+/// use(row, other, steps) for those of them that have rows.
+template <int Dim, int Reach, class Use>
+void for_each_row_around(const Splines<Dim>& splines, const SiteRows<Dim>& rows, const Index<Dim>& site,
+                         const Use& use) {
+  constexpr std::size_t side = 2 * Reach + 1;
+  struct Along {
+    int site;
+    typename SiteRows<Dim>::Address part;
+    bool is_there;
+  };
+  std::array<std::array<Along, side>, static_cast<std::size_t>(Dim)> along;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    for (std::size_t k = 0; k < side; ++k) {
+      Index<Dim> steps{};
+      steps[d] = static_cast<int>(k) - Reach;
+      const auto other = splines.site_at(site, steps);
+      const int at = other ? (*other)[d] : 0;
+      along[d][k] = {at, rows.part(static_cast<int>(d), at), other.has_value()};
+    }
+  }
+  typename SiteRows<Dim>::Finder find(rows);
+  for (std::size_t k = 0; k < power(side, Dim); ++k) {
+    Index<Dim> other;
+    Index<Dim> steps;
+    typename SiteRows<Dim>::Address address;
+    bool is_there = true;
+    std::size_t rest = k;
+    for (std::size_t d = 0; d < Dim; ++d, rest /= side) {
+      const Along& of = along[d][rest % side];
+      other[d] = of.site;
+      steps[d] = static_cast<int>(rest % side) - Reach;
+      address = address + of.part;
+      is_there = is_there && of.is_there;
+    }
+    if (!is_there) continue;
+    if (const auto row = find(address)) use(*row, other, steps);
   }
 }
 
