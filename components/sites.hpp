@@ -47,7 +47,7 @@ class SiteRows {
   std::size_t number_rows();
 
   /// The row of a site of the grid, if it has one.
-  std::optional<std::uint32_t> find(const Index<Dim>& site) const { return Finder(*this)(address(site)); }
+  std::optional<std::uint32_t> find(const Index<Dim>& site) const { return Finder(*this)(site); }
   /// What a coordinate adds to an address.
   Address part(int axis, int coordinate) const {
     const auto d = static_cast<std::size_t>(axis);
@@ -108,6 +108,7 @@ class SiteRows {
       if (one_past == 0) return std::nullopt;
       return one_past - 1;
     }
+    std::optional<std::uint32_t> operator()(const Index<Dim>& site) { return (*this)(rows_->address(site)); }
 
    private:
     void turn_to(std::size_t page) {

@@ -44,19 +44,19 @@ void fit(const Around<Dim>& around, std::span<double> weight) {
     b << 1, around.offset[k];
     return b;
   };
-  const auto nearness = [&](std::size_t k) {
-    const double square = around.offset[k].squaredNorm();
-    return around.filled[k] / (square * square);
-  };
   double sum = 0;
   for (std::size_t k = 0; k < around.count; ++k) {
-    normal += nearness(k) * basis(k) * basis(k).transpose();
-    sum += nearness(k);
+    const double square = around.offset[k].squaredNorm();
+    const double near = around.filled[k] / (square * square);
+    const Basis b = basis(k);
+    normal += near * b * b.transpose();
+    weight[k] = near;
+    sum += near;
   }
   // Slopes that few faces tell of tend to zero.
   for (int d = 1; d <= Dim; ++d) normal(d, d) += 1e-3 * sum;
   const Basis at_origin = normal.ldlt().solve(Basis::Unit(0));
-  for (std::size_t k = 0; k < around.count; ++k) weight[k] = nearness(k) * at_origin.dot(basis(k));
+  for (std::size_t k = 0; k < around.count; ++k) weight[k] *= at_origin.dot(basis(k));
 }
 
 /// The same for the linear function that is zero at a place on the wall, with weights 1/r^2: no face alone decides.

@@ -31,13 +31,38 @@ constexpr int across = 2 * reach + 1;
 template <int Dim>
 constexpr std::size_t count_around = power(across, Dim);
 
-/// To the k-th of them, and back.
+/// Steps of the grid to them.
 template <int Dim>
-Index<Dim> steps_to(std::size_t k) {
-  Index<Dim> steps;
-  for (std::size_t d = 0; d < Dim; ++d, k /= across) steps[d] = static_cast<int>(k % across) - reach;
+std::array<Vec<Dim>, count_around<Dim>> list_steps() {
+  std::array<Vec<Dim>, count_around<Dim>> steps;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    std::size_t rest = k;
+    for (int d = 0; d < Dim; ++d, rest /= across) steps[k][d] = static_cast<int>(rest % across) - reach;
+  }
   return steps;
 }
+template <int Dim>
+const std::array<Vec<Dim>, count_around<Dim>> steps_to = list_steps<Dim>();
+
+/// Blocks of 2^d of them side by side, by the places of their corners, that with the most steps last.
+template <int Dim>
+using Block = std::array<std::size_t, power(2, Dim)>;
+template <int Dim>
+std::array<Block<Dim>, power(across - 1, Dim)> list_blocks() {
+  std::array<Block<Dim>, power(across - 1, Dim)> blocks;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    std::size_t first = 0;
+    std::size_t rest = k;
+    for (int d = 0; d < Dim; ++d, rest /= across - 1) first += rest % (across - 1) * power(across, d);
+    for (std::size_t c = 0; c < blocks[k].size(); ++c) {
+      blocks[k][c] = first;
+      for (int d = 0; d < Dim; ++d) blocks[k][c] += (c >> d & 1U) * power(across, d);
+    }
+  }
+  return blocks;
+}
+template <int Dim>
+const std::array<Block<Dim>, power(across - 1, Dim)> blocks_around = list_blocks<Dim>();
 
 template <int Dim>
 std::size_t place_of(const Index<Dim>& steps) {
@@ -67,15 +92,16 @@ RowsAround<Dim> rows_around(const FacesOnLevels<Dim>& faces, std::uint32_t row) 
 template <int Dim>
 bool is_whole(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
   if (faces.open_volume[row][static_cast<Eigen::Index>(faces.direction)] != 1) return false;
-  bool is_whole = true;
-  for_each_row_around<Dim, reach>(faces.splines, faces.rows, faces.site[row],
-                                  [&](std::uint32_t i, const Index<Dim>&, const Index<Dim>& steps) {
-                                    for (std::size_t d = 0; d < Dim; ++d) {
-                                      if (steps[d] == reach || (steps[d] == -reach && d != faces.direction)) return;
-                                    }
-                                    if (faces.open_share[i] < outside_from) is_whole = false;
-                                  });
-  return is_whole;
+  const auto nothing_reaches = [&](const Index<Dim>& site) {
+    bool is_outside = true;
+    for_each_row_around<Dim, 1>(faces.splines, faces.rows, site, [&](std::uint32_t i, const auto&, const auto&) {
+      is_outside &= !(faces.open_share[i] < outside_from);
+    });
+    return is_outside;
+  };
+  if (!nothing_reaches(faces.site[row])) return false;
+  const auto below = site_beside(faces.splines, faces.site[row], 2 * faces.direction);
+  return !below || nothing_reaches(*below);
 }
 
 /// Fill fractions of the faces around one, and their variances.
@@ -91,20 +117,12 @@ struct FillAround {
 /// grid.
 template <int Dim>
 std::optional<Vec<Dim>> slope_of_fill(const FillAround<Dim>& around) {
-  std::array<std::size_t, power(2, Dim)> corners{};
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    for (int d = 0; d < Dim; ++d) corners[k] += (k >> d & 1U) * power(across, d);
-  }
   Vec<Dim> slope = Vec<Dim>::Zero();
   int blocks = 0;
-  for (std::size_t k = 0; k < power(across - 1, Dim); ++k) {
-    std::size_t first = 0;
-    std::size_t rest = k;
-    for (int d = 0; d < Dim; ++d, rest /= across - 1) first += rest % (across - 1) * power(across, d);
-    if (!std::all_of(corners.begin(), corners.end(), [&](std::size_t at) { return around.is_known[first + at]; }))
-      continue;
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      const double fill = around.fill[first + corners[c]];
+  for (const Block<Dim>& block : blocks_around<Dim>) {
+    if (!std::all_of(block.begin(), block.end(), [&](std::size_t k) { return around.is_known[k]; })) continue;
+    for (std::size_t c = 0; c < block.size(); ++c) {
+      const double fill = around.fill[block[c]];
       for (int d = 0; d < Dim; ++d) slope[d] += (c >> d & 1U) != 0 ? fill : -fill;
     }
     ++blocks;
@@ -131,8 +149,7 @@ std::optional<Estimate> fill_on_level(const FillAround<Dim>& around) {
   double inherited = 0;
   for (std::size_t k = 0; k < around.fill.size(); ++k) {
     if (!around.is_known[k]) continue;
-    const Index<Dim> steps = steps_to<Dim>(k);
-    const Vec<Dim> r = Eigen::Map<const Eigen::Matrix<int, Dim, 1>>(steps.data()).template cast<double>();
+    const Vec<Dim>& r = steps_to<Dim>[k];
     const double level = r.dot(*slope) / steepness;
     if (std::abs(level) >= 1) continue;
     // Smooth where it ends: else faces a step away count at the least turn of a level surface, and waves grow out of
@@ -198,29 +215,43 @@ void level_with_surface(const FacesOnLevels<Dim>& faces, std::vector<std::uint32
   const auto full = [&](std::size_t i) {
     return faces.full_cell * faces.splines.face_integral(faces.site[i], faces.direction);
   };
+  std::vector<double> fill_of(mass.size(), 0);
   std::vector<double> variance(mass.size(), 0);  // of faces without a body: they tell exactly
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (is[i] == known || is[i] == unknown) fill_of[i] = mass[i][d] / full(i);
+  }
   const auto look = [&](const RowsAround<Dim>& rows) {
     FillAround<Dim> fill;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto i = static_cast<std::size_t>(rows[k]);
       fill.is_known[k] = rows[k] != staggered::none && is[i] == known;
-      fill.fill[k] = fill.is_known[k] ? mass[i][d] / full(i) : 0;
+      fill.fill[k] = fill.is_known[k] ? fill_of[i] : 0;
       fill.variance[k] = fill.is_known[k] ? variance[i] : 0;
     }
     return fill;
   };
   // From whole faces on into the corner, all that have enough known ones around in one pass.
+  std::vector<int> known_from(mass.size(), 0);  // the pass that first asks a known face
   std::vector<std::optional<Estimate>> found(cut.size());
   for (int pass = 0; pass < most_passes && !cut.empty(); ++pass) {
-    for_each_row(cut.size(), [&](std::size_t t) { found[t] = fill_on_level<Dim>(look(around[t])); });
+    const auto is_news = [&](std::int32_t row) {
+      const auto i = static_cast<std::size_t>(row);
+      return row != staggered::none && is[i] == known && known_from[i] == pass;
+    };
+    for_each_row(cut.size(), [&](std::size_t t) {
+      const bool has_news = std::any_of(around[t].begin(), around[t].end(), is_news);
+      found[t] = has_news ? fill_on_level<Dim>(look(around[t])) : std::nullopt;
+    });
     std::size_t left = 0;
     for (std::size_t t = 0; t < cut.size(); ++t) {
       const std::uint32_t i = cut[t];
       if (found[t]) {
-        const Estimate best = best_of(mass[i][d] / full(i), *found[t]);
+        const Estimate best = best_of(fill_of[i], *found[t]);
         mass[i][d] = best.fill * full(i);
+        fill_of[i] = mass[i][d] / full(i);
         variance[i] = best.variance;
         is[i] = known;
+        known_from[i] = pass + 1;
       } else {
         cut[left] = i;
         around[left++] = around[t];

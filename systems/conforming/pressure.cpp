@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <unordered_map>
 
 namespace minamo {
 
@@ -72,8 +73,7 @@ class PressureMass {
   std::vector<double> diagonal() const {
     std::vector<double> sum = lumped_;
     for (const Run& run : runs_) {
-      for (Eigen::Index k = 0; k < run.products.rows(); ++k)
-        sum[run.rows[static_cast<std::size_t>(k)]] += run.products(k, k);
+      for (std::size_t k = 0; k < local; ++k) sum[run.rows[k]] += products_[run.products].data()[k * (local + 1)];
     }
     add_up(sum);
     return sum;
@@ -84,7 +84,7 @@ class PressureMass {
     for (const Run& run : runs_) {
       Column x_of_run;
       for (std::size_t k = 0; k < local; ++k) x_of_run.data()[k] = x[run.rows[k]];
-      const Column of_run = run.products * x_of_run;
+      const Column of_run = products_[run.products] * x_of_run;
       for (std::size_t k = 0; k < local; ++k) out[run.rows[k]] += of_run.data()[k];
     }
     add_up(out);
@@ -111,7 +111,7 @@ class PressureMass {
     std::size_t begin;
     std::size_t end;
     std::array<std::uint32_t, local> rows;
-    Square products;  ///< integrals of the products of its weights
+    std::size_t products;  ///< which are its integrals of products of weights
   };
 
   /// With what particles of other ranks bring.
@@ -121,16 +121,17 @@ class PressureMass {
 
   void list_runs(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
                  std::span<const Vec<Dim>> y_p) {
+    typename SiteRows<Dim>::Finder find(rows);
     for (std::size_t p = 0; p < y_p.size(); ++p) {
       const Index<Dim> cell = cell_around<Dim>(grid, splines, y_p[p]);
       if (!runs_.empty() && runs_.back().cell == cell) {
         runs_.back().end = p + 1;
         continue;
       }
-      Run run{cell, p, p + 1, {}, Square::Zero()};
+      Run run{cell, p, p + 1, {}, 0};
       std::size_t m = 0;
       for_each_multiplier<Dim, K>(
-          [&](std::size_t, const Index<Dim>& offset) { run.rows[m++] = *rows.find(splines.site(cell, offset)); });
+          [&](std::size_t, const Index<Dim>& offset) { run.rows[m++] = *find(splines.site(cell, offset)); });
       runs_.push_back(run);
     }
   }
@@ -161,23 +162,48 @@ class PressureMass {
     std::vector<double> runs_at(site.size(), 0);
     for (const Run& run : runs_) runs_at[run.rows[0]] += 1;
     lumped_.assign(site.size(), 0);
+    WholeCells whole(splines, cell_volume, products_);
     for (Run& run : runs_) {
       double least = 1;
       for (const std::uint32_t row : run.rows)
         least = std::min(least, volume_[row] / (cell_volume * splines.widths(site[row])));
       const double exact = filled_indicator(least);
-      if (exact > 0) run.products = exact * cell_volume / runs_at[run.rows[0]] * exact_products(splines, run.cell);
-      if (exact < 1) add_particles(run, 1 - exact);
+      const double share = exact / runs_at[run.rows[0]];
+      run.products = share > 0 ? whole.products(run.cell) : products_.size();
+      if (share == 1) continue;
+      products_.push_back(share > 0 ? Square(share * products_[run.products]) : Square(Square::Zero()));
+      run.products = products_.size() - 1;
+      add_particles(run, 1 - exact);
     }
   }
   /// Of the particles of a run, a part of their volume.
-  void add_particles(Run& run, double part) {
+  void add_particles(const Run& run, double part) {
+    Square& products = products_[run.products];
     for (std::size_t p = run.begin; p < run.end; ++p) {
       const Eigen::Map<const Column> weight(weights_[p].data());
-      run.products += (1 - lumped_share) * part * V_p_[p] * weight * weight.transpose();
+      products += (1 - lumped_share) * part * V_p_[p] * weight * weight.transpose();
       for (std::size_t k = 0; k < local; ++k) lumped_[run.rows[k]] += lumped_share * part * V_p_[p] * weights_[p][k];
     }
   }
+  /// Exact integrals, once for all cells of a kind.
+  class WholeCells {
+   public:
+    WholeCells(const Splines<Dim>& splines, double cell_volume, std::vector<Square>& products)
+        : splines_(splines), cell_volume_(cell_volume), products_(products) {}
+    std::size_t products(const Index<Dim>& cell) {
+      std::size_t kind = 0;
+      for (std::size_t d = 0; d < Dim; ++d) kind = kind * splines_.axis[d].kinds() + splines_.axis[d].kind_of(cell[d]);
+      const auto [found, is_new] = of_kind_.try_emplace(kind, products_.size());
+      if (is_new) products_.push_back(cell_volume_ * exact_products(splines_, cell));
+      return found->second;
+    }
+
+   private:
+    const Splines<Dim>& splines_;
+    double cell_volume_;
+    std::vector<Square>& products_;
+    std::unordered_map<std::size_t, std::size_t> of_kind_;
+  };
   /// Integrals over the cell of products of two splines of degree K - 1, in units of h.
   static std::array<std::array<double, K>, K> axis_mass(const CellSplines& splines) {
     std::array<std::array<double, K>, K> mass{};
@@ -210,6 +236,7 @@ class PressureMass {
   std::span<const double> V_p_;
   const SiteExchange* shared_;
   std::vector<Run> runs_;
+  std::vector<Square> products_;                    ///< of runs and of whole cells
   std::vector<std::array<double, local>> weights_;  ///< of every particle
   std::vector<double> lumped_;  ///< of every multiplier, on the diagonal, by the particles of this rank
   std::vector<double> volume_;  ///< v_l of every multiplier

@@ -68,7 +68,9 @@ class PressureOfFewParticles {
   double open_share(std::size_t i) const { return open_share_.empty() ? 1 : open_share_[i]; }
   bool has_few(std::size_t i) const {
     constexpr double few = 0.5;
-    return open_share(i) == 1 && (volume_[i] < few * filled_share(i, 0) * whole_volume(i) || is_hole_at_wall(i));
+    if (open_share(i) < 1) return false;
+    const double half = few * whole_volume(i);
+    return (volume_[i] < half && volume_[i] < filled_share(i, 0) * half) || is_hole_at_wall(i);
   }
   /// Particles that flow along a wall leave holes beside it: no surface, for the liquid is on the other side.
   bool is_hole_at_wall(std::size_t i) const {
