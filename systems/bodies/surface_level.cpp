@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace minamo {
@@ -44,7 +45,7 @@ std::array<Vec<Dim>, count_around<Dim>> list_steps() {
 template <int Dim>
 const std::array<Vec<Dim>, count_around<Dim>> steps_to = list_steps<Dim>();
 
-/// Blocks of 2^d of them side by side, by the places of their corners, that with the most steps last.
+/// Blocks of 2^d of them side by side, by the places of their corners.
 template <int Dim>
 using Block = std::array<std::size_t, power(2, Dim)>;
 template <int Dim>
@@ -176,90 +177,125 @@ Estimate best_of(double own, const Estimate& on_level) {
   return {own + share * (on_level.fill - own), share * on_level.variance};
 }
 
-}  // namespace
-
+/// The cut faces, and those around that tell of them.
 template <int Dim>
-void level_with_surface(const FacesOnLevels<Dim>& faces, std::vector<std::uint32_t> cut, std::span<Vec<Dim>> mass) {
-  if (cut.empty()) return;
-  enum : std::uint8_t { apart, near, known, unknown };
-  std::vector<std::uint8_t> is(mass.size(), apart);
-  for (const std::uint32_t i : cut) is[i] = unknown;
-  std::vector<RowsAround<Dim>> around;
-  const auto look_around = [&] {
-    const std::size_t first = around.size();
-    around.resize(cut.size());
-    for_each_row(cut.size() - first,
-                 [&](std::size_t t) { around[first + t] = rows_around<Dim>(faces, cut[first + t]); });
+class UnknownFaces {
+ public:
+  UnknownFaces(const FacesOnLevels<Dim>& faces, std::vector<std::uint32_t> cut, std::span<Vec<Dim>> mass)
+      : faces_(faces),
+        mass_(mass),
+        unknown_(std::move(cut)),
+        is_(mass.size(), apart),
+        fill_(mass.size(), 0),
+        variance_(mass.size(), 0),
+        known_from_(mass.size(), 0) {
+    for (const std::uint32_t i : unknown_) is_[i] = unknown;
+    // Faces of which a body takes next to nothing are unknown, too.
+    for (const std::uint32_t i : look_around()) {
+      if (is_[i] != near || faces.open_volume[i][axis()] != 1) continue;
+      is_[i] = unknown;
+      unknown_.push_back(i);
+    }
+    look_around();
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      if (is_[i] == known || is_[i] == unknown) fill_[i] = mass[i][axis()] / full(i);
+    }
+  }
+
+  /// From whole faces on into the corner, all that have enough known ones around in one pass.
+  void level() {
+    bool has_found = true;
+    for (int pass = 0; pass < most_passes && has_found; ++pass) {
+      std::vector<std::optional<Estimate>> found(unknown_.size());
+      for_each_row(found.size(), [&](std::size_t t) {
+        if (has_news(around_[t], pass)) found[t] = fill_on_level<Dim>(fill_around(around_[t]));
+      });
+      has_found = take(found, pass);
+    }
+  }
+
+ private:
+  enum State : std::uint8_t { apart, near, known, unknown };
+
+  Eigen::Index axis() const { return static_cast<Eigen::Index>(faces_.direction); }
+  /// Mass of a face full of liquid. [kg]
+  double full(std::size_t i) const {
+    return faces_.full_cell * faces_.splines.face_integral(faces_.site[i], faces_.direction);
+  }
+  /// Finds what lies around unknown faces that were not looked around before.
+  /// \return those faces that are new
+  std::vector<std::uint32_t> look_around() {
+    const std::size_t first = around_.size();
+    around_.resize(unknown_.size());
+    for_each_row(unknown_.size() - first,
+                 [&](std::size_t t) { around_[first + t] = rows_around<Dim>(faces_, unknown_[first + t]); });
     std::vector<std::uint32_t> found;
-    for (std::size_t t = first; t < around.size(); ++t) {
-      for (const std::int32_t i : around[t]) {
-        if (i == staggered::none || is[static_cast<std::size_t>(i)] != apart) continue;
-        is[static_cast<std::size_t>(i)] = near;
+    for (std::size_t t = first; t < around_.size(); ++t) {
+      for (const std::int32_t i : around_[t]) {
+        if (i == staggered::none || is_[static_cast<std::size_t>(i)] != apart) continue;
+        is_[static_cast<std::size_t>(i)] = near;
         found.push_back(static_cast<std::uint32_t>(i));
       }
     }
     for_each_row(found.size(), [&](std::size_t k) {
-      if (is_whole<Dim>(faces, found[k])) is[found[k]] = known;
+      if (is_whole<Dim>(faces_, found[k])) is_[found[k]] = known;
     });
     return found;
-  };
-  // Faces of which a body takes next to nothing are unknown, too.
-  for (const std::uint32_t i : look_around()) {
-    if (is[i] != near || faces.open_volume[i][static_cast<Eigen::Index>(faces.direction)] != 1) continue;
-    is[i] = unknown;
-    cut.push_back(i);
   }
-  look_around();
-
-  const auto d = static_cast<Eigen::Index>(faces.direction);
-  const auto full = [&](std::size_t i) {
-    return faces.full_cell * faces.splines.face_integral(faces.site[i], faces.direction);
-  };
-  std::vector<double> fill_of(mass.size(), 0);
-  std::vector<double> variance(mass.size(), 0);  // of faces without a body: they tell exactly
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (is[i] == known || is[i] == unknown) fill_of[i] = mass[i][d] / full(i);
+  /// Whether a face is known that was not when these were asked last.
+  bool has_news(const RowsAround<Dim>& rows, int pass) const {
+    return std::any_of(rows.begin(), rows.end(), [&](std::int32_t row) {
+      const auto i = static_cast<std::size_t>(row);
+      return row != staggered::none && is_[i] == known && known_from_[i] == pass;
+    });
   }
-  const auto look = [&](const RowsAround<Dim>& rows) {
+  FillAround<Dim> fill_around(const RowsAround<Dim>& rows) const {
     FillAround<Dim> fill;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto i = static_cast<std::size_t>(rows[k]);
-      fill.is_known[k] = rows[k] != staggered::none && is[i] == known;
-      fill.fill[k] = fill.is_known[k] ? fill_of[i] : 0;
-      fill.variance[k] = fill.is_known[k] ? variance[i] : 0;
+      fill.is_known[k] = rows[k] != staggered::none && is_[i] == known;
+      fill.fill[k] = fill.is_known[k] ? fill_[i] : 0;
+      fill.variance[k] = fill.is_known[k] ? variance_[i] : 0;
     }
     return fill;
-  };
-  // From whole faces on into the corner, all that have enough known ones around in one pass.
-  std::vector<int> known_from(mass.size(), 0);  // the pass that first asks a known face
-  std::vector<std::optional<Estimate>> found(cut.size());
-  for (int pass = 0; pass < most_passes && !cut.empty(); ++pass) {
-    const auto is_news = [&](std::int32_t row) {
-      const auto i = static_cast<std::size_t>(row);
-      return row != staggered::none && is[i] == known && known_from[i] == pass;
-    };
-    for_each_row(cut.size(), [&](std::size_t t) {
-      const bool has_news = std::any_of(around[t].begin(), around[t].end(), is_news);
-      found[t] = has_news ? fill_on_level<Dim>(look(around[t])) : std::nullopt;
-    });
-    std::size_t left = 0;
-    for (std::size_t t = 0; t < cut.size(); ++t) {
-      const std::uint32_t i = cut[t];
-      if (found[t]) {
-        const Estimate best = best_of(fill_of[i], *found[t]);
-        mass[i][d] = best.fill * full(i);
-        fill_of[i] = mass[i][d] / full(i);
-        variance[i] = best.variance;
-        is[i] = known;
-        known_from[i] = pass + 1;
-      } else {
-        cut[left] = i;
-        around[left++] = around[t];
-      }
-    }
-    if (left == cut.size()) return;
-    cut.resize(left);
   }
+  /// Those that were found are known from the next pass on.
+  /// \return whether there are both found ones and others
+  bool take(const std::vector<std::optional<Estimate>>& found, int pass) {
+    std::size_t left = 0;
+    for (std::size_t t = 0; t < found.size(); ++t) {
+      const std::uint32_t i = unknown_[t];
+      if (!found[t]) {
+        unknown_[left] = i;
+        around_[left++] = around_[t];
+        continue;
+      }
+      const Estimate best = best_of(fill_[i], *found[t]);
+      mass_[i][axis()] = best.fill * full(i);
+      fill_[i] = mass_[i][axis()] / full(i);
+      variance_[i] = best.variance;
+      is_[i] = known;
+      known_from_[i] = pass + 1;
+    }
+    unknown_.resize(left);
+    return left > 0 && left < found.size();
+  }
+
+  const FacesOnLevels<Dim>& faces_;
+  std::span<Vec<Dim>> mass_;
+  std::vector<std::uint32_t> unknown_;
+  std::vector<RowsAround<Dim>> around_;  ///< of unknown ones
+  std::vector<State> is_;                ///< of all rows, as the rest
+  std::vector<double> fill_;             ///< of known and unknown ones [1]
+  std::vector<double> variance_;         ///< of faces without a body 0: they tell exactly
+  std::vector<int> known_from_;          ///< the pass that first asks a known one
+};
+
+}  // namespace
+
+template <int Dim>
+void level_with_surface(const FacesOnLevels<Dim>& faces, std::vector<std::uint32_t> cut, std::span<Vec<Dim>> mass) {
+  if (!cut.empty()) UnknownFaces<Dim>(faces, std::move(cut), mass).level();
 }
 
 template void level_with_surface<2>(const FacesOnLevels<2>&, std::vector<std::uint32_t>, std::span<Vec<2>>);
