@@ -168,7 +168,13 @@ struct FillFraction : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.fill_fraction", "phi_l", "1", Lifetime::scratch};
 };
 
-/// The least fill fraction of a multiplier and its neighbours. [1]
+/// The fill fraction, or that of a multiplier and its neighbours together where it is more: gaps in a lattice of
+/// particles that is stretched are no surface. [1]
+struct FillAround : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.fill_around", "", "1", Lifetime::scratch};
+};
+
+/// The least of these of a multiplier and its neighbours. [1]
 struct LeastFill : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.least_fill", "", "1", Lifetime::scratch};
 };

@@ -53,7 +53,7 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
                                        Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
                                        Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> share,
                                        Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                                       Update<multiplier::FillFraction> phi,
+                                       Update<multiplier::FillFraction> phi, Update<multiplier::FillAround> around,
                                        Update<multiplier::LeastFill> least) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const SitePlaces<Dim> places(*grid, *splines);
@@ -61,10 +61,10 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
   const double cell_volume = std::pow(grid->spacing, Dim);
   for_each_row(phi.size(), [&](std::size_t i) {
     if (share[i] == 1) return;
-    phi[i] = 0;
+    phi[i] = around[i] = 0;
     if (v_l[i] == 0) return;  // not all of its faces have rows
     if (share[i] < inside_below) {
-      phi[i] = 1;
+      phi[i] = around[i] = 1;
       return;
     }
     double filled = 2 * v_l[i];
@@ -79,18 +79,18 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
         open += capacity[static_cast<std::size_t>(j)];
       }
     }
-    phi[i] = filled / open;
+    phi[i] = around[i] = filled / open;
   });
   for_each_row(phi.size(), [&](std::size_t i) {
     if (!splines->has_multiplier(site[i])) return;
-    least[i] = share[i] < telling_from ? 1 : phi[i];
+    least[i] = share[i] < telling_from ? 1 : around[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
       const std::int32_t j = neighbour[i][side];
       const bool is_empty = j == staggered::none;
       const double open = is_empty ? empty.share(site[i], side) : share[static_cast<std::size_t>(j)];
       if (open < telling_from) continue;
-      least[i] = std::min(least[i], is_empty ? 0 : phi[static_cast<std::size_t>(j)]);
+      least[i] = std::min(least[i], is_empty ? 0 : around[static_cast<std::size_t>(j)]);
     }
   });
 }

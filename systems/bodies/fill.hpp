@@ -21,7 +21,8 @@ struct FillBesideBodies {
                   Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> share,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                  Update<multiplier::FillFraction> phi, Update<multiplier::LeastFill> least) const;
+                  Update<multiplier::FillFraction> phi, Update<multiplier::FillAround> around,
+                  Update<multiplier::LeastFill> least) const;
 };
 
 /// (E86)  m_f over what bodies leave open of the liquid around a face; where that is little, with that of the faces

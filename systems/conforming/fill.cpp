@@ -104,14 +104,25 @@ template <int Dim>
 void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                                Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
                                Read<multiplier::Capacity> capacity, Write<multiplier::FillFraction> phi,
-                               Write<multiplier::LeastFill> least) const {
+                               Write<multiplier::FillAround> around, Write<multiplier::LeastFill> least) const {
   for_each_row(phi.size(), [&](std::size_t i) { phi[i] = capacity[i] > 0 ? v_l[i] / capacity[i] : 0; });
   for_each_row(phi.size(), [&](std::size_t i) {
-    least[i] = phi[i];
+    double filled = 2 * v_l[i];
+    double room = 2 * capacity[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
       const std::int32_t j = neighbour[i][side];
-      least[i] = std::min(least[i], j == staggered::none ? 0 : phi[static_cast<std::size_t>(j)]);
+      filled += j == staggered::none ? 0 : v_l[static_cast<std::size_t>(j)];
+      room += j == staggered::none ? capacity[i] : capacity[static_cast<std::size_t>(j)];
+    }
+    around[i] = filled > phi[i] * room ? filled / room : phi[i];
+  });
+  for_each_row(phi.size(), [&](std::size_t i) {
+    least[i] = around[i];
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (splines->ends_at(site[i], side)) continue;
+      const std::int32_t j = neighbour[i][side];
+      least[i] = std::min(least[i], j == staggered::none ? 0 : around[static_cast<std::size_t>(j)]);
     }
   });
 }

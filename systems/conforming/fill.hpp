@@ -37,14 +37,15 @@ double least_fill_of_face(const Splines<Dim>& splines, const Index<Dim>& site,
   return below == staggered::none ? 0 : std::min(above, least[static_cast<std::size_t>(below)]);
 }
 
-/// phi_l = V~_l/V_l, and the least of a multiplier and its neighbours; beyond walls there are none.
+/// phi_l = V~_l/V_l;  (E125)  phi'_l = max(phi_l, (2 V~_l + sum_k V~_k)/(2 V_l + sum_k V_k)) with the neighbours k of a
+/// multiplier, and the least phi' of both; beyond walls there are none.
 template <int Dim>
 struct FindFill {
-  static constexpr std::string_view doc = "fill fraction of multipliers";
+  static constexpr std::string_view doc = "(E125) fill fraction of multipliers";
   void operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
                   Read<multiplier::Capacity> capacity, Write<multiplier::FillFraction> phi,
-                  Write<multiplier::LeastFill> least) const;
+                  Write<multiplier::FillAround> around, Write<multiplier::LeastFill> least) const;
 };
 
 /// (E61) of a cell, from its multipliers.

@@ -25,7 +25,7 @@ std::span<const double> numbers(std::span<const Vec<Dim>> of_faces) {
 template <int Dim>
 void FindCellViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                         Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Volume> V_p,
-                                        Read<multiplier::FillFraction> phi, Optional<Read<CutFriction<Dim>>> cut,
+                                        Read<multiplier::FillAround> around, Optional<Read<CutFriction<Dim>>> cut,
                                         Optional<Read<FrictionAtRest<Dim>>> at_rest,
                                         Write<cell::Viscosity> mu_c) const {
   const CellRoom<Dim> room(grid->spacing, cut, at_rest);
@@ -34,7 +34,7 @@ void FindCellViscosity<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       double volume = 0;
       for (std::size_t p = cell.begin; p < cell.end; ++p) volume += V_p[p];
-      const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), phi.span()));
+      const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), around.span()));
       mu_c[c] = fluid->viscosity * room.liquid_share(c, theta, volume);
     });
   });

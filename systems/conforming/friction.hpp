@@ -21,7 +21,7 @@ template <int Dim>
 struct FindCellViscosity {
   static constexpr std::string_view doc = "(E80) mu_c, what of a cell is liquid";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<GridCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::Volume> V_p, Read<multiplier::FillFraction> phi,
+                  Read<CellSites> sites, Read<particle::Volume> V_p, Read<multiplier::FillAround> around,
                   Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest,
                   Write<cell::Viscosity> mu_c) const;
 };

@@ -23,7 +23,7 @@ void FindCellViscosityOfFluids<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluids> fluids, Read<GridCells<Dim>> cells,
     Read<CellSites> sites, Read<particle::Volume> V_p, Read<particle::FluidIndex> k_p,
     Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
-    Read<multiplier::FillFraction> phi, Optional<Read<CutFriction<Dim>>> cut,
+    Read<multiplier::FillAround> around, Optional<Read<CutFriction<Dim>>> cut,
     Optional<Read<FrictionAtRest<Dim>>> at_rest, Write<cell::Viscosity> mu_c) const {
   const CellRoom<Dim> room(grid->spacing, cut, at_rest);
   with_degree(splines->degree, [&](auto degree) {
@@ -43,7 +43,7 @@ void FindCellViscosityOfFluids<Dim>::operator()(
         volume += volumes[k];
         per_viscosity += volumes[k] / (mu_p ? dissipations[k].viscosity() : fluids->of[k].viscosity);
       }
-      const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), phi.span()));
+      const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), around.span()));
       mu_c[c] = volume / per_viscosity * room.liquid_share(c, theta, volume);
     });
   });

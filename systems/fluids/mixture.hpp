@@ -32,7 +32,7 @@ struct FindCellViscosityOfFluids {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluids> fluids, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::Volume> V_p, Read<particle::FluidIndex> k_p,
                   Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
-                  Read<multiplier::FillFraction> phi, Optional<Read<CutFriction<Dim>>> cut,
+                  Read<multiplier::FillAround> around, Optional<Read<CutFriction<Dim>>> cut,
                   Optional<Read<FrictionAtRest<Dim>>> at_rest, Write<cell::Viscosity> mu_c) const;
 };
 

@@ -64,7 +64,7 @@ template <int Dim>
 void FindCellViscosityByParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                                    Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                                    Read<particle::Volume> V_p, Read<particle::ShearRate> g_p,
-                                                   Read<particle::Viscosity> mu_p, Read<multiplier::FillFraction> phi,
+                                                   Read<particle::Viscosity> mu_p, Read<multiplier::FillAround> around,
                                                    Optional<Read<CutFriction<Dim>>> cut,
                                                    Optional<Read<FrictionAtRest<Dim>>> at_rest,
                                                    Write<cell::Viscosity> mu_c) const {
@@ -78,7 +78,7 @@ void FindCellViscosityByParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Sp
         volume += V_p[p];
         dissipation.add(V_p[p], g_p[p], mu_p[p]);
       }
-      const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), phi.span()));
+      const double theta = filled_indicator(least_of_multipliers<Dim, K>(sites->of(c), around.span()));
       mu_c[c] = dissipation.viscosity() * room.liquid_share(c, theta, volume);
     });
   });

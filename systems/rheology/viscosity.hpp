@@ -43,7 +43,7 @@ struct FindCellViscosityByParticles {
   static constexpr std::string_view doc = "(E96) mu_c of the viscosities of particles";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::Volume> V_p, Read<particle::ShearRate> g_p, Read<particle::Viscosity> mu_p,
-                  Read<multiplier::FillFraction> phi, Optional<Read<CutFriction<Dim>>> cut,
+                  Read<multiplier::FillAround> around, Optional<Read<CutFriction<Dim>>> cut,
                   Optional<Read<FrictionAtRest<Dim>>> at_rest, Write<cell::Viscosity> mu_c) const;
 };
 

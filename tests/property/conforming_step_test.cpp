@@ -7,12 +7,14 @@
 #include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
+#include "systems/conforming/fill.hpp"
 #include "systems/conforming/pressure.hpp"
 #include "systems/conforming/splines.hpp"
 #include "systems/conforming/volume.hpp"
 
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -217,6 +219,42 @@ TEST_CASE("nothing is stirred in liquid that moves as a rigid body", "[property]
   Largest stir;
   for (const Vec<2>& s : run.world().column<particle::Stir<2>>()) stir.add(s.norm());
   CHECK(stir.value() <= 1e-12);
+}
+
+TEST_CASE("a gap between particles is no surface, a hole is one", "[property]") {
+  SceneRun run(column(2, 2));
+  run.step(1);
+  World& world = run.world();
+  const auto v_l = world.column<multiplier::Volume>();
+  const auto neighbour = world.column<staggered::Neighbour<2>>();
+  const auto least = world.column<multiplier::LeastFill>();
+  const auto around = world.column<multiplier::FillAround>();
+  kernels::run<FindFill<2>>(world);
+  // In the midst of the liquid: all neighbours are full, and theirs.
+  std::size_t middle = 0;
+  const auto is_full = [&](std::int32_t i) {
+    return i != staggered::none && least[static_cast<std::size_t>(i)] > 0.999;
+  };
+  while (!is_full(static_cast<std::int32_t>(middle)) ||
+         !std::all_of(neighbour[middle].begin(), neighbour[middle].end(), is_full)) {
+    ++middle;
+  }
+  const double volume = v_l[middle];
+  v_l[middle] = 0.9 * volume;
+  kernels::run<FindFill<2>>(world);
+  CHECK(around[middle] == Approx(5.8 / 6).epsilon(1e-3));
+  CHECK(least[middle] == around[middle]);
+  v_l[middle] = 0.4 * volume;
+  kernels::run<FindFill<2>>(world);
+  CHECK(least[middle] < 0.85);
+  // Beside the surface none counts as full.
+  const auto phi = world.column<multiplier::FillFraction>();
+  const auto is_beside_air = [&](std::int32_t j) {
+    return j != staggered::none && capacity[static_cast<std::size_t>(j)] > 0 && phi[static_cast<std::size_t>(j)] < 0.6;
+  };
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    if (std::any_of(neighbour[i].begin(), neighbour[i].end(), is_beside_air)) CHECK(least[i] < 0.9);
+  }
 }
 
 TEST_CASE("the pressure at a wall does not depend on how many particles are there", "[property]") {
