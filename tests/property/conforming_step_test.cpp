@@ -232,8 +232,10 @@ TEST_CASE("a gap between particles is no surface, a hole is one", "[property]") 
   kernels::run<FindFill<2>>(world);
   // In the midst of the liquid: all neighbours are full, and theirs.
   std::size_t middle = 0;
-  const auto is_full = [&](std::int32_t i) {
-    return i != staggered::none && least[static_cast<std::size_t>(i)] > 0.999;
+  const auto capacity = world.column<multiplier::Capacity>();
+  const auto is_full = [&](std::int32_t row) {
+    const auto i = static_cast<std::size_t>(row);
+    return row != staggered::none && capacity[i] > 0 && least[i] > 0.999;
   };
   while (!is_full(static_cast<std::int32_t>(middle)) ||
          !std::all_of(neighbour[middle].begin(), neighbour[middle].end(), is_full)) {
