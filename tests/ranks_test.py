@@ -230,9 +230,9 @@ class Messages(unittest.TestCase):
         for steps in (5, 6):
             folder, _ = run(f"still_{steps}", 2, SCENES / "dam_break.json", *still, "--steps", str(steps))
             sent[steps] = json.loads((folder / "summary.json").read_text())["ranks"]["messages"]
-        # Volume and divergence of multipliers, mass and velocity of faces, bound of friction and friction, inertia, parts,
-        # numbers and solutions of the unknowns; ghost cells, and which sites they touch.
-        self.assertEqual(sent[6] - sent[5], 2 * (10 + 2))
+        # Volume, divergence and fill of multipliers, mass and velocity of faces, bound of friction and friction, inertia,
+        # parts, numbers and solutions of the unknowns; ghost cells, and which sites they touch.
+        self.assertEqual(sent[6] - sent[5], 2 * (11 + 2))
 
 
 class Continuations(unittest.TestCase):

@@ -103,8 +103,9 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
 template <int Dim>
 void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                                Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
-                               Read<multiplier::Capacity> capacity, Write<multiplier::FillFraction> phi,
-                               Write<multiplier::FillAround> around, Write<multiplier::LeastFill> least) const {
+                               Read<multiplier::Capacity> capacity, Optional<Read<SiteExchange>> shared,
+                               Write<multiplier::FillFraction> phi, Write<multiplier::FillAround> around,
+                               Write<multiplier::LeastFill> least) const {
   for_each_row(phi.size(), [&](std::size_t i) { phi[i] = capacity[i] > 0 ? v_l[i] / capacity[i] : 0; });
   for_each_row(phi.size(), [&](std::size_t i) {
     double filled = 2 * v_l[i];
@@ -117,6 +118,8 @@ void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<
     }
     around[i] = filled > phi[i] * room ? filled / room : phi[i];
   });
+  // The least of neighbours is of neighbours of neighbours: farther than a rank knows volumes.
+  if (shared) shared->copy_from_owner(around.span());
   for_each_row(phi.size(), [&](std::size_t i) {
     least[i] = around[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {

@@ -44,8 +44,9 @@ struct FindFill {
   static constexpr std::string_view doc = "(E125) fill fraction of multipliers";
   void operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
-                  Read<multiplier::Capacity> capacity, Write<multiplier::FillFraction> phi,
-                  Write<multiplier::FillAround> around, Write<multiplier::LeastFill> least) const;
+                  Read<multiplier::Capacity> capacity, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::FillFraction> phi, Write<multiplier::FillAround> around,
+                  Write<multiplier::LeastFill> least) const;
 };
 
 /// (E61) of a cell, from its multipliers.

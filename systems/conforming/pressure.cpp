@@ -1,6 +1,7 @@
 #include "systems/conforming/pressure.hpp"
 
 #include "systems/conforming/pressure_of_few.hpp"
+#include "systems/conforming/sites_around.hpp"
 #include "systems/conforming/support.hpp"
 #include "systems/krylov/conjugate_gradients.hpp"
 
@@ -32,7 +33,7 @@ class PressureMass {
     list_runs(grid, splines, rows, y_p);
     find_weights(grid, splines, y_p);
     find_volume(site.size());
-    find_products(grid, splines, site);
+    find_products(grid, splines, rows, site);
     is_free_.resize(lambda.size());
     for (std::size_t i = 0; i < lambda.size(); ++i) is_free_[i] = lambda[i] != 0;
   }
@@ -156,8 +157,33 @@ class PressureMass {
     }
     add_up(volume_);
   }
-  void find_products(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Index<Dim>> site) {
+  /// phi' of (E125), by these particles, with neighbours as full as crowded ones at most: a hole beside a corner that
+  /// holds particles back is none less for it.
+  std::vector<double> fill_around(double cell_volume, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
+                                  std::span<const Index<Dim>> site) const {
+    std::vector<double> fill(site.size(), 0);
+    for (std::size_t i = 0; i < site.size(); ++i) {
+      if (volume_[i] == 0) continue;
+      const double room = cell_volume * splines.widths(site[i]);
+      fill[i] = volume_[i] / room;
+      if (fill[i] >= 1) continue;
+      double filled = 2 * volume_[i];
+      double rooms = 2 * room;
+      for (std::size_t side = 0; side < 2 * Dim; ++side) {
+        if (splines.ends_at(site[i], side)) continue;
+        const auto j = rows.find(*site_beside(splines, site[i], side));
+        const double beside = j ? cell_volume * splines.widths(site[*j]) : room;
+        if (j) filled += std::min(volume_[*j], crowded_from * beside);
+        rooms += beside;
+      }
+      fill[i] = std::max(fill[i], filled / rooms);
+    }
+    return fill;
+  }
+  void find_products(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
+                     std::span<const Index<Dim>> site) {
     const double cell_volume = std::pow(grid.spacing, Dim);
+    const std::vector<double> fill = fill_around(cell_volume, splines, rows, site);
     // A cell whose particles come in several runs is counted once, in parts.
     std::vector<double> runs_at(site.size(), 0);
     for (const Run& run : runs_) runs_at[run.rows[0]] += 1;
@@ -165,8 +191,7 @@ class PressureMass {
     WholeCells whole(splines, cell_volume, products_);
     for (Run& run : runs_) {
       double least = 1;
-      for (const std::uint32_t row : run.rows)
-        least = std::min(least, volume_[row] / (cell_volume * splines.widths(site[row])));
+      for (const std::uint32_t row : run.rows) least = std::min(least, fill[row]);
       const double exact = filled_indicator(least);
       const double share = exact / runs_at[run.rows[0]];
       run.products = share > 0 ? whole.products(run.cell) : products_.size();

@@ -16,6 +16,9 @@
 
 namespace minamo {
 
+/// Fill fraction from which on a multiplier has more particles than there is room for.
+inline constexpr double crowded_from = 1.3;
+
 /// (E75)  Beside bodies p_l = lambda_l/V_l where the liquid fills the grid, for there are too few particles to tell;
 /// near its surface, and inside of a body, where multipliers carry no force, it continues that of the multipliers
 /// around.
@@ -83,10 +86,7 @@ class PressureOfFewParticles {
     return false;
   }
   /// Particles that a corner holds back are more than it has room for.
-  bool is_crowded(std::size_t i) const {
-    constexpr double many = 1.3;
-    return open_share(i) == 1 && volume_[i] > many * whole_volume(i);
-  }
+  bool is_crowded(std::size_t i) const { return open_share(i) == 1 && volume_[i] > crowded_from * whole_volume(i); }
   /// Whether particles tell where the middle of its liquid is.
   bool is_whole(std::size_t i) const { return !middle_.empty() && open_share(i) == 1 && !has_few_[i]; }
   /// What of the whole volume of a multiplier the liquid that its force rests on takes.

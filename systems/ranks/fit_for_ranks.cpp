@@ -12,8 +12,8 @@ const std::set<std::string, std::less<>> fit{
     "migrate_particles", "find_ghost_cells", "plan_site_exchange", "solve_multipliers_petsc", "solve_friction",
     // add up at sites that ranks share
     "p2g_faces_pic", "p2g_faces_tpic", "p2g_faces_tpic2", "filter_faces_xpic", "filter_faces_fmpm",
-    "p2g_face_acceleration_pic", "p2g_face_acceleration_tpic", "p2g_face_force", "p2g_multipliers", "find_face_density",
-    "rub_faces", "add_face_inertia", "fill_parts", "recover_pressure",
+    "p2g_face_acceleration_pic", "p2g_face_acceleration_tpic", "p2g_face_force", "p2g_multipliers", "find_fill",
+    "find_face_density", "rub_faces", "add_face_inertia", "fill_parts", "recover_pressure",
     // over all particles or faces
     "limit_particle_shift", "accept_step_on_faces", "measure_energy", "measure_momentum", "measure_max_speed",
     "measure_error_velocity", "measure_error_pressure", "measure_face_divergence", "measure_multiplier_overlap",
@@ -26,7 +26,7 @@ const std::set<std::string, std::less<>> fit{
     "place_quadrature_at_middle", "place_quadrature_at_start", "place_quadrature_step_before",
     "place_quadrature_step_ahead", "store_kinetic_energy", "bin_by_cell", "number_sites", "hold_faces",
     "hold_face_accelerations", "predict_faces_midpoint", "predict_faces_backward_euler", "predict_faces_newmark",
-    "uniform_face_force", "sample_body_force", "find_fill", "find_cell_viscosity", "find_liquid_cells_by_multipliers",
+    "uniform_face_force", "sample_body_force", "find_cell_viscosity", "find_liquid_cells_by_multipliers",
     "find_mobility", "find_mobility_mixed", "shear_particles", "find_cell_viscosity_by_particles",
     "find_cell_viscosity_of_fluids", "keep_balance_velocity", "keep_pressure", "assemble_multipliers", "face_source",
     "damp_face_divergence", "face_volume_source", "project_faces", "correct_faces_midpoint", "correct_faces_newmark",
