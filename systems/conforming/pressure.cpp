@@ -194,11 +194,15 @@ class PressureMass {
       for (const std::uint32_t row : run.rows) least = std::min(least, fill[row]);
       const double exact = filled_indicator(least);
       const double share = exact / runs_at[run.rows[0]];
-      run.products = share > 0 ? whole.products(run.cell) : products_.size();
-      if (share == 1) continue;
-      products_.push_back(share > 0 ? Square(share * products_[run.products]) : Square(Square::Zero()));
-      run.products = products_.size() - 1;
-      add_particles(run, 1 - exact);
+      Square of_run = Square::Zero();
+      if (share > 0) {
+        run.products = whole.products(run.cell);
+        if (share == 1) continue;
+        of_run = share * products_[run.products];
+      }
+      run.products = products_.size();
+      products_.push_back(of_run);
+      if (exact < 1) add_particles(run, 1 - exact);
     }
   }
   /// Of the particles of a run, a part of their volume.
