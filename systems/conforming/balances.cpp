@@ -14,6 +14,9 @@ namespace {
 
 /// kappa of (E63).
 constexpr double damped_share = 0.5;
+/// Largest dt^2 |grad f_p| that (E53) passes on. An impact changes velocities in one step, and is no force that lasts
+/// into the next one: without this limit a closing cavity got back 0.25 % of the energy of a dam break.
+constexpr double steady_force = 0.03;
 
 template <int Dim>
 void predict_from_velocity(std::span<const Vec<Dim>> v_f, std::span<Vec<Dim>> predictor) {
@@ -89,11 +92,13 @@ void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Re
                                      Optional<Read<SiteExchange>> shared, Write<face::InertiaCorrection<Dim>> c_f,
                                      Update<face::Predictor<Dim>> predictor) const {
   const double share = std::min(1.0, step->seconds / clock->step);
+  const double most = steady_force / (clock->step * clock->step);
   const Vec<Dim> nothing = Vec<Dim>::Zero();
   scatter_mean_by_cell<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
                             c_f.span(), [&](std::size_t c, const auto&, auto) {
                               return [&, w = share * w_c[c]](std::size_t p) {
-                                return series::Linear<Dim>{nothing, w * grad_f_p[p]};
+                                const double size = grad_f_p[p].norm();
+                                return series::Linear<Dim>{nothing, (size > most ? w * most / size : w) * grad_f_p[p]};
                               };
                             });
   const double tau = rates->velocity / rates->acceleration;

@@ -76,7 +76,7 @@ struct P2GFaceForce {
                   Optional<Read<SiteExchange>> shared, Write<face::BodyForce<Dim>> b_f) const;
 };
 
-/// (E53) on faces: m_f c_f = s sum_p w_c N_f m_p grad f_p (x_f - y_p); v*_f gets tau c_f.
+/// (E53) on faces: m_f c_f = s sum_p w_c N_f m_p grad f_p (x_f - y_p) with |grad f_p| <= 0.03/dt^2; v*_f gets tau c_f.
 template <int Dim>
 struct AddFaceInertia {
   static constexpr std::string_view doc = "(E53) first moment that lumping the mass leaves out";

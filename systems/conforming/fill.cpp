@@ -132,18 +132,23 @@ void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<
 
 template <int Dim>
 void FindLiquidCellsByMultipliers<Dim>::operator()(Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                                   Read<CellSites> sites, Read<multiplier::FillFraction> phi,
+                                                   Read<CellSites> sites, Read<multiplier::Volume> v_l,
+                                                   Read<multiplier::Capacity> capacity,
                                                    Write<cell::LiquidIndicator> w_c,
                                                    Write<cell::BulkIndicator> b_c) const {
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto&) {
       const std::uint32_t* rows = sites->of(c);
-      double sum = 0;
-      for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) { sum += phi[rows[k]]; });
-      const double fill = sum / static_cast<double>(power(K, Dim));
-      w_c[c] = liquid_indicator(fill);
-      b_c[c] = bulk_indicator(fill);
+      double volume = 0;
+      double room = 0;
+      for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) {
+        volume += v_l[rows[k]];
+        room += capacity[rows[k]];
+      });
+      const double fill_fraction = room > 0 ? volume / room : 0;
+      w_c[c] = liquid_indicator(fill_fraction);
+      b_c[c] = bulk_indicator(fill_fraction);
     });
   });
 }

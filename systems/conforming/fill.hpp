@@ -49,12 +49,12 @@ struct FindFill {
                   Write<multiplier::LeastFill> least) const;
 };
 
-/// (E61) of a cell, from its multipliers.
+/// (E61) of a cell, f_c = sum_l V~_l/sum_l V_l over its multipliers.
 template <int Dim>
 struct FindLiquidCellsByMultipliers {
   static constexpr std::string_view doc = "(E61) w_c, b_c: liquid, spray or bulk";
   void operator()(Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<multiplier::FillFraction> phi, Write<cell::LiquidIndicator> w_c,
+                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Write<cell::LiquidIndicator> w_c,
                   Write<cell::BulkIndicator> b_c) const;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 /// c of (E73).
 constexpr double most_in_liquid = 0.5;
-constexpr double most_in_spray = 0.1;
+constexpr double most_in_spray = 0.05;
 
 }  // namespace
 

@@ -9,9 +9,9 @@
 
 namespace minamo {
 
-/// (E73)  grad v_p min(1, c/(dt |grad v_p|)), c = 0.1 + 0.4 w_c, w_c (E61). In spray a face may weigh next to nothing,
-/// and what is around it moves by more than a cell against it in a step. Such a gradient is noise, and what it gives to
-/// the faces comes back as energy.
+/// (E73)  grad v_p min(1, c/(dt |grad v_p|)), c = 0.05 + 0.45 w_c, w_c (E61). In spray a face may weigh next to
+/// nothing, and what is around it moves by more than a cell against it in a step. Such a gradient is noise, and what it
+/// gives to the faces comes back as energy.
 template <int Dim>
 struct LimitGradient {
   static constexpr std::string_view doc = "(E73) velocity gradients, where the grid does not resolve them";

@@ -7,6 +7,7 @@
 #include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
+#include "systems/conforming/balances.hpp"
 #include "systems/conforming/fill.hpp"
 #include "systems/conforming/pressure.hpp"
 #include "systems/conforming/splines.hpp"
@@ -207,6 +208,61 @@ TEST_CASE("the velocity of a conforming step has no divergence", "[property]") {
     divergence.add(run.world().resource<measure::MaxDivergence>().value * h / largest_speed<2>(run.world()));
   }
   CHECK(divergence.value() <= 1e-10);
+}
+
+TEST_CASE("what is liquid and what spray is told by volumes, in a corner as elsewhere", "[property]") {
+  const int degree = GENERATE(2, 3);
+  SceneRun run(conforming(Json::parse(R"json({"dimension": 2,
+      "grid": {"low": [0, 0], "high": [1, 1], "cells": [10, 10]}, "fluid": {"density": 1000, "viscosity": 0},
+      "particles": [{"shape": {"box": {"low": [0, 0], "high": [0.1, 0.1]}}, "per_cell": 2}],
+      "time": {"end": 1, "step": 1e-3}})json"),
+                          degree));
+  run.step();
+  // Multipliers beside the wall: h/2, h with degree 2, h/3, 2h/3, h with degree 3.
+  const double room = degree == 2 ? 1.5 * 1.5 : 2.0 * 2.0;
+  const auto w_c = run.world().column<cell::LiquidIndicator>();
+  REQUIRE(w_c.size() == 1);
+  CHECK(w_c[0] == Approx(std::clamp(5 / room - 1.5, 0.0, 1.0)).margin(1e-12));
+}
+
+TEST_CASE("what an impact does to velocities is not passed on as a force", "[property]") {
+  SceneRun run(plane_scene(2));
+  run.step(3);
+  World& world = run.world();
+  const double steady = 0.03 / std::pow(world.resource<Clock>().step, 2);
+  const auto correction = [&](double size) {
+    for (Mat<2>& gradient : world.column<particle::ForceGradient<2>>()) gradient << 0, size, 0, 0;
+    kernels::run<AddFaceInertia<2>>(world);
+    Largest largest;
+    for (const Vec<2>& c : world.column<face::InertiaCorrection<2>>()) largest.add(c.norm());
+    return largest.value();
+  };
+  const double most = correction(steady);
+  CHECK(most > 0);
+  CHECK(correction(0.5 * steady) == Approx(0.5 * most).epsilon(1e-12));
+  CHECK(correction(20 * steady) == Approx(most).epsilon(1e-12));
+}
+
+TEST_CASE("energy does not rise where a jet meets the corner of the lid", "[property][long]") {
+  // Particles alone in the corner gave back, from their velocity gradients, up to 0.16 % of the energy.
+  const double step = GENERATE(1e-3, 1.1e-3, 1.2e-3);
+  CAPTURE(step);
+  Json scene = scene_of_file("dam_break.json");
+  scene["particles"][0]["per_cell"] = 2;
+  scene["time"]["step"] = step;
+  SceneRun run(scene);
+  run.start();
+  const auto energy = [&] { return run.world().resource<measure::Energy>().total(); };
+  run.step();
+  const double initial = energy();
+  double least = initial;
+  Largest rise;
+  while (run.world().resource<Clock>().time < 0.45) {
+    run.step();
+    rise.add((energy() - least) / initial);
+    least = std::min(least, energy());
+  }
+  CHECK(rise.value() < 5e-4);
 }
 
 TEST_CASE("nothing is stirred in liquid that moves as a rigid body", "[property]") {
