@@ -107,7 +107,7 @@ bool is_whole(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
 
 /// Fill fractions of the faces around one, and their variances.
 template <int Dim>
-struct FillAround {
+struct FacesAround {
   std::array<double, count_around<Dim>> fill;
   std::array<double, count_around<Dim>> variance;
   std::array<bool, count_around<Dim>> is_known;
@@ -117,7 +117,7 @@ struct FillAround {
 /// all components its direction is right though the fraction is no straight line, and exact for a surface along the
 /// grid.
 template <int Dim>
-std::optional<Vec<Dim>> slope_of_fill(const FillAround<Dim>& around) {
+std::optional<Vec<Dim>> slope_of_fill(const FacesAround<Dim>& around) {
   Vec<Dim> slope = Vec<Dim>::Zero();
   int blocks = 0;
   for (const Block<Dim>& block : blocks_around<Dim>) {
@@ -139,7 +139,7 @@ struct Estimate {
 
 /// What the known faces on the level of the one in the middle tell of it; nothing where no surface is.
 template <int Dim>
-std::optional<Estimate> fill_on_level(const FillAround<Dim>& around) {
+std::optional<Estimate> fill_on_level(const FacesAround<Dim>& around) {
   const auto slope = slope_of_fill<Dim>(around);
   if (!slope || slope->norm() < least_slope) return {};
   const double steepness = slope->norm();
@@ -249,8 +249,8 @@ class UnknownFaces {
       return row != staggered::none && is_[i] == known && known_from_[i] == pass;
     });
   }
-  FillAround<Dim> fill_around(const RowsAround<Dim>& rows) const {
-    FillAround<Dim> fill;
+  FacesAround<Dim> fill_around(const RowsAround<Dim>& rows) const {
+    FacesAround<Dim> fill;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto i = static_cast<std::size_t>(rows[k]);
       fill.is_known[k] = rows[k] != staggered::none && is_[i] == known;

@@ -5,9 +5,8 @@
 
 #include "components/rigid.hpp"
 #include "components/staggered.hpp"
+#include "systems/conforming/value_range.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -44,23 +43,18 @@ struct FaceExtension {
       const Target& at = targets[k];
       if (at.own || (at.count == 0 && at.wall < 0)) return;
       double sum = 0;
-      double least = std::numeric_limits<double>::infinity();
-      double most = -least;
-      const auto cover = [&](double value) {
-        least = std::min(least, value);
-        most = std::max(most, value);
-      };
+      ValueRange range;
       for (std::size_t j = at.begin; j < at.begin + at.count; ++j) {
         const double value = field[source[j]][at.direction];
         sum += weight[j] * value;
-        cover(value);
+        range.cover(value);
       }
       if (at.wall >= 0) {
         const double of_wall = at.lever.dot(motion(static_cast<std::size_t>(at.wall)));
         sum += of_wall;
-        cover(of_wall);
+        range.cover(of_wall);
       }
-      field[at.row][at.direction] = std::min(std::max(sum, least - beyond), most + beyond);
+      field[at.row][at.direction] = range.limit(sum, beyond);
     });
   }
   /// The same where walls are at rest.

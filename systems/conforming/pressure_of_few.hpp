@@ -3,13 +3,13 @@
 /// (E75) Pressure where particles do not tell it: beside bodies, and of multipliers with few of them or too many.
 
 #include "systems/conforming/sites_around.hpp"
+#include "systems/conforming/value_range.hpp"
 #include "systems/grid/filled_nodes.hpp"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -137,15 +137,13 @@ class PressureOfFewParticles {
     Square normal = Square::Zero();
     Line right = Line::Zero();
     double weights = 0;
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
+    ValueRange range;
     for_each_row_around<Dim, 2>(splines_, rows_, site_[i], [&](auto j, const auto& site, const Index<Dim>& steps) {
       if (j == i || !splines_.has_multiplier(site) || lumped_[j] == 0 || !counts(j)) return;
       const double p = lumped_[j];
       Vec<Dim> r = Eigen::Map<const Eigen::Matrix<int, Dim, 1>>(steps.data()).template cast<double>();
       const double weight = 1 / (r.squaredNorm() * r.squaredNorm());
-      least = std::min(least, p);
-      most = std::max(most, p);
+      range.cover(p);
       if (is_whole(j)) r += middle_[j];
       Line row;
       row << 1, r;
@@ -156,8 +154,7 @@ class PressureOfFewParticles {
     if (weights == 0) return {};
     // Slopes that none around tell of are zero.
     for (int d = 1; d <= Dim; ++d) normal(d, d) += 1e-6 * weights;
-    const double range = most - least;
-    return std::min(std::max(normal.ldlt().solve(right)[0], least - range), most + range);
+    return range.limit(normal.ldlt().solve(right)[0], range.width());
   }
 
   /// Open share below which a multiplier that carries no force lies inside of a body, not in the air.
