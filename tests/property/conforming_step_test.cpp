@@ -260,7 +260,7 @@ TEST_CASE("energy does not rise where a jet meets the corner of the lid", "[prop
   while (run.world().resource<Clock>().time < 0.45) {
     run.step();
     rise.add((energy() - least) / initial);
-    least = std::min(least, energy());
+    least = smallest_of(least, energy());
   }
   CHECK(rise.value() < 5e-4);
 }
