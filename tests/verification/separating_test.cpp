@@ -1,6 +1,7 @@
 /// \file
 /// Walls that the liquid may leave: free fall from under a lid, rest, impact, energy.
 
+#include "support/energy.hpp"
 #include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
@@ -69,26 +70,6 @@ Json still(const std::string& wall, const std::string& force) {
 }
 
 double largest_speed(World& world) { return world.resource<measure::MaxSpeed>().value; }
-
-double total_energy(World& world) {
-  const auto& energy = world.resource<measure::Energy>();
-  return energy.kinetic + energy.potential.value_or(0);
-}
-
-/// The most that the energy has risen above an earlier value, over that of the start (E59). [1]
-double rise_of_energy(SceneRun& run, int steps) {
-  run.start();
-  const double at_start = total_energy(run.world());
-  double least = at_start;
-  double rise = 0;
-  for (int n = 0; n < steps; ++n) {
-    run.step();
-    const double energy = total_energy(run.world());
-    rise = largest_of(rise, energy - least);
-    least = smallest_of(least, energy);
-  }
-  return rise / at_start;
-}
 
 /// A channel of 1 m with liquid from the piston at x = 0.5185 m to x = 1.5 m, without gravity.
 Json piston(const std::string& velocity, const std::string& wall) {
