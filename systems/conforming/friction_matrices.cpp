@@ -144,6 +144,10 @@ FrictionMatrices<Dim>::FrictionMatrices(const Grid<Dim>& grid, const Splines<Dim
   std::size_t count = 1;
   for (const SplineAxis& axis : splines.axis) count *= axis.kinds();
   place_.assign(count, 0);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    for (std::size_t end = 0; end < 2; ++end)
+      per_slip_length_[d][end] = grid.periodic[d] ? 0 : grid.spacing * walls.per_slip_length[d][end];
+  }
   Cell cell;
   std::size_t next = 0;
   const auto add_all = [&](auto&& self, std::size_t d, std::size_t number) -> void {

@@ -45,6 +45,10 @@ class FrictionMatrices {
   const double* bounds_of(const Splines<Dim>& splines, const Index<Dim>& cell) const {
     return bounds_.data() + place_[number(splines, cell)] * faces_;
   }
+  /// h/b of the walls at the low and the high end of every axis, 0 where there is none. [1]
+  const std::array<std::array<double, 2>, static_cast<std::size_t>(Dim)>& per_slip_length() const {
+    return per_slip_length_;
+  }
 
  private:
   static std::size_t number(const Splines<Dim>& splines, const Index<Dim>& cell) {
@@ -61,6 +65,7 @@ class FrictionMatrices {
   void add(double scale, const Cell& cell);
 
   std::size_t faces_ = 0;
+  std::array<std::array<double, 2>, static_cast<std::size_t>(Dim)> per_slip_length_{};
   std::vector<std::size_t> place_;  ///< by kind: which of the matrices, of kinds that there are
   std::vector<double> entries_;
   std::vector<double> bounds_;

@@ -28,7 +28,7 @@ struct FrictionSystem {
   Passage<Dim> passage;
   FrictionWork<Dim>& work;
   const SiteExchange* shared = nullptr;
-  bool has_streams = false;
+  bool has_coarse = false;
 
   bool walls_rub() const { return friction.cut != nullptr; }
 
@@ -113,9 +113,13 @@ struct FrictionSystem {
     return 10 * stiff > work.mass.size();
   }
   /// (E119) \param left  r . z before \return r . z
-  double add_streams(double left) const {
-    if (!has_streams) return left;
-    work.streams.correct(work.r, work.z);
+  double add_coarse(double left, double tolerance) const {
+    if (!has_coarse) return left;
+    if constexpr (Dim == 2) {
+      work.streams.correct(work.r, work.z);
+    } else {
+      work.levels.correct(work.r, tolerance, work.z);
+    }
     return product(work.r, work.z);
   }
   /// B a v
@@ -171,8 +175,9 @@ struct FrictionSystem {
     const auto tolerance_for = [&](double size) {
       return std::clamp(share_of_projection * target / size, finest_projection, coarsest_projection);
     };
-    double left = project(tolerance_for(size_of(work.r)));
-    double sloped = add_streams(left);
+    double tolerance = tolerance_for(size_of(work.r));
+    double left = project(tolerance);
+    double sloped = add_coarse(left, tolerance);
     work.direction = work.z;
     for (std::int64_t k = 0;; ++k) {
       if (left <= target * target || k == most_friction_iterations || !std::isfinite(left)) {
@@ -183,8 +188,9 @@ struct FrictionSystem {
       const double step = sloped / product(work.direction, work.product);
       add_scaled(step, work.direction, work.v);
       add_scaled(-step, work.product, work.r);
-      left = project(tolerance_for(std::sqrt(left)));
-      const double before = std::exchange(sloped, add_streams(left));
+      tolerance = tolerance_for(std::sqrt(left));
+      left = project(tolerance);
+      const double before = std::exchange(sloped, add_coarse(left, tolerance));
       for_each_row(work.z.size(),
                    [&](std::size_t f) { work.direction[f] = work.z[f] + sloped / before * work.direction[f]; });
     }
@@ -256,15 +262,17 @@ void SolveFriction<Dim>::operator()(
       *splines, system.incidence,
       {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span(), system.shared},
       work->through);
-  if constexpr (Dim == 2) {
-    if (!shared && system.is_stiff()) {
-      // Of faces that bodies cut the streams take no part.
-      for_each_row(work->z.size(), [&](std::size_t f) {
-        work->z[f] = system.passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) < 1 ? 0 : work->mass[f];
-      });
+  if (!shared && system.is_stiff()) {
+    // Of faces that bodies cut coarser levels take no part.
+    for_each_row(work->z.size(), [&](std::size_t f) {
+      work->z[f] = system.passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) < 1 ? 0 : work->mass[f];
+    });
+    if constexpr (Dim == 2) {
       work->streams.prepare(grid->spacing, system.friction, site.span(), work->z);
-      system.has_streams = true;
+    } else {
+      work->levels.prepare(grid->spacing, system.friction, site.span(), work->z, of_unknown.span());
     }
+    system.has_coarse = true;
   }
   const double size = system.size_of(work->f);
   const double target = tolerance->relative * size;

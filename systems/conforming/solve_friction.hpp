@@ -18,6 +18,7 @@
 #include "systems/conforming/coarse_streams.hpp"
 #include "systems/conforming/cut_friction.hpp"
 #include "systems/conforming/face_extension.hpp"
+#include "systems/conforming/friction_levels.hpp"
 #include "systems/conforming/friction_matrices.hpp"
 #include "systems/conforming/multiplier_matrix.hpp"
 #include "systems/krylov/gmres.hpp"
@@ -30,11 +31,12 @@ namespace minamo {
 template <int Dim>
 struct FrictionWork {
   std::unique_ptr<MultiplierMatrix<Dim>> multipliers;
-  CoarseStreams streams;  ///< in the plane
-  Values mass, per_g;     ///< m/tau, 0 at faces that walls hold; G^-1
-  Values through;         ///< a_f^2 G^-1
-  Values tie;             ///< of closed faces where bodies rub, else empty [kg/s]
-  Values extended;        ///< room for velocities of closed faces
+  CoarseStreams streams;       ///< in the plane
+  FrictionLevels<Dim> levels;  ///< in space
+  Values mass, per_g;          ///< m/tau, 0 at faces that walls hold; G^-1
+  Values through;              ///< a_f^2 G^-1
+  Values tie;                  ///< of closed faces where bodies rub, else empty [kg/s]
+  Values extended;             ///< room for velocities of closed faces
   Values f, v, start, r, z, direction, product;
   Values divergence, y, sum_of_y;
   static constexpr ComponentInfo info{"solve.friction_work", "", "", Lifetime::cache};

@@ -21,8 +21,11 @@ double spread(const Scene& scene) { return scene.dimension == 3 ? 2.5 : 1 + 6.0 
 /// Columns of faces and multipliers, what cells know of their sites, factors in the plane and multigrid in space.
 double bytes_per_site(const Scene& scene) { return scene.dimension == 2 ? 2500 : 2000; }
 
-/// Friction in the balances: matrices of cells and the vectors of its iteration.
-double bytes_of_friction(const Scene& scene) { return friction_of(scene) == Friction::in_balances ? 800 : 0; }
+/// Friction in the balances: matrices of cells, the vectors of its iteration and, in space, coarser levels.
+double bytes_of_friction(const Scene& scene) {
+  if (friction_of(scene) != Friction::in_balances) return 0;
+  return scene.dimension == 2 ? 800 : 1600;
+}
 
 double bytes_per_node_of(const Scene& scene, double nodes) {
   const auto& solver = scene.facts.get<LinearSolver>();
