@@ -164,16 +164,8 @@ class ColumnStorage final : public Storage {
     keep(Old::needed);
     values_.resize(rows, zero<T>());
   }
-  void reorder(std::span<const std::uint32_t> order) override {
-    spare_.resize(order.size(), zero<T>());
-    gather(order);
-    take_spare();
-  }
-  void renumber(std::span<const std::optional<std::uint32_t>> from) override {
-    spare_.resize(from.size(), zero<T>());
-    gather(from);
-    take_spare();
-  }
+  void reorder(std::span<const std::uint32_t> order) override { gather(order); }
+  void renumber(std::span<const std::optional<std::uint32_t>> from) override { gather(from); }
   void mark() override { keeping_ = detail::Keeping::due; }
   void keep(Old old) override {
     if (keeping_ == detail::Keeping::due) keep_now(old);
@@ -208,30 +200,29 @@ class ColumnStorage final : public Storage {
       values_.resize(kept_.size(), zero<T>());
     }
   }
+  /// Rows become what others were. Until something has been kept the buffer for that is free: the new ones go there,
+  /// and the old ones, if they are to be kept, stay where they are, which costs nothing.
   template <class Row>
   void gather(std::span<const Row> from) {
+    std::vector<T>& to = keeping_ == detail::Keeping::done ? spare_ : kept_;
+    to.resize(from.size(), zero<T>());
     const T none = zero<T>();
     if constexpr (detail::bytes_are_value<T>) {
-      detail::gather_rows(std::as_writable_bytes(std::span(spare_)), std::as_bytes(std::span(values_)), from,
+      detail::gather_rows(std::as_writable_bytes(std::span(to)), std::as_bytes(std::span(values_)), from,
                           std::as_bytes(std::span(&none, 1)));
     } else {
       for (std::size_t k = 0; k != from.size(); ++k) {
         const std::optional<std::uint32_t> row = from[k];
-        spare_[k] = row ? values_[*row] : none;
+        to[k] = row ? values_[*row] : none;
       }
     }
-  }
-  /// The rows in spare_ become the values; the old ones are kept if that is due, which costs nothing.
-  void take_spare() {
-    values_.swap(spare_);
-    if (keeping_ != detail::Keeping::due) return;
-    spare_.swap(kept_);
-    keeping_ = detail::Keeping::done;
+    values_.swap(to);
+    if (keeping_ == detail::Keeping::due) keeping_ = detail::Keeping::done;
   }
 
   std::vector<T> values_;
-  std::vector<T> spare_;  // the other buffer of reorder and renumber, there so that a step does not allocate
   std::vector<T> kept_;   // from before the first change since mark()
+  std::vector<T> spare_;  // for rows that move after such a change, there so that a step does not allocate
   detail::Keeping keeping_ = detail::Keeping::off;
 };
 

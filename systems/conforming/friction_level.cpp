@@ -320,7 +320,6 @@ void FrictionLevel<Dim>::prolong_to(std::span<double> finer, double factor) cons
   });
 }
 
-template class FrictionLevel<2>;
 template class FrictionLevel<3>;
 
 }  // namespace minamo

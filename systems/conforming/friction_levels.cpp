@@ -61,7 +61,6 @@ void FrictionLevels<Dim>::correct(std::span<const double> r, double tolerance, s
   levels_[0].prolong_to(z, share_of_levels);
 }
 
-template class FrictionLevels<2>;
 template class FrictionLevels<3>;
 
 }  // namespace minamo

@@ -116,9 +116,9 @@ struct FrictionSystem {
   double add_coarse(double left, double tolerance) const {
     if (!has_coarse) return left;
     if constexpr (Dim == 2) {
-      work.streams.correct(work.r, work.z);
+      work.coarse.correct(work.r, work.z);
     } else {
-      work.levels.correct(work.r, tolerance, work.z);
+      work.coarse.correct(work.r, tolerance, work.z);
     }
     return product(work.r, work.z);
   }
@@ -268,9 +268,9 @@ void SolveFriction<Dim>::operator()(
       work->z[f] = system.passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) < 1 ? 0 : work->mass[f];
     });
     if constexpr (Dim == 2) {
-      work->streams.prepare(grid->spacing, system.friction, site.span(), work->z);
+      work->coarse.prepare(grid->spacing, system.friction, site.span(), work->z);
     } else {
-      work->levels.prepare(grid->spacing, system.friction, site.span(), work->z, of_unknown.span());
+      work->coarse.prepare(grid->spacing, system.friction, site.span(), work->z, of_unknown.span());
     }
     system.has_coarse = true;
   }

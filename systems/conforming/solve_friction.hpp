@@ -24,6 +24,7 @@
 #include "systems/krylov/gmres.hpp"
 
 #include <memory>
+#include <type_traits>
 
 namespace minamo {
 
@@ -31,12 +32,11 @@ namespace minamo {
 template <int Dim>
 struct FrictionWork {
   std::unique_ptr<MultiplierMatrix<Dim>> multipliers;
-  CoarseStreams streams;       ///< in the plane
-  FrictionLevels<Dim> levels;  ///< in space
-  Values mass, per_g;          ///< m/tau, 0 at faces that walls hold; G^-1
-  Values through;              ///< a_f^2 G^-1
-  Values tie;                  ///< of closed faces where bodies rub, else empty [kg/s]
-  Values extended;             ///< room for velocities of closed faces
+  std::conditional_t<Dim == 2, CoarseStreams, FrictionLevels<Dim>> coarse;  ///< (E119)
+  Values mass, per_g;                                                       ///< m/tau, 0 at faces that walls hold; G^-1
+  Values through;                                                           ///< a_f^2 G^-1
+  Values tie;       ///< of closed faces where bodies rub, else empty [kg/s]
+  Values extended;  ///< room for velocities of closed faces
   Values f, v, start, r, z, direction, product;
   Values divergence, y, sum_of_y;
   static constexpr ComponentInfo info{"solve.friction_work", "", "", Lifetime::cache};

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -277,6 +278,32 @@ TEST_CASE("what systems change after a mark is taken back", "[unit]") {
   CHECK(world.rows<Rows>() == 3);
   CHECK(values(world.column<Height>()) == std::vector<double>{1, 2, 3});
   CHECK(world.resource<Amount>().value == 7);
+}
+
+TEST_CASE("a column whose rows move in every step that may be taken back has two buffers", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  std::set<const double*> buffers;
+  for (int step = 0; step < 6; ++step) {
+    Resize<Rows>(world).reorder(std::vector<std::uint32_t>{2, 0, 1});
+    buffers.insert(world.column<Height>().data());
+    world.mark();
+    if (step == 3) world.roll_back();
+  }
+  CHECK(buffers.size() == 2);
+}
+
+TEST_CASE("rows that have changed and then moved are taken back", "[unit]") {
+  World world = world_with_heights({1, 2, 3});
+  for (int step = 0; step < 3; ++step) {
+    world.mark();
+    update(world, 1, 6);
+    Resize<Rows>(world).reorder(std::vector<std::uint32_t>{2, 0, 1});
+    CHECK(values(world.column<Height>()) == std::vector<double>{3, 1, 6});
+    Resize<Rows>(world).reorder(std::vector<std::uint32_t>{1, 2, 0});
+    CHECK(values(world.column<Height>()) == std::vector<double>{1, 6, 3});
+    world.roll_back();
+    CHECK(values(world.column<Height>()) == std::vector<double>{1, 2, 3});
+  }
 }
 
 TEST_CASE("columns that are scratch follow the rows that are taken back", "[unit]") {
