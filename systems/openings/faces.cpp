@@ -82,7 +82,7 @@ Outside integrate_outside(const Opening<Dim>& opening, const OpeningSet<Dim>& se
   };
   const auto add = [&](const Vec<Dim>& x, double weight) {
     const double p = pressure_outside<Dim>(opening, set, density, x, time);
-    require_finite(opening.name, "pressure", p, time);
+    require_finite_opening(opening.name, "pressure", p, time);
     if (p == 0) return;
     side.for_each_across(x, [&](std::size_t k, double spline) {
       outside.pressure[k] += weight * spline * p;

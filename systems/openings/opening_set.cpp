@@ -7,7 +7,7 @@
 
 namespace minamo {
 
-void require_finite(const std::string& opening, std::string_view what, double value, double time) {
+void require_finite_opening(const std::string& opening, std::string_view what, double value, double time) {
   if (std::isfinite(value)) return;
   throw std::runtime_error(
       fmt::format("openings: the {} of \"{}\" is not finite at t = {:.6g} s", what, opening, time));
@@ -40,7 +40,7 @@ double at_time(const Expression& expression, double time) { return expression(st
 template <int Dim>
 double level_at(const Opening<Dim>& opening, double time) {
   const double level = at_time(*opening.level, time);
-  require_finite(opening.name, "level", level, time);
+  require_finite_opening(opening.name, "level", level, time);
   return level;
 }
 
@@ -105,7 +105,7 @@ void scale_to_flow(const Opening<Dim>& opening, const Grid<Dim>& grid, const Sid
 template <int Dim>
 double inflow_rate(const Opening<Dim>& opening, double time) {
   const double rate = at_time(opening.rate, time);
-  require_finite(opening.name, "inflow", rate, time);
+  require_finite_opening(opening.name, "inflow", rate, time);
   if (rate >= 0) return rate;
   throw std::runtime_error(
       fmt::format("openings: the rate of \"{}\", what comes in, is {:.6g} at t = {:.6g} s", opening.name, rate, time));
@@ -179,7 +179,7 @@ opening::SideVelocity<Dim> prescribed_velocity(const Opening<Dim>& opening, cons
       const double of_face = share[d == side.axis() ? k : side.nearest(x)];
       if (of_face == 0) continue;
       const double value = opening.velocity[d](arguments.at<Dim>(x));
-      require_finite(opening.name, "inflow", value, time);
+      require_finite_opening(opening.name, "inflow", value, time);
       velocity.of[d][k] = d == side.axis() ? of_face * value : value;
     }
   }

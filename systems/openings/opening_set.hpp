@@ -88,7 +88,7 @@ void for_each_prescribed(const OpeningSet<Dim>& set, const Grid<Dim>& grid, cons
 /// What an opening prescribes is a number; no shorter step gets past one that is none.
 /// \param what  for the message, like "inflow"
 /// \throws std::runtime_error if it is not finite
-void require_finite(const std::string& opening, std::string_view what, double value, double time);
+void require_finite_opening(const std::string& opening, std::string_view what, double value, double time);
 
 /// Velocities that an opening prescribes on its side at a time.
 /// \throws std::runtime_error if one is not finite
