@@ -21,14 +21,14 @@ void raise_degree(int k, double x, const Knot& knot, std::array<double, CoarseAx
   b[static_cast<std::size_t>(k)] = left;
 }
 
-struct Point {
+struct GaussPoint {
   double x, weight;
 };
 /// Gauss's rule of four points on 0 ... 1, exact up to degree 7.
-constexpr std::array<Point, 4> gauss{{{0.06943184420297371, 0.17392742256872693},
-                                      {0.33000947820757187, 0.32607257743127307},
-                                      {0.66999052179242813, 0.32607257743127307},
-                                      {0.93056815579702629, 0.17392742256872693}}};
+constexpr std::array<GaussPoint, 4> gauss{{{0.06943184420297371, 0.17392742256872693},
+                                           {0.33000947820757187, 0.32607257743127307},
+                                           {0.66999052179242813, 0.32607257743127307},
+                                           {0.93056815579702629, 0.17392742256872693}}};
 
 std::vector<double> counted(int cells) {
   std::vector<double> ends(static_cast<std::size_t>(cells) + 1);
@@ -92,7 +92,7 @@ void CoarseAxis::find_squares(Family family) {
   const int degree = degree_of(family);
   for (int cell = 0; cell < cells(); ++cell) {
     Squares squares{};
-    for (const Point& point : gauss) {
+    for (const GaussPoint& point : gauss) {
       const double weight = point.weight * width_of_cell(cell);
       const double x = end(cell) + point.x * width_of_cell(cell);
       const auto value = values(degree, cell, x);
@@ -111,8 +111,7 @@ CoarseAxis::Parents CoarseAxis::insert_knots(int degree, const CoarseAxis& fine,
   const double begin = fine.end(spline - degree);
   int cell = periodic_ ? -degree : 0;
   while (end(cell + 1) <= begin) ++cell;
-  Parents parents{.first = wrapped(cell), .count = static_cast<std::size_t>(degree) + 1};
-  parents.weight[0] = 1;
+  Parents parents{.first = wrapped(cell), .weight = {1}};
   for (int k = 1; k <= degree; ++k)
     raise_degree(
         k, fine.end(spline - degree + k), [&](int m) { return end(cell + m); }, parents.weight);

@@ -6,7 +6,6 @@
 
 #include "systems/conforming/splines.hpp"
 
-#include <span>
 #include <vector>
 
 namespace minamo {
@@ -17,10 +16,9 @@ enum class Family : std::size_t { along = 0, across = 1 };
 class CoarseAxis {
  public:
   static constexpr std::size_t most = largest_degree + 1;
-  /// A spline as a sum over coarser ones, `count` of them from `first` on, around a periodic axis.
+  /// A spline as a sum over coarser ones, as many as a cell has, from `first` on, around a periodic axis.
   struct Parents {
     int first = 0;
-    std::size_t count = 0;
     std::array<double, most> weight{};
   };
 
@@ -33,6 +31,7 @@ class CoarseAxis {
   int cells() const { return static_cast<int>(ends_.size()) - 1; }
   bool periodic() const { return periodic_; }
   int sites() const { return periodic_ ? cells() : cells() + degree_; }
+  int multipliers() const { return periodic_ ? cells() : cells() + degree_ - 1; }
   int wrapped(int site) const { return periodic_ ? (site % cells() + cells()) % cells() : site; }
   /// The cell that a finer one is in.
   int parent_of_cell(int cell) const { return parent_of_cell_[static_cast<std::size_t>(cell)]; }

@@ -1,5 +1,7 @@
 #include "systems/conforming/friction_level.hpp"
 
+#include "systems/conforming/number_sites.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,98 +9,98 @@ namespace minamo {
 
 namespace {
 
-/// Calls use(offset) for every offset below the counts, x fastest.
-template <int Dim, class Use>
-void for_each_offset(const std::array<std::size_t, static_cast<std::size_t>(Dim)>& count, const Use& use) {
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> offset{};
-  for (;;) {
-    use(offset);
-    std::size_t d = 0;
-    while (d < Dim && ++offset[d] == count[d]) offset[d++] = 0;
-    if (d == Dim) return;
-  }
+/// For functions of multipliers in the place of a direction.
+constexpr int no_direction = -1;
+
+/// Family of the splines along an axis of a face of some direction, or of a multiplier.
+Family family_of(std::size_t axis, int direction) {
+  return static_cast<int>(axis) == direction ? Family::along : Family::across;
 }
 
-/// The offsets of the sites of a cell.
-template <int Dim>
-std::array<std::size_t, static_cast<std::size_t>(Dim)> sites_per_axis(int degree) {
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> count;
-  count.fill(static_cast<std::size_t>(degree) + 1);
-  return count;
-}
-
-/// Family of the splines along an axis of a face of some direction.
-Family family_of(std::size_t axis, std::size_t direction) { return axis == direction ? Family::along : Family::across; }
-
-/// Calls use(site, weight) for the functions of a level that make a finer one, a product of splines of these families.
-template <int Dim, class FamilyOf, class Use>
-void for_each_parent(const FrictionSplines<Dim>& splines, const Index<Dim>& finer, const FamilyOf& family,
-                     const Use& use) {
+/// Calls use(site, weight) for the functions of a level that make one of the finer level.
+template <int Dim, int K, int D, class Use>
+void for_each_parent(const FrictionSplines<Dim>& splines, const Index<Dim>& finer, const Use& use) {
   std::array<const CoarseAxis::Parents*, static_cast<std::size_t>(Dim)> parents;
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> count;
+  Index<Dim> first;
   for (std::size_t d = 0; d < Dim; ++d) {
-    if (!splines.axis[d].has_finer(family(d), finer[d])) return;
-    parents[d] = &splines.axis[d].parents(family(d), finer[d]);
-    count[d] = parents[d]->count;
+    if (!splines.axis[d].has_finer(family_of(d, D), finer[d])) return;
+    parents[d] = &splines.axis[d].parents(family_of(d, D), finer[d]);
+    first[d] = parents[d]->first;
   }
-  for_each_offset<Dim>(count, [&](const auto& offset) {
+  const auto use_at = [&](std::size_t, const Index<Dim>& offset) {
     double weight = 1;
-    Index<Dim> site;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      weight *= parents[d]->weight[offset[d]];
-      site[d] = splines.axis[d].wrapped(parents[d]->first + static_cast<int>(offset[d]));
-    }
-    if (weight != 0) use(site, weight);
-  });
+    for (std::size_t d = 0; d < Dim; ++d) weight *= parents[d]->weight[static_cast<std::size_t>(offset[d])];
+    if (weight != 0) use(splines.site(first, offset), weight);
+  };
+  if constexpr (D == no_direction) {
+    for_each_multiplier<Dim, K>(use_at);
+  } else {
+    for_each_face<Dim, K, D>(use_at);
+  }
 }
 
 /// 2 D(N_f):D(N_f) over a cell of unit viscosity, in units of h^(d-2), and what walls with slip lengths beside it add.
 template <int Dim>
-double friction_of_face(const FrictionSplines<Dim>& splines, const Index<Dim>& cell,
-                        const std::array<std::size_t, static_cast<std::size_t>(Dim)>& offset, std::size_t direction) {
+double friction_of_face(const FrictionSplines<Dim>& splines, const Index<Dim>& cell, const Index<Dim>& offset,
+                        int direction) {
   const auto square = [&](std::size_t axis, bool of_slope) {
-    return splines.axis[axis].square(family_of(axis, direction), cell[axis], offset[axis], of_slope);
+    return splines.axis[axis].square(family_of(axis, direction), cell[axis], static_cast<std::size_t>(offset[axis]),
+                                     of_slope);
   };
   double sum = 0;
   for (std::size_t axis = 0; axis < Dim; ++axis) {
+    const bool is_along = static_cast<int>(axis) == direction;
     double over_side = 1;
     for (std::size_t other = 0; other < Dim; ++other) {
       if (other != axis) over_side *= square(other, false);
     }
-    sum += (axis == direction ? 2 : 1) * over_side * square(axis, true);
-    if (axis == direction) continue;
+    sum += (is_along ? 2 : 1) * over_side * square(axis, true);
+    if (is_along) continue;
     const bool at_low = cell[axis] == 0 && offset[axis] == 0;
-    const bool at_high =
-        cell[axis] + 1 == splines.axis[axis].cells() && offset[axis] + 1 == static_cast<std::size_t>(splines.degree);
+    const bool at_high = cell[axis] + 1 == splines.axis[axis].cells() && offset[axis] + 1 == splines.degree;
     if (at_low) sum += splines.per_slip_length[axis][0] * over_side;
     if (at_high) sum += splines.per_slip_length[axis][1] * over_side;
   }
   return sum;
 }
 
+/// Of a cell. [h^d]
+template <int Dim>
+double volume_of(const FrictionSplines<Dim>& splines, const Index<Dim>& cell) {
+  double volume = 1;
+  for (std::size_t d = 0; d < Dim; ++d) volume *= splines.axis[d].width_of_cell(cell[d]);
+  return volume;
+}
+
 }  // namespace
 
 template <int Dim>
 void FrictionLevel<Dim>::prepare(const FrictionSplines<Dim>& splines, const FrictionGrid<Dim>& finer) {
+  splines_ = &splines;
   for (std::size_t d = 0; d < Dim; ++d) {
     counts_[d] = splines.axis[d].sites();
     periodic_[d] = splines.axis[d].periodic();
   }
-  find_cells(splines, finer);
-  number_sites(splines);
-  find_neighbours(splines);
-  find_weights(splines, finer);
-  find_masses(finer.mass);
-  find_diagonal(splines);
-  activate_multipliers(splines, finer);
-  prepare_multipliers(splines);
+  find_cells(finer);
+  with_degree(splines.degree, [&](auto degree) { this->template prepare_faces<degree()>(finer); });
+  prepare_multipliers();
   r_.resize(mass_.size());
   z_.resize(mass_.size());
 }
 
-/// Cells with liquid in the order of their places, with the mean viscosity of what they cover.
 template <int Dim>
-void FrictionLevel<Dim>::find_cells(const FrictionSplines<Dim>& splines, const FrictionGrid<Dim>& finer) {
+template <int K>
+void FrictionLevel<Dim>::prepare_faces(const FrictionGrid<Dim>& finer) {
+  number_sites<K>();
+  find_weights<K>(finer);
+  find_masses(finer.mass);
+  find_diagonal<K>();
+  activate_multipliers<K>(finer);
+}
+
+/// Cells with liquid in the order of their places.
+template <int Dim>
+void FrictionLevel<Dim>::find_cells(const FrictionGrid<Dim>& finer) {
   struct Child {
     Index<Dim> parent;
     std::size_t cell;
@@ -106,84 +108,57 @@ void FrictionLevel<Dim>::find_cells(const FrictionSplines<Dim>& splines, const F
   std::vector<Child> children(finer.cell.size());
   for (std::size_t c = 0; c < children.size(); ++c) {
     children[c].cell = c;
-    for (std::size_t d = 0; d < Dim; ++d) children[c].parent[d] = splines.axis[d].parent_of_cell(finer.cell[c][d]);
+    for (std::size_t d = 0; d < Dim; ++d) children[c].parent[d] = splines_->axis[d].parent_of_cell(finer.cell[c][d]);
   }
   std::stable_sort(children.begin(), children.end(), [](const Child& a, const Child& b) {
     return std::lexicographical_compare(a.parent.rbegin(), a.parent.rend(), b.parent.rbegin(), b.parent.rend());
   });
   cell_.clear();
   viscosity_.clear();
-  volume_.clear();
   for (const Child& child : children) {
     if (cell_.empty() || cell_.back() != child.parent) {
-      double volume = 1;
-      for (std::size_t d = 0; d < Dim; ++d) volume *= splines.axis[d].width_of_cell(child.parent[d]);
       cell_.push_back(child.parent);
-      volume_.push_back(volume);
       viscosity_.push_back(0);
     }
-    viscosity_.back() += finer.viscosity[child.cell] * finer.volume[child.cell] / volume_.back();
+    viscosity_.back() += finer.viscosity[child.cell];
   }
 }
 
 template <int Dim>
-void FrictionLevel<Dim>::number_sites(const FrictionSplines<Dim>& splines) {
-  const auto for_each_site_of = [&](const Index<Dim>& cell, const auto& use) {
-    for_each_offset<Dim>(sites_per_axis<Dim>(splines.degree), [&](const auto& offset) {
-      Index<Dim> site;
-      for (std::size_t d = 0; d < Dim; ++d) site[d] = splines.axis[d].wrapped(cell[d] + static_cast<int>(offset[d]));
-      use(site);
-    });
-  };
+template <int K>
+void FrictionLevel<Dim>::number_sites() {
   rows_.start(counts_);
-  for (const Index<Dim>& cell : cell_) for_each_site_of(cell, [&](const Index<Dim>& site) { rows_.add(site); });
+  for (const Index<Dim>& cell : cell_) {
+    for_each_site<Dim, K>([&](std::size_t, const Index<Dim>& offset) { rows_.add(splines_->site(cell, offset)); });
+  }
   site_.resize(rows_.number_rows());
   rows_.for_each([&](const Index<Dim>& at, std::uint32_t i) { site_[i] = at; });
-  sites_of_cells_.clear();
-  for (const Index<Dim>& cell : cell_)
-    for_each_site_of(cell, [&](const Index<Dim>& site) { sites_of_cells_.push_back(*rows_.find(site)); });
-  per_width_.resize(site_.size());
-  for (std::size_t i = 0; i < site_.size(); ++i) {
-    for (std::size_t d = 0; d < Dim; ++d) per_width_[i][d] = 1 / (splines.spacing * splines.axis[d].width(site_[i][d]));
-  }
-}
-
-/// Sites that share a cell know each other.
-template <int Dim>
-void FrictionLevel<Dim>::find_neighbours(const FrictionSplines<Dim>& splines) {
   Neighbours nobody;
   nobody.fill(staggered::none);
   neighbour_.assign(site_.size(), nobody);
-  const auto sites = sites_per_axis<Dim>(splines.degree);
-  for (std::size_t begin = 0; begin < sites_of_cells_.size(); begin += power(splines.degree + 1, Dim)) {
-    std::size_t k = begin;
-    for_each_offset<Dim>(sites, [&](const auto& offset) {
-      std::size_t stride = 1;
-      for (std::size_t d = 0; d < Dim; stride *= sites[d++]) {
-        if (offset[d] + 1 == sites[d]) continue;
-        const std::uint32_t low = sites_of_cells_[k];
-        const std::uint32_t high = sites_of_cells_[k + stride];
-        neighbour_[low][2 * d + 1] = static_cast<std::int32_t>(high);
-        neighbour_[high][2 * d] = static_cast<std::int32_t>(low);
-      }
-      ++k;
+  sites_of_cells_.per_cell = cell_sites<Dim, K>;
+  sites_of_cells_.rows.resize(cell_.size() * cell_sites<Dim, K>);
+  for (std::size_t c = 0; c < cell_.size(); ++c) {
+    for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+      sites_of_cells_.rows[c * cell_sites<Dim, K> + k] = *rows_.find(splines_->site(cell_[c], offset));
     });
+    join_sites<Dim, K>(sites_of_cells_.of(c), neighbour_);
   }
 }
 
 template <int Dim>
-void FrictionLevel<Dim>::find_weights(const FrictionSplines<Dim>& splines, const FrictionGrid<Dim>& finer) {
+template <int K>
+void FrictionLevel<Dim>::find_weights(const FrictionGrid<Dim>& finer) {
   typename SiteRows<Dim>::Finder find(rows_);
   parents_.clear();
   for (const Index<Dim>& site : finer.site) {
-    for (std::size_t direction = 0; direction < Dim; ++direction) {
-      for_each_parent<Dim>(
-          splines, site, [&](std::size_t axis) { return family_of(axis, direction); },
-          [&](const Index<Dim>& at, double weight) {
-            if (const auto row = find(at)) parents_.add(static_cast<std::uint32_t>(Dim * *row + direction), weight);
-          });
+    for_each_direction<Dim>([&](auto d) {
+      constexpr int D = d();
+      for_each_parent<Dim, K, D>(*splines_, site, [&](const Index<Dim>& at, double weight) {
+        if (const auto row = find(at)) parents_.add(static_cast<std::uint32_t>(Dim * *row + D), weight);
+      });
       parents_.end_row();
-    }
+    });
   }
   children_.transpose(parents_, Dim * site_.size());
 }
@@ -205,21 +180,21 @@ void FrictionLevel<Dim>::find_masses(std::span<const double> finer) {
   });
 }
 
+/// Of the mean viscosity of cells.
 template <int Dim>
-void FrictionLevel<Dim>::find_diagonal(const FrictionSplines<Dim>& splines) {
+template <int K>
+void FrictionLevel<Dim>::find_diagonal() {
   per_g_ = mass_;
-  const double scale = std::pow(splines.spacing, Dim - 2);
-  const auto sites = sites_per_axis<Dim>(splines.degree);
-  std::size_t k = 0;
+  const double scale = std::pow(splines_->spacing, Dim - 2);
   for (std::size_t c = 0; c < cell_.size(); ++c) {
-    for_each_offset<Dim>(sites, [&](const auto& offset) {
-      const std::size_t i = sites_of_cells_[k++];
-      for (std::size_t d = 0; d < Dim; ++d) {
-        bool has_face = mass_[Dim * i + d] > 0;
-        for (std::size_t e = 0; e < Dim; ++e) has_face = has_face && (e == d || offset[e] + 1 < sites[e]);
-        if (has_face)
-          per_g_[Dim * i + d] += scale * viscosity_[c] * friction_of_face<Dim>(splines, cell_[c], offset, d);
-      }
+    const double mu = viscosity_[c] / volume_of<Dim>(*splines_, cell_[c]);
+    const std::uint32_t* rows = sites_of_cells_.of(c);
+    for_each_direction<Dim>([&](auto d) {
+      constexpr int D = d();
+      for_each_face<Dim, K, D>([&](std::size_t k, const Index<Dim>& offset) {
+        const std::size_t f = Dim * rows[k] + D;
+        if (mass_[f] > 0) per_g_[f] += scale * mu * friction_of_face<Dim>(*splines_, cell_[c], offset, D);
+      });
     });
   }
   for_each_row(per_g_.size(), [&](std::size_t f) { per_g_[f] = mass_[f] > 0 ? 1 / per_g_[f] : 0; });
@@ -227,44 +202,46 @@ void FrictionLevel<Dim>::find_diagonal(const FrictionSplines<Dim>& splines) {
 
 /// Those that active ones of the finer level are made of: without divergence here there is none there.
 template <int Dim>
-void FrictionLevel<Dim>::activate_multipliers(const FrictionSplines<Dim>& splines, const FrictionGrid<Dim>& finer) {
+template <int K>
+void FrictionLevel<Dim>::activate_multipliers(const FrictionGrid<Dim>& finer) {
+  const auto between = incidence();
   row_.assign(site_.size(), staggered::none);
   for (const std::uint32_t l : finer.multiplier) {
-    for_each_parent<Dim>(
-        splines, finer.site[l], [](std::size_t) { return Family::across; },
-        [&](const Index<Dim>& at, double) { row_[*rows_.find(at)] = 0; });
+    for_each_parent<Dim, K, no_direction>(*splines_, finer.site[l],
+                                          [&](const Index<Dim>& at, double) { row_[*rows_.find(at)] = 0; });
   }
   multiplier_.clear();
   for (std::uint32_t i = 0; i < site_.size(); ++i) {
     if (row_[i] == staggered::none) continue;
     bool moves = false;
-    for (std::size_t d = 0; d < Dim; ++d) moves = moves || per_g_[Dim * i + d] > 0 || per_g_[Dim * above(i, d) + d] > 0;
+    for (std::size_t d = 0; d < Dim; ++d)
+      moves = moves || per_g_[Dim * i + d] > 0 || per_g_[Dim * between.above(i, d) + d] > 0;
     row_[i] = moves ? static_cast<std::int32_t>(multiplier_.size()) : staggered::none;
     if (moves) multiplier_.push_back(i);
   }
 }
 
 template <int Dim>
-void FrictionLevel<Dim>::prepare_multipliers(const FrictionSplines<Dim>& splines) {
+void FrictionLevel<Dim>::prepare_multipliers() {
+  const auto between = incidence();
   const std::size_t n = multiplier_.size();
   multiplier_site_.resize(n);
   multiplier_neighbour_.resize(n);
   conductance_.resize(n);
-  diagonal_.assign(n, 0);
+  diagonal_.resize(n);
   null_vector_.assign(n, 1);
   for_each_row(n, [&](std::size_t l) {
     const std::size_t i = multiplier_[l];
     multiplier_site_[l] = site_[i];
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const std::size_t up = above(i, d);
-      const std::int32_t below = neighbour_[i][2 * d];
-      multiplier_neighbour_[l][2 * d] = below == staggered::none ? below : row_[static_cast<std::size_t>(below)];
-      multiplier_neighbour_[l][2 * d + 1] = row_[up];
-      const double own = per_width_[i][d];
-      diagonal_[l] += own * own * (per_g_[Dim * i + d] + per_g_[Dim * up + d]);
-      conductance_[l][d] = row_[up] == staggered::none ? 0 : own * per_width_[up][d] * per_g_[Dim * up + d];
-      null_vector_[l] *= splines.axis[d].width(site_[i][d]);
+    for (std::size_t d = 0; d < Dim; ++d) null_vector_[l] *= splines_->axis[d].width(site_[i][d]);
+    for (std::size_t side = 0; side < 2 * axes; ++side) {
+      const std::int32_t j = neighbour_[i][side];
+      multiplier_neighbour_[l][side] = j == staggered::none ? j : row_[static_cast<std::size_t>(j)];
     }
+    between.set_row(
+        i, [&](std::size_t f, std::size_t d) { return per_g_[Dim * f + d]; },
+        [&](std::size_t d) { return multiplier_neighbour_[l][2 * d + 1] != staggered::none; }, diagonal_[l],
+        conductance_[l]);
   });
   divergence_.assign(n, {});
   y_.assign(n, {});
@@ -285,32 +262,25 @@ void FrictionLevel<Dim>::restrict_from(std::span<const double> finer) {
 
 template <int Dim>
 void FrictionLevel<Dim>::project(double tolerance) {
+  const auto between = incidence();
   const auto through = [&](std::size_t f) { return per_g_[f] * r_[f]; };
   for_each_row(multiplier_.size(), [&](std::size_t l) {
     const std::size_t i = multiplier_[l];
     double sum = 0;
     for (std::size_t d = 0; d < Dim; ++d)
-      sum += per_width_[i][d] * (through(Dim * above(i, d) + d) - through(Dim * i + d));
+      sum += between.per_width(i, d) * (through(Dim * between.above(i, d) + d) - through(Dim * i + d));
     divergence_[l][0] = sum;
   });
   solver_.solve(laplacian(), null_vector_, tolerance, divergence_, y_, 1);
+  const auto at = [&](std::size_t i) {
+    return row_[i] == staggered::none ? 0.0 : y_[static_cast<std::size_t>(row_[i])][0];
+  };
   for_each_row(site_.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::size_t f = Dim * i + d;
-      z_[f] = per_g_[f] == 0 ? 0 : per_g_[f] * (r_[f] - gradient(i, d));
+      z_[f] = per_g_[f] == 0 ? 0 : per_g_[f] * (r_[f] - between.gradient(i, d, at));
     }
   });
-}
-
-/// (B^T y)_f
-template <int Dim>
-double FrictionLevel<Dim>::gradient(std::size_t i, std::size_t d) const {
-  const auto at = [&](std::int32_t site) {
-    const std::int32_t l = site == staggered::none ? staggered::none : row_[static_cast<std::size_t>(site)];
-    return l == staggered::none ? 0.0
-                                : per_width_[static_cast<std::size_t>(site)][d] * y_[static_cast<std::size_t>(l)][0];
-  };
-  return at(neighbour_[i][2 * d]) - at(static_cast<std::int32_t>(i));
 }
 
 template <int Dim>

@@ -4,8 +4,10 @@
 /// m/tau + K among them, and the projection onto those without divergence. A level sees of the finer one below it the
 /// cells, the faces and which multipliers are active.
 
-#include "components/sites.hpp"
+#include "components/cells.hpp"
+#include "components/staggered.hpp"
 #include "systems/conforming/coarse_axis.hpp"
+#include "systems/conforming/incidence.hpp"
 #include "systems/conforming/solve.hpp"
 #include "systems/conforming/weight_rows.hpp"
 
@@ -19,8 +21,7 @@ namespace minamo {
 template <int Dim>
 struct FrictionGrid {
   std::span<const Index<Dim>> cell;           ///< those with liquid
-  std::span<const double> viscosity;          ///< their mu_c [Pa s]
-  std::span<const double> volume;             ///< [h^d]
+  std::span<const double> viscosity;          ///< integral of mu_c over each [Pa s h^d]
   std::span<const Index<Dim>> site;           ///< those of the cells
   std::span<const double> mass;               ///< m/tau by face, 0 where walls hold it or bodies cut it [kg/s]
   std::span<const std::uint32_t> multiplier;  ///< sites of the active ones
@@ -34,14 +35,27 @@ struct FrictionSplines {
   double spacing = 0;  ///< h of the grid [m]
   /// h/b of walls with a slip length b at the low and the high end of every axis. [1]
   std::array<std::array<double, 2>, static_cast<std::size_t>(Dim)> per_slip_length{};
+
+  /// As in Splines.
+  bool has_multiplier(const Index<Dim>& site) const {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (site[d] >= axis[d].multipliers()) return false;
+    }
+    return true;
+  }
+  Index<Dim> site(const Index<Dim>& cell, Index<Dim> offset) const {
+    for (std::size_t d = 0; d < Dim; ++d) offset[d] = axis[d].wrapped(cell[d] + offset[d]);
+    return offset;
+  }
 };
 
 template <int Dim>
 class FrictionLevel {
  public:
+  /// \param splines  are kept, and have to stay where they are
   /// \throws StepRejected if a matrix of multipliers is not positive definite.
   void prepare(const FrictionSplines<Dim>& splines, const FrictionGrid<Dim>& finer);
-  FrictionGrid<Dim> grid() const { return {cell_, viscosity_, volume_, site_, mass_, multiplier_}; }
+  FrictionGrid<Dim> grid() const { return {cell_, viscosity_, site_, mass_, multiplier_}; }
   bool is_empty() const { return multiplier_.empty(); }
 
   /// r = P^T r of the finer level, P what a velocity of this level is on the finer one.
@@ -58,29 +72,33 @@ class FrictionLevel {
   static constexpr auto axes = static_cast<std::size_t>(Dim);
   using Neighbours = typename StaggeredLaplacian<Dim>::Neighbours;
 
-  void find_cells(const FrictionSplines<Dim>& splines, const FrictionGrid<Dim>& finer);
-  void number_sites(const FrictionSplines<Dim>& splines);
-  void find_neighbours(const FrictionSplines<Dim>& splines);
-  void find_weights(const FrictionSplines<Dim>& splines, const FrictionGrid<Dim>& finer);
+  void find_cells(const FrictionGrid<Dim>& finer);
+  template <int K>
+  void prepare_faces(const FrictionGrid<Dim>& finer);
+  template <int K>
+  void number_sites();
+  template <int K>
+  void find_weights(const FrictionGrid<Dim>& finer);
   void find_masses(std::span<const double> finer);
-  void find_diagonal(const FrictionSplines<Dim>& splines);
-  void activate_multipliers(const FrictionSplines<Dim>& splines, const FrictionGrid<Dim>& finer);
-  void prepare_multipliers(const FrictionSplines<Dim>& splines);
+  template <int K>
+  void find_diagonal();
+  template <int K>
+  void activate_multipliers(const FrictionGrid<Dim>& finer);
+  void prepare_multipliers();
+  Incidence<Dim, FrictionSplines<Dim>> incidence() const { return {splines_->spacing, *splines_, site_, neighbour_}; }
   StaggeredLaplacian<Dim> laplacian() const;
-  std::size_t above(std::size_t i, std::size_t d) const { return static_cast<std::size_t>(neighbour_[i][2 * d + 1]); }
-  double gradient(std::size_t i, std::size_t d) const;
 
+  const FrictionSplines<Dim>* splines_ = nullptr;
   std::vector<Index<Dim>> cell_;
-  std::vector<double> viscosity_, volume_;
+  std::vector<double> viscosity_;
   SiteRows<Dim> rows_;
   std::vector<Index<Dim>> site_;
-  std::vector<Neighbours> neighbour_;                ///< rows of the sites below and above along every axis
-  std::vector<std::uint32_t> sites_of_cells_;        ///< (degree + 1)^d for every cell, x fastest
-  std::vector<std::array<double, axes>> per_width_;  ///< 1/w_d by site [1/m]
-  WeightRows parents_, children_;                    ///< P and P^T
-  std::vector<double> mass_, per_g_;                 ///< by face
-  std::vector<std::int32_t> row_;                    ///< of a site among the active multipliers, or -1
-  std::vector<std::uint32_t> multiplier_;            ///< sites of these
+  std::vector<Neighbours> neighbour_;  ///< of sites
+  CellSites sites_of_cells_;
+  WeightRows parents_, children_;          ///< P and P^T
+  std::vector<double> mass_, per_g_;       ///< by face
+  std::vector<std::int32_t> row_;          ///< of a site among the active multipliers, or -1
+  std::vector<std::uint32_t> multiplier_;  ///< sites of these
   std::vector<Index<Dim>> multiplier_site_;
   std::vector<Neighbours> multiplier_neighbour_;
   std::vector<typename StaggeredLaplacian<Dim>::Conductances> conductance_;

@@ -40,9 +40,8 @@ void FrictionLevels<Dim>::prepare(double spacing, const FrictionOf<Dim>& frictio
   std::vector<Index<Dim>> cells;
   cells.reserve(friction.cells.cells.size());
   for (const auto& cell : friction.cells.cells) cells.push_back(cell.node);
-  const std::vector<double> volume(cells.size(), 1.0);
   levels_.resize(splines_.size());
-  FrictionGrid<Dim> finer{cells, friction.mu_c, volume, site, mass, multiplier};
+  FrictionGrid<Dim> finer{cells, friction.mu_c, site, mass, multiplier};
   for (count_ = 0; count_ < levels_.size(); ++count_) {
     levels_[count_].prepare(splines_[count_], finer);
     if (levels_[count_].is_empty()) return;

@@ -23,12 +23,17 @@ struct Passage {
   }
 };
 
-template <int Dim>
+/// \tparam SplinesOf  has the widths of multipliers, and knows where there are any
+template <int Dim, class SplinesOf = Splines<Dim>>
 class Incidence {
  public:
-  Incidence(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Index<Dim>> site,
-            std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour)
-      : per_spacing_(1 / grid.spacing), splines_(splines), site_(site), neighbour_(neighbour) {}
+  using Neighbours = typename staggered::Neighbour<Dim>::value_type;
+  Incidence(double spacing, const SplinesOf& splines, std::span<const Index<Dim>> site,
+            std::span<const Neighbours> neighbour)
+      : per_spacing_(1 / spacing), splines_(splines), site_(site), neighbour_(neighbour) {}
+  Incidence(const Grid<Dim>& grid, const SplinesOf& splines, std::span<const Index<Dim>> site,
+            std::span<const Neighbours> neighbour)
+      : Incidence(grid.spacing, splines, site, neighbour) {}
 
   /// (B u)_l = sum_d (u_{l + e_d} - u_l)/w_d for the multiplier of a row. [1/m of u]
   /// \pre particles touch the multiplier, so that its faces have rows
@@ -84,9 +89,9 @@ class Incidence {
 
  private:
   double per_spacing_;
-  const Splines<Dim>& splines_;
+  const SplinesOf& splines_;
   std::span<const Index<Dim>> site_;
-  std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour_;
+  std::span<const Neighbours> neighbour_;
 };
 
 }  // namespace minamo

@@ -43,19 +43,6 @@ std::uint8_t held_at(const Splines<Dim>& splines, const Walls<Dim>& walls, const
   return static_cast<std::uint8_t>(held);
 }
 
-/// Sites that share a cell know each other. \param rows  of the sites of a cell
-template <int Dim, int K>
-void join_sites(const std::uint32_t* rows, std::span<typename staggered::Neighbour<Dim>::value_type> neighbour) {
-  for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
-    for (std::size_t d = 0; d < Dim; ++d) {
-      if (offset[d] == K) continue;
-      const std::uint32_t above = rows[k + power(K + 1, static_cast<int>(d))];
-      neighbour[rows[k]][2 * d + 1] = static_cast<std::int32_t>(above);
-      neighbour[above][2 * d] = static_cast<std::int32_t>(rows[k]);
-    }
-  });
-}
-
 template <int Dim, int K>
 void find_site_neighbours(const OccupiedCells<Dim>& cells, const CellSites& sites,
                           std::span<typename staggered::Neighbour<Dim>::value_type> neighbour) {

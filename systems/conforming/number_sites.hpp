@@ -6,10 +6,24 @@
 #include "components/staggered.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/splines.hpp"
+#include "systems/conforming/support.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/ranks/ghost_cells.hpp"
 
 namespace minamo {
+
+/// Sites that share a cell know each other. \param rows  of the sites of a cell
+template <int Dim, int K>
+void join_sites(const std::uint32_t* rows, std::span<typename staggered::Neighbour<Dim>::value_type> neighbour) {
+  for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (offset[d] == K) continue;
+      const std::uint32_t above = rows[k + power(K + 1, static_cast<int>(d))];
+      neighbour[rows[k]][2 * d + 1] = static_cast<std::int32_t>(above);
+      neighbour[above][2 * d] = static_cast<std::int32_t>(rows[k]);
+    }
+  });
+}
 
 /// Gives the sites of occupied cells rows, in the order of their sites. What outlives a step moves along; sites that
 /// had no row start from zero.

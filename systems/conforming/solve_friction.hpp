@@ -31,12 +31,14 @@ namespace minamo {
 /// Room for a solve.
 template <int Dim>
 struct FrictionWork {
+  using Coarse = std::conditional_t<Dim == 2, CoarseStreams, FrictionLevels<Dim>>;
+
   std::unique_ptr<MultiplierMatrix<Dim>> multipliers;
-  std::conditional_t<Dim == 2, CoarseStreams, FrictionLevels<Dim>> coarse;  ///< (E119)
-  Values mass, per_g;                                                       ///< m/tau, 0 at faces that walls hold; G^-1
-  Values through;                                                           ///< a_f^2 G^-1
-  Values tie;       ///< of closed faces where bodies rub, else empty [kg/s]
-  Values extended;  ///< room for velocities of closed faces
+  Coarse coarse;       ///< (E119)
+  Values mass, per_g;  ///< m/tau, 0 at faces that walls hold; G^-1
+  Values through;      ///< a_f^2 G^-1
+  Values tie;          ///< of closed faces where bodies rub, else empty [kg/s]
+  Values extended;     ///< room for velocities of closed faces
   Values f, v, start, r, z, direction, product;
   Values divergence, y, sum_of_y;
   static constexpr ComponentInfo info{"solve.friction_work", "", "", Lifetime::cache};

@@ -8,7 +8,6 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <numeric>
 
 using namespace minamo;
 
@@ -25,7 +24,8 @@ std::vector<double> refined(const CoarseAxis& coarse, Family family, const std::
   for (int k = 0; coarse.has_finer(family, k); ++k) {
     const CoarseAxis::Parents& parents = coarse.parents(family, k);
     double sum = 0;
-    for (std::size_t a = 0; a < parents.count; ++a) {
+    for (std::size_t a = 0; a < CoarseAxis::most; ++a) {
+      if (parents.weight[a] == 0) continue;
       const int parent = coarse.wrapped(parents.first + static_cast<int>(a));
       sum += parents.weight[a] * coefficients[static_cast<std::size_t>(parent)];
     }
