@@ -56,11 +56,7 @@ class FrictionMatrices {
     for (std::size_t d = Dim; d-- > 0;) number = number * splines.axis[d].kinds() + splines.axis[d].kind_of(cell[d]);
     return number;
   }
-  /// The splines of a cell, and 1/b of the walls beside it in units of 1/h, 0 where there is none.
-  struct Cell {
-    std::array<const CellSplines*, static_cast<std::size_t>(Dim)> splines{};
-    std::array<std::array<double, 2>, static_cast<std::size_t>(Dim)> per_slip_length{};
-  };
+  struct Cell;
   template <int K>
   void add(double scale, const Cell& cell);
 
