@@ -92,6 +92,27 @@ struct OpenDataset {
   std::array<hsize_t, 2> size{1, 1};
 };
 
+/// Into a dataset of their size. \return whether all went well
+bool write_rows(hid_t data, const DatasetRows& rows) {
+  const hid_t type = type_of(rows.number);
+  if (!rows.make) return H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.bytes.data()) >= 0;
+  constexpr std::size_t most = 4096;  // at a time
+  const std::string& what = rows.dataset;
+  const Handle all(H5Dget_space(data), H5Sclose, what);
+  std::vector<double> made;
+  for (std::size_t begin = 0; begin < rows.rows(); begin += most) {
+    const std::size_t count = std::min(most, rows.rows() - begin);
+    made.resize(count * rows.width);
+    rows.make(begin, made);
+    const std::array<hsize_t, 2> start{begin, 0};
+    const std::array<hsize_t, 2> size{count, rows.width};
+    H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr);
+    const Handle some(H5Screate_simple(rows.width == 1 ? 1 : 2, size.data(), nullptr), H5Sclose, what);
+    if (H5Dwrite(data, type, some, all, H5P_DEFAULT, made.data()) < 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 DatasetRows::DatasetRows(std::string name, std::span<const double> values, std::size_t numbers_per_row)
@@ -100,6 +121,12 @@ DatasetRows::DatasetRows(std::string name, std::span<const std::int64_t> values,
     : dataset(std::move(name)), number(Number::integer), width(numbers_per_row), bytes(std::as_bytes(values)) {}
 DatasetRows::DatasetRows(std::string name, std::span<const std::byte> values)
     : dataset(std::move(name)), number(Number::byte), width(1), bytes(values) {}
+DatasetRows::DatasetRows(std::string name, std::size_t rows, std::size_t numbers_per_row, Maker maker)
+    : dataset(std::move(name)),
+      number(Number::real),
+      width(numbers_per_row),
+      made_rows(rows),
+      make(std::move(maker)) {}
 
 std::size_t DatasetRows::row_bytes() const { return width * (number == Number::byte ? 1 : sizeof(double)); }
 
@@ -117,7 +144,7 @@ void Hdf5File::close() {
   if (failed < 0) throw std::runtime_error(path_ + ": cannot be written");
 }
 
-Extent Hdf5File::make(const DatasetRows& like, std::size_t rows, const void* values) {
+Extent Hdf5File::make(const DatasetRows& like, std::size_t rows, Values values) {
   const std::string what = path_ + ": dataset " + like.dataset + " cannot be written";
   const std::array<hsize_t, 2> size{rows, like.width};
   const hid_t type = type_of(like.number);
@@ -131,18 +158,16 @@ Extent Hdf5File::make(const DatasetRows& like, std::size_t rows, const void* val
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   const Handle space(H5Screate_simple(like.width == 1 ? 1 : 2, size.data(), nullptr), H5Sclose, what);
   Handle data(H5Dcreate2(file_, like.dataset.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose, what);
-  if (values != nullptr && H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
-    throw std::runtime_error(what);
-  }
+  if (values == Values::written && !write_rows(data, like)) throw std::runtime_error(what);
   const haddr_t offset = H5Dget_offset(data);
   const Extent extent = offset == HADDR_UNDEF ? Extent{} : Extent{offset, H5Dget_storage_size(data)};
   data.close(what);
   return extent;
 }
 
-Extent Hdf5File::write(const DatasetRows& rows) { return make(rows, rows.rows(), rows.bytes.data()); }
+Extent Hdf5File::write(const DatasetRows& rows) { return make(rows, rows.rows(), Values::written); }
 
-Extent Hdf5File::make_room(const DatasetRows& like, std::size_t rows) { return make(like, rows, nullptr); }
+Extent Hdf5File::make_room(const DatasetRows& like, std::size_t rows) { return make(like, rows, Values::left_to_others); }
 
 Extent Hdf5File::write_text(const std::string& dataset, const std::string& text) {
   return write(dataset, std::as_bytes(std::span(text)));

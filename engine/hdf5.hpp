@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,17 +16,23 @@ namespace minamo {
 /// Rows for a dataset: of `width` numbers each; width 1 makes a one-dimensional dataset.
 struct DatasetRows {
   enum class Number { real, integer, byte };
+  /// Makes rows from one on, as many as there is room for.
+  using Maker = std::function<void(std::size_t begin, std::span<double> rows)>;
   DatasetRows(std::string name, std::span<const double> values, std::size_t numbers_per_row = 1);
   DatasetRows(std::string name, std::span<const std::int64_t> values, std::size_t numbers_per_row = 1);
   DatasetRows(std::string name, std::span<const std::byte> values);
+  /// Rows that nobody stores as a file has them: made some thousands at a time while they are written.
+  DatasetRows(std::string name, std::size_t rows, std::size_t numbers_per_row, Maker maker);
 
   std::size_t row_bytes() const;
-  std::size_t rows() const { return bytes.size() / row_bytes(); }
+  std::size_t rows() const { return make ? made_rows : bytes.size() / row_bytes(); }
 
   std::string dataset;
   Number number;
   std::size_t width;
   std::span<const std::byte> bytes;
+  std::size_t made_rows = 0;
+  Maker make;
 };
 
 /// An open file. Every call throws std::runtime_error naming file and dataset. Groups on the way to a dataset are
@@ -65,7 +72,8 @@ class Hdf5File {
   void close();
 
  private:
-  Extent make(const DatasetRows& like, std::size_t rows, const void* values);
+  enum class Values { written, left_to_others };
+  Extent make(const DatasetRows& like, std::size_t rows, Values values);
 
   std::string path_;
   std::int64_t file_;

@@ -38,6 +38,13 @@ std::vector<Extent> broadcast(Communicator& ranks, const std::vector<Extent>& ex
   return from_bytes<Extent>(std::as_bytes(std::span(all)));
 }
 
+/// All at once: a rank has a part of the particles.
+const std::vector<double>& made_rows(const DatasetRows& rows, std::vector<double>& values) {
+  values.resize(rows.rows() * rows.width);
+  rows.make(0, values);
+  return values;
+}
+
 }  // namespace
 
 std::vector<Extent> write_shared(Communicator* ranks, const std::string& path, Hdf5File::Access access,
@@ -56,9 +63,11 @@ std::vector<Extent> write_shared(Communicator* ranks, const std::string& path, H
   const std::string of_first = ranks->broadcast(path, 0);
   extents = broadcast(*ranks, extents);
   std::vector<Communicator::Piece> pieces;
+  std::vector<std::vector<double>> made(datasets.size());
   for (std::size_t k = 0; k < datasets.size(); ++k) {
     const std::size_t row_bytes = datasets[k].row_bytes();
-    pieces.push_back({extents[k].offset + places[k].begin * row_bytes, row_bytes, datasets[k].bytes});
+    const auto bytes = datasets[k].make ? std::as_bytes(std::span(made_rows(datasets[k], made[k]))) : datasets[k].bytes;
+    pieces.push_back({extents[k].offset + places[k].begin * row_bytes, row_bytes, bytes});
   }
   const bool is_written = ranks->write(of_first, pieces);
   do_on_all(ranks, [&] {

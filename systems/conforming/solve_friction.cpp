@@ -102,7 +102,7 @@ struct FrictionSystem {
   }
   /// (E119) pays where a tenth of many faces have much more friction than inertia.
   bool is_stiff() const {
-    constexpr std::size_t many = 2000;
+    constexpr std::size_t many = Dim == 2 ? 600 : 2000;
     constexpr double much = 20;
     if (work.mass.size() < many) return false;
     std::size_t stiff = 0;

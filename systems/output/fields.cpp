@@ -16,16 +16,16 @@ std::span<const double> numbers(std::span<const Vec<Size>> values) {
   return {reinterpret_cast<const double*>(values.data()), values.size() * Size};
 }
 
+/// Row by row, as files have tensors; Eigen's own order is column by column.
 template <int Dim>
-std::vector<double> row_by_row(std::span<const Mat<Dim>> values) {
-  std::vector<double> numbers;
-  numbers.reserve(values.size() * Dim * Dim);
-  for (const Mat<Dim>& value : values) {
-    for (int i = 0; i < Dim; ++i) {
-      for (int j = 0; j < Dim; ++j) numbers.push_back(value(i, j));
+DatasetRows::Maker row_by_row(std::span<const Mat<Dim>> values) {
+  return [values](std::size_t begin, std::span<double> rows) {
+    constexpr std::size_t width = std::size_t{Dim} * Dim;
+    for (std::size_t k = 0; k < rows.size(); k += width) {
+      Eigen::Map<Mat<Dim>> row(&rows[k]);
+      row = values[begin + k / width].transpose();
     }
-  }
-  return numbers;
+  };
 }
 
 std::string group(std::size_t frame) { return fmt::format("/particles/{}", frame); }
@@ -122,22 +122,22 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
     if (is_writer) begin_frame(*fields, clock->time, static_cast<std::size_t>(particles));
   });
   const std::string name = is_writer ? group(fields->frames.size() - 1) : std::string();
-  const std::vector<double> gradients = row_by_row<Dim>(grad_v_p.span());
+  const std::span<const Mat<Dim>> gradients = grad_v_p.span();
   std::vector<DatasetRows> data{{name + "/position", numbers<Dim>(x_p.span()), Dim},
                                 {name + "/velocity", numbers<Dim>(v_p.span()), Dim},
                                 {name + "/pressure", p_p.span()},
                                 {name + "/id", id.span()}};
   std::vector<std::string> extra_fields;
-  const auto add_field = [&](const char* field, const auto& values, std::size_t width) {
+  const auto add_field = [&](const char* field, const auto&... rows) {
     extra_fields.emplace_back(field);
-    data.emplace_back(name + "/" + field, values, width);
+    data.emplace_back(name + "/" + field, rows...);
   };
-  add_field("mass", m_p.span(), 1);
-  add_field("volume", V_p.span(), 1);
-  if (grad_v_p) add_field("velocity_gradient", std::span(gradients), Dim * Dim);
-  if (g_p) add_field("shear_rate", g_p.span(), 1);
-  if (mu_p) add_field("viscosity", mu_p.span(), 1);
-  if (k_p) add_field("fluid", k_p.span(), 1);
+  add_field("mass", m_p.span());
+  add_field("volume", V_p.span());
+  if (grad_v_p) add_field("velocity_gradient", gradients.size(), Dim * Dim, row_by_row<Dim>(gradients));
+  if (g_p) add_field("shear_rate", g_p.span());
+  if (mu_p) add_field("viscosity", mu_p.span());
+  if (k_p) add_field("fluid", k_p.span());
   const bool is_first = fields->frames.size() == 1;
   const auto extents = write_shared(all, fields->path(), is_first ? Hdf5File::Access::create : Hdf5File::Access::extend,
                                     data, [&](Hdf5File& file) { file.set_attribute(name, "time", clock->time); });

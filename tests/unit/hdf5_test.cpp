@@ -102,6 +102,25 @@ TEST_CASE("a file whose rows others have written is that of the library", "[unit
   CHECK(text_of(folder / "a.h5") == text_of(folder / "b.h5"));
 }
 
+TEST_CASE("rows that are made while they are written are those that were stored", "[unit]") {
+  const Folder folder;
+  std::vector<double> all(3 * 10000);  // more than are made at a time
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<double>(k);
+  std::vector<std::size_t> sizes;
+  const auto make = [&](std::size_t begin, std::span<double> rows) {
+    sizes.push_back(rows.size());
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(3 * begin), rows.size(), rows.begin());
+  };
+  Hdf5File stored(folder / "a.h5", Hdf5File::Access::create);
+  stored.write("/group/rows", all, 3);
+  stored.close();
+  Hdf5File made(folder / "b.h5", Hdf5File::Access::create);
+  made.write({"/group/rows", 10000, 3, make});
+  made.close();
+  CHECK(text_of(folder / "a.h5") == text_of(folder / "b.h5"));
+  CHECK(*std::max_element(sizes.begin(), sizes.end()) < all.size() / 2);
+}
+
 TEST_CASE("some rows of a dataset can be read", "[unit]") {
   const Folder folder;
   Hdf5File(folder / "a.h5", Hdf5File::Access::create).write("/rows", six, 2);
