@@ -29,11 +29,10 @@ class PressureMass {
   PressureMass(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
                std::span<const Index<Dim>> site, std::span<const Vec<Dim>> y_p, std::span<const double> V_p,
                std::span<const double> lambda, const SiteExchange* shared)
-      : V_p_(V_p), shared_(shared) {
-    list_runs(grid, splines, rows, y_p);
-    find_weights(grid, splines, y_p);
+      : grid_(grid), splines_(splines), y_p_(y_p), V_p_(V_p), shared_(shared) {
+    list_runs(rows);
     find_volume(site.size());
-    find_products(grid, splines, rows, site);
+    find_products(rows, site);
     is_free_.resize(lambda.size());
     for (std::size_t i = 0; i < lambda.size(); ++i) is_free_[i] = lambda[i] != 0;
   }
@@ -41,21 +40,18 @@ class PressureMass {
   /// v_l, by particles. [m^d]
   std::span<const double> volume() const { return volume_; }
   /// Where the middle of the liquid around multipliers lies from their own, by particles. [h]
-  std::vector<Vec<Dim>> middles(const Grid<Dim>& grid, const Splines<Dim>& splines,
-                                std::span<const Vec<Dim>> y_p) const {
+  std::vector<Vec<Dim>> middles() const {
     std::vector<Vec<Dim>> middle(volume_.size(), Vec<Dim>::Zero());
     for (const Run& run : runs_) {
-      const CellFrame<Dim> frame(grid, splines, run.cell);
-      for (std::size_t p = run.begin; p < run.end; ++p) {
-        const Vec<Dim> xi = frame.local(y_p[p]);
+      for_each_particle(run, [&](std::size_t p, const Vec<Dim>& xi, const Column& weight) {
         std::size_t m = 0;
         for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
           Vec<Dim> r;
           for (int d = 0; d < Dim; ++d) r[d] = xi[d] - (offset[static_cast<std::size_t>(d)] + 1 - 0.5 * K);
-          middle[run.rows[m]] += V_p_[p] * weights_[p][m] * r;
+          middle[run.rows[m]] += V_p_[p] * weight.data()[m] * r;
           ++m;
         });
-      }
+      });
     }
     for (std::size_t i = 0; i < middle.size(); ++i) {
       if (volume_[i] > 0) middle[i] /= volume_[i];
@@ -97,11 +93,11 @@ class PressureMass {
   template <class Use>
   void for_each_value(const std::vector<double>& x, const Use& use) const {
     for (const Run& run : runs_) {
-      for (std::size_t p = run.begin; p < run.end; ++p) {
+      for_each_particle(run, [&](std::size_t p, const Vec<Dim>&, const Column& weight) {
         double value = 0;
-        for (std::size_t k = 0; k < local; ++k) value += weights_[p][k] * x[run.rows[k]];
+        for (std::size_t k = 0; k < local; ++k) value += weight.data()[k] * x[run.rows[k]];
         use(p, value);
-      }
+      });
     }
   }
 
@@ -120,11 +116,10 @@ class PressureMass {
     if (shared_ != nullptr) shared_->add_up(std::span<double>(column));
   }
 
-  void list_runs(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
-                 std::span<const Vec<Dim>> y_p) {
+  void list_runs(const SiteRows<Dim>& rows) {
     typename SiteRows<Dim>::Finder find(rows);
-    for (std::size_t p = 0; p < y_p.size(); ++p) {
-      const Index<Dim> cell = cell_around<Dim>(grid, splines, y_p[p]);
+    for (std::size_t p = 0; p < y_p_.size(); ++p) {
+      const Index<Dim> cell = cell_around<Dim>(grid_, splines_, y_p_[p]);
       if (!runs_.empty() && runs_.back().cell == cell) {
         runs_.back().end = p + 1;
         continue;
@@ -132,47 +127,50 @@ class PressureMass {
       Run run{cell, p, p + 1, {}, 0};
       std::size_t m = 0;
       for_each_multiplier<Dim, K>(
-          [&](std::size_t, const Index<Dim>& offset) { run.rows[m++] = *find(splines.site(cell, offset)); });
+          [&](std::size_t, const Index<Dim>& offset) { run.rows[m++] = *find(splines_.site(cell, offset)); });
       runs_.push_back(run);
     }
   }
-  void find_weights(const Grid<Dim>& grid, const Splines<Dim>& splines, std::span<const Vec<Dim>> y_p) {
-    weights_.resize(y_p.size());
-    for (const Run& run : runs_) {
-      const CellFrame<Dim> frame(grid, splines, run.cell);
-      for (std::size_t p = run.begin; p < run.end; ++p) {
-        const SplineWeights<Dim, K> weights(frame, frame.local(y_p[p]));
-        std::size_t m = 0;
-        for_each_multiplier<Dim, K>(
-            [&](std::size_t, const Index<Dim>& offset) { weights_[p][m++] = weights.multiplier(offset); });
-      }
+  /// use(p, place in the cell, weights of the multipliers around). Weights are found anew each time: stored, they would
+  /// take 64 bytes a particle in space.
+  template <class Use>
+  void for_each_particle(const Run& run, const Use& use) const {
+    const CellFrame<Dim> frame(grid_, splines_, run.cell);
+    for (std::size_t p = run.begin; p < run.end; ++p) {
+      const Vec<Dim> xi = frame.local(y_p_[p]);
+      const SplineWeights<Dim, K> weights(frame, xi);
+      Column weight;
+      std::size_t m = 0;
+      for_each_multiplier<Dim, K>(
+          [&](std::size_t, const Index<Dim>& offset) { weight.data()[m++] = weights.multiplier(offset); });
+      use(p, xi, weight);
     }
   }
   void find_volume(std::size_t rows) {
     volume_.assign(rows, 0);
     for (const Run& run : runs_) {
-      for (std::size_t p = run.begin; p < run.end; ++p) {
-        for (std::size_t k = 0; k < local; ++k) volume_[run.rows[k]] += V_p_[p] * weights_[p][k];
-      }
+      for_each_particle(run, [&](std::size_t p, const Vec<Dim>&, const Column& weight) {
+        for (std::size_t k = 0; k < local; ++k) volume_[run.rows[k]] += V_p_[p] * weight.data()[k];
+      });
     }
     add_up(volume_);
   }
   /// phi' of (E125), by these particles, with neighbours as full as crowded ones at most: a hole beside a corner that
   /// holds particles back is none less for it.
-  std::vector<double> fill_around(double cell_volume, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
+  std::vector<double> fill_around(double cell_volume, const SiteRows<Dim>& rows,
                                   std::span<const Index<Dim>> site) const {
     std::vector<double> fill(site.size(), 0);
     for (std::size_t i = 0; i < site.size(); ++i) {
       if (volume_[i] == 0) continue;
-      const double room = cell_volume * splines.widths(site[i]);
+      const double room = cell_volume * splines_.widths(site[i]);
       fill[i] = volume_[i] / room;
       if (fill[i] >= 1) continue;
       double filled = 2 * volume_[i];
       double rooms = 2 * room;
       for (std::size_t side = 0; side < 2 * Dim; ++side) {
-        if (splines.ends_at(site[i], side)) continue;
-        const auto j = rows.find(*site_beside(splines, site[i], side));
-        const double beside = j ? cell_volume * splines.widths(site[*j]) : room;
+        if (splines_.ends_at(site[i], side)) continue;
+        const auto j = rows.find(*site_beside(splines_, site[i], side));
+        const double beside = j ? cell_volume * splines_.widths(site[*j]) : room;
         if (j) filled += std::min(volume_[*j], crowded_from * beside);
         rooms += beside;
       }
@@ -180,15 +178,14 @@ class PressureMass {
     }
     return fill;
   }
-  void find_products(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
-                     std::span<const Index<Dim>> site) {
-    const double cell_volume = std::pow(grid.spacing, Dim);
-    const std::vector<double> fill = fill_around(cell_volume, splines, rows, site);
+  void find_products(const SiteRows<Dim>& rows, std::span<const Index<Dim>> site) {
+    const double cell_volume = std::pow(grid_.spacing, Dim);
+    const std::vector<double> fill = fill_around(cell_volume, rows, site);
     // A cell whose particles come in several runs is counted once, in parts.
     std::vector<double> runs_at(site.size(), 0);
     for (const Run& run : runs_) runs_at[run.rows[0]] += 1;
     lumped_.assign(site.size(), 0);
-    WholeCells whole(splines, cell_volume, products_);
+    WholeCells whole(splines_, cell_volume, products_);
     for (Run& run : runs_) {
       double least = 1;
       for (const std::uint32_t row : run.rows) least = std::min(least, fill[row]);
@@ -208,11 +205,10 @@ class PressureMass {
   /// Of the particles of a run, a part of their volume.
   void add_particles(const Run& run, double part) {
     Square& products = products_[run.products];
-    for (std::size_t p = run.begin; p < run.end; ++p) {
-      const Eigen::Map<const Column> weight(weights_[p].data());
+    for_each_particle(run, [&](std::size_t p, const Vec<Dim>&, const Column& weight) {
       products += (1 - lumped_share) * part * V_p_[p] * weight * weight.transpose();
-      for (std::size_t k = 0; k < local; ++k) lumped_[run.rows[k]] += lumped_share * part * V_p_[p] * weights_[p][k];
-    }
+      for (std::size_t k = 0; k < local; ++k) lumped_[run.rows[k]] += lumped_share * part * V_p_[p] * weight.data()[k];
+    });
   }
   /// Exact integrals, once for all cells of a kind.
   class WholeCells {
@@ -262,11 +258,13 @@ class PressureMass {
     return product;
   }
 
+  const Grid<Dim>& grid_;
+  const Splines<Dim>& splines_;
+  std::span<const Vec<Dim>> y_p_;
   std::span<const double> V_p_;
   const SiteExchange* shared_;
   std::vector<Run> runs_;
-  std::vector<Square> products_;                    ///< of runs and of whole cells
-  std::vector<std::array<double, local>> weights_;  ///< of every particle
+  std::vector<Square> products_;  ///< of runs and of whole cells
   std::vector<double> lumped_;  ///< of every multiplier, on the diagonal, by the particles of this rank
   std::vector<double> volume_;  ///< v_l of every multiplier
   std::vector<bool> is_free_;
@@ -322,7 +320,7 @@ void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
     std::vector<double> known(lambda.size(), 0);
     const PressureOfFewParticles<Dim> of_few(
         *grid, *splines, *rows, site.span(), lambda.span(), open_share.span(), mass.volume(),
-        open_share ? mass.middles(*grid, *splines, y_p.span()) : std::vector<Vec<Dim>>());
+        open_share ? mass.middles() : std::vector<Vec<Dim>>());
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (!of_few.is_known(i)) continue;
       known[i] = of_few(i);
