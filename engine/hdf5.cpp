@@ -122,11 +122,7 @@ DatasetRows::DatasetRows(std::string name, std::span<const std::int64_t> values,
 DatasetRows::DatasetRows(std::string name, std::span<const std::byte> values)
     : dataset(std::move(name)), number(Number::byte), width(1), bytes(values) {}
 DatasetRows::DatasetRows(std::string name, std::size_t rows, std::size_t numbers_per_row, Maker maker)
-    : dataset(std::move(name)),
-      number(Number::real),
-      width(numbers_per_row),
-      made_rows(rows),
-      make(std::move(maker)) {}
+    : dataset(std::move(name)), number(Number::real), width(numbers_per_row), made_rows(rows), make(std::move(maker)) {}
 
 std::size_t DatasetRows::row_bytes() const { return width * (number == Number::byte ? 1 : sizeof(double)); }
 
@@ -167,7 +163,9 @@ Extent Hdf5File::make(const DatasetRows& like, std::size_t rows, Values values) 
 
 Extent Hdf5File::write(const DatasetRows& rows) { return make(rows, rows.rows(), Values::written); }
 
-Extent Hdf5File::make_room(const DatasetRows& like, std::size_t rows) { return make(like, rows, Values::left_to_others); }
+Extent Hdf5File::make_room(const DatasetRows& like, std::size_t rows) {
+  return make(like, rows, Values::left_to_others);
+}
 
 Extent Hdf5File::write_text(const std::string& dataset, const std::string& text) {
   return write(dataset, std::as_bytes(std::span(text)));

@@ -103,8 +103,8 @@ double over_side(const CellIntegrals<Dim>& axes, const Product<Dim>& f, const Pr
                  std::size_t end) {
   double product = 1;
   for (std::size_t e = 0; e < Dim; ++e) {
-    product *= e == axis ? axes[e]->at(end, f.factor[e], g.factor[e])
-                         : (*axes[e])(f.factor[e], false, g.factor[e], false);
+    product *=
+        e == axis ? axes[e]->at(end, f.factor[e], g.factor[e]) : (*axes[e])(f.factor[e], false, g.factor[e], false);
   }
   return product;
 }

@@ -265,8 +265,8 @@ class PressureMass {
   const SiteExchange* shared_;
   std::vector<Run> runs_;
   std::vector<Square> products_;  ///< of runs and of whole cells
-  std::vector<double> lumped_;  ///< of every multiplier, on the diagonal, by the particles of this rank
-  std::vector<double> volume_;  ///< v_l of every multiplier
+  std::vector<double> lumped_;    ///< of every multiplier, on the diagonal, by the particles of this rank
+  std::vector<double> volume_;    ///< v_l of every multiplier
   std::vector<bool> is_free_;
 };
 
@@ -318,9 +318,8 @@ void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
                                      of_ranks(shared));
     std::vector<double> force(lambda.begin(), lambda.end());
     std::vector<double> known(lambda.size(), 0);
-    const PressureOfFewParticles<Dim> of_few(
-        *grid, *splines, *rows, site.span(), lambda.span(), open_share.span(), mass.volume(),
-        open_share ? mass.middles() : std::vector<Vec<Dim>>());
+    const PressureOfFewParticles<Dim> of_few(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),
+                                             mass.volume(), open_share ? mass.middles() : std::vector<Vec<Dim>>());
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (!of_few.is_known(i)) continue;
       known[i] = of_few(i);
