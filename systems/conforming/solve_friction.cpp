@@ -115,12 +115,30 @@ struct FrictionSystem {
   /// (E119) \param left  r . z before \return r . z
   double add_coarse(double left, double tolerance) const {
     if (!has_coarse) return left;
-    if constexpr (Dim == 2) {
-      work.coarse.correct(work.r, work.z);
-    } else {
+    if constexpr (Dim == 3) {
       work.coarse.correct(work.r, tolerance, work.z);
+    } else if (deflates()) {
+      apply(work.z, work.product);
+      for_each_row(work.r.size(), [&](std::size_t f) { work.product[f] = work.r[f] - work.product[f]; });
+      work.coarse.correct(work.product, work.z);
+    } else {
+      work.coarse.correct(work.r, work.z);
     }
     return product(work.r, work.z);
+  }
+  /// The second level takes what the first one leaves, and r has nothing left for it: only where its matrix is that of
+  /// the first, without the extension to walls of bodies that rub.
+  bool deflates() const { return Dim == 2 && has_coarse && !walls_rub(); }
+  /// Takes from r what the second level can.
+  void start_coarse() const {
+    if constexpr (Dim == 2) {
+      if (!deflates()) return;
+      std::fill(work.z.begin(), work.z.end(), 0.0);
+      work.coarse.correct(work.r, work.z);
+      apply(work.z, work.product);
+      add_scaled(1, work.z, work.v);
+      add_scaled(-1, work.product, work.r);
+    }
   }
   /// B a v
   template <class VelocityOf>
@@ -172,6 +190,7 @@ struct FrictionSystem {
     for_each_row(work.f.size(), [&](std::size_t f) { work.r[f] = work.f[f] - work.product[f]; });
     std::fill(work.sum_of_y.begin(), work.sum_of_y.end(), 0.0);
     work.start = work.v;
+    start_coarse();
     const auto tolerance_for = [&](double size) {
       return std::clamp(share_of_projection * target / size, finest_projection, coarsest_projection);
     };

@@ -27,7 +27,7 @@ Json disc(int cells, double viscosity) {
   return scene;
 }
 
-Json slump() { return with(scene_of_file("slump.json"), {"/grid/cells=[128, 64]"}); }
+Json slump(const std::string& cells) { return with(scene_of_file("slump.json"), {"/grid/cells=" + cells}); }
 
 /// Honey that is stirred, in a closed box or with a surface in the middle.
 Json honey(const std::string& cells, double height) {
@@ -53,15 +53,18 @@ std::int64_t most_iterations(const Json& scene, int steps) {
 }  // namespace
 
 TEST_CASE("stiff friction takes few iterations on any grid and at any contrast", "[property][long]") {
-  // 20, 24, 20, 24 measured; the diagonal alone takes 52 to 129.
-  CHECK(most_iterations(disc(64, 1e3), 2) <= 26);
-  CHECK(most_iterations(disc(64, 1e6), 2) <= 30);
-  CHECK(most_iterations(disc(128, 1e3), 1) <= 26);
-  CHECK(most_iterations(disc(128, 1e6), 1) <= 30);
+  // 14, 18, 14, 17, 18 measured; 52 to 256 without the second level, 19 to 28 with it in parallel.
+  CHECK(most_iterations(disc(64, 1e3), 2) <= 16);
+  CHECK(most_iterations(disc(64, 1e6), 2) <= 20);
+  CHECK(most_iterations(disc(128, 1e3), 1) <= 16);
+  CHECK(most_iterations(disc(128, 1e6), 1) <= 20);
+  CHECK(most_iterations(disc(256, 1e6), 1) <= 20);
 }
 
 TEST_CASE("stiff friction takes few iterations under a surface", "[property]") {
-  CHECK(most_iterations(slump(), 3) <= 20);  // 15 measured, 142 by the diagonal alone
+  // 10, 11 measured; 47, 142 without the second level, 15, 16 with it in parallel.
+  CHECK(most_iterations(slump("[64, 32]"), 3) <= 14);
+  CHECK(most_iterations(slump("[128, 64]"), 3) <= 14);
 }
 
 TEST_CASE("stiff friction in space takes few iterations on any grid", "[property][long]") {
