@@ -92,12 +92,13 @@ struct OpenDataset {
   std::array<hsize_t, 2> size{1, 1};
 };
 
-/// Into a dataset of their size. \return whether all went well
-bool write_rows(hid_t data, const DatasetRows& rows) {
-  const hid_t type = type_of(rows.number);
-  if (!rows.make) return H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.bytes.data()) >= 0;
+/// Into a dataset of their size.
+void write_rows(hid_t data, const DatasetRows& rows, const std::string& what) {
+  const auto write = [&](hid_t from, hid_t to, const void* values) {
+    if (H5Dwrite(data, type_of(rows.number), from, to, H5P_DEFAULT, values) < 0) throw std::runtime_error(what);
+  };
+  if (!rows.make) return write(H5S_ALL, H5S_ALL, rows.bytes.data());
   constexpr std::size_t most = 4096;  // at a time
-  const std::string& what = rows.dataset;
   const Handle all(H5Dget_space(data), H5Sclose, what);
   std::vector<double> made;
   for (std::size_t begin = 0; begin < rows.rows(); begin += most) {
@@ -108,9 +109,8 @@ bool write_rows(hid_t data, const DatasetRows& rows) {
     const std::array<hsize_t, 2> size{count, rows.width};
     H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr);
     const Handle some(H5Screate_simple(rows.width == 1 ? 1 : 2, size.data(), nullptr), H5Sclose, what);
-    if (H5Dwrite(data, type, some, all, H5P_DEFAULT, made.data()) < 0) return false;
+    write(some, all, made.data());
   }
-  return true;
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ Extent Hdf5File::make(const DatasetRows& like, std::size_t rows, Values values) 
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   const Handle space(H5Screate_simple(like.width == 1 ? 1 : 2, size.data(), nullptr), H5Sclose, what);
   Handle data(H5Dcreate2(file_, like.dataset.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose, what);
-  if (values == Values::written && !write_rows(data, like)) throw std::runtime_error(what);
+  if (values == Values::written) write_rows(data, like, what);
   const haddr_t offset = H5Dget_offset(data);
   const Extent extent = offset == HADDR_UNDEF ? Extent{} : Extent{offset, H5Dget_storage_size(data)};
   data.close(what);
