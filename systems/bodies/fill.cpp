@@ -127,7 +127,9 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
         open += from_beside * open_liquid(j, d);
         uncut[i][axis] += from_beside * m_f[j][axis];
       }
-      uncut[i][axis] /= std::max(open, least_open_liquid);
+      // Of a face that is lighter than its particles, a pressure makes more energy than it takes.
+      uncut[i][axis] = std::max(uncut[i][axis] / std::max(open, least_open_liquid),
+                                m_f[i][axis] / std::max(open_volume[i][axis], least_open_liquid));
     }
   });
   const double full_cell = fluid->density * std::pow(grid->spacing, Dim);

@@ -26,7 +26,7 @@ struct FillBesideBodies {
 };
 
 /// (E86)  m_f over what bodies leave open of the liquid around a face; where that is little, with that of the faces
-/// beside it. (E123) near the free surface.
+/// beside it. No less than m_f over what they leave open of the volume. (E123) near the free surface.
 template <int Dim>
 struct FindUncutMass {
   static constexpr std::string_view doc = "(E86) mass of faces, were nothing cut away";
