@@ -2,6 +2,7 @@
 /// \file
 /// Bodies: solids in the liquid, a row each, in the order of the scene, and what they leave open of the staggered grid.
 
+#include "components/rigid.hpp"
 #include "components/staggered.hpp"
 
 namespace minamo {
@@ -97,6 +98,13 @@ struct Force : Column<Bodies, Vec<Dim>> {
 template <int Dim>
 struct Torque : Column<Bodies, Vec<rotations<Dim>>> {
   static constexpr ComponentInfo info{"body.torque", "T_b", "N m", Lifetime::scratch};
+};
+
+/// Impulse that the body got from particles that it stopped, and its moment about the body's position; of the end of
+/// the last step. [N s, N m s]
+template <int Dim>
+struct StopImpulse : Column<Bodies, RigidVector<Dim>> {
+  static constexpr ComponentInfo info{"body.stop_impulse", "J_b", "N s", Lifetime::state};
 };
 
 }  // namespace body

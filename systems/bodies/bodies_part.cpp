@@ -202,6 +202,7 @@ void seed_bodies(BodySet<Dim> set, World& world) {
         velocity_at<Dim>(set.bodies[b], 0);
     world.column<body::Angle<Dim>>()[b].setZero();
     world.column<body::Work>()[b] = 0;
+    world.column<body::StopImpulse<Dim>>()[b].setZero();
   }
 }
 
@@ -221,6 +222,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   recipe.add("correct", "push_bodies", When::step);
   recipe.add("advect", "move_bodies", When::step);
   recipe.add("accept", "keep_out_of_bodies", When::step);
+  recipe.add("accept", "count_stops", When::step);
   recipe.add("measure", "measure_bodies", When::step);
   recipe.add("measure", "measure_bodies_at_start", When::standing);
   with_dimension(scene.dimension, [&](auto dim) {
@@ -308,6 +310,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<MoveBodies>("move_bodies");
   registry.add<FindSolidParts>("find_solid_parts");
   registry.add<KeepOutOfBodies>("keep_out_of_bodies");
+  registry.add<CountStops>("count_stops");
   registry.add<MeasureBodies>("measure_bodies");
   registry.add<MeasureBodiesAtStart>("measure_bodies_at_start");
   registry.add(Part{"bodies", "solids in the liquid", read_bodies});

@@ -111,6 +111,17 @@ void PushBodies<Dim>::operator()(
 }
 
 template <int Dim>
+void CountStops<Dim>::operator()(Read<Clock> clock, Read<body::StopImpulse<Dim>> J_b, Read<body::Velocity<Dim>> V_b,
+                                 Read<body::Spin<Dim>> omega_b, Update<body::Force<Dim>> F_b,
+                                 Update<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
+  for (std::size_t b = 0; b < J_b.size(); ++b) {
+    F_b[b] += J_b[b].template head<Dim>() / clock->step;
+    T_b[b] += J_b[b].template tail<rotations<Dim>>() / clock->step;
+    W_b[b] += J_b[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
+  }
+}
+
+template <int Dim>
 void MeasureBodies<Dim>::operator()(Read<BodySet<Dim>> set, Read<body::Force<Dim>> F_b, Read<body::Torque<Dim>> T_b,
                                     Read<body::Position<Dim>> c_b, Read<body::Velocity<Dim>> V_b,
                                     Read<body::Angle<Dim>> alpha_b, Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b,
@@ -150,6 +161,8 @@ void MeasureEnergyBalance<Dim>::operator()(Read<measure::Energy> energy, Read<bo
   columns->set("energy_balance", balance);
 }
 
+template struct CountStops<2>;
+template struct CountStops<3>;
 template struct MeasureEnergyBalance<2>;
 template struct MeasureEnergyBalance<3>;
 template struct PushBodies<2>;

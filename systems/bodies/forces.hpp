@@ -32,6 +32,16 @@ struct PushBodies {
                   Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
 };
 
+/// (E90)  What particles that a body stops, (E89), give it: force, torque and work of their impulse. A free body takes
+/// it up in the next step, with the liquid around it.
+template <int Dim>
+struct CountStops {
+  static constexpr std::string_view doc = "(E90) force, torque and work of particles that bodies stop";
+  void operator()(Read<Clock> clock, Read<body::StopImpulse<Dim>> J_b, Read<body::Velocity<Dim>> V_b,
+                  Read<body::Spin<Dim>> omega_b, Update<body::Force<Dim>> F_b, Update<body::Torque<Dim>> T_b,
+                  Update<body::Work> W_b) const;
+};
+
 /// Columns of the history: NAME_force_x, ..., NAME_torque, NAME_position_x, ..., NAME_velocity_x, ..., NAME_angle,
 /// NAME_rotation, NAME_work; where bodies rub also NAME_friction_x, ..., NAME_friction_torque.
 template <int Dim>

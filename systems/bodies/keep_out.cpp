@@ -5,9 +5,12 @@
 #include "systems/setup/lattice.hpp"
 #include "systems/transfer/advect.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <optional>
+#include <vector>
 
 namespace minamo {
 
@@ -121,11 +124,26 @@ typename PlacedBodies<Dim>::Nearest nearest_within(const Grid<Dim>& grid, const 
   return moving.distance < nearest.distance ? moving : nearest;
 }
 
-/// (E89)  Takes the part of a velocity that approaches a wall. \param n  unit normal, out of the wall
+/// (E89)  The part of a velocity that approaches a wall. \param n  unit normal, out of the wall
 template <int Dim>
-void stop_approach(const Vec<Dim>& wall, const Vec<Dim>& n, Vec<Dim>& v) {
-  const double approach = (v - wall).dot(n);
-  if (approach < 0) v -= approach * n;
+Vec<Dim> approach(const Vec<Dim>& wall, const Vec<Dim>& n, const Vec<Dim>& v) {
+  return std::min(0.0, (v - wall).dot(n)) * n;
+}
+
+/// What a body takes from a particle.
+template <int Dim>
+struct Stop {
+  std::size_t particle;
+  std::size_t body;
+  RigidVector<Dim> impulse;
+};
+
+/// Sums in the order of particles: the same on any number of threads.
+template <int Dim>
+void add_up(std::vector<Stop<Dim>>& stops, std::span<RigidVector<Dim>> of_body) {
+  for (RigidVector<Dim>& impulse : of_body) impulse.setZero();
+  std::stable_sort(stops.begin(), stops.end(), [](const auto& a, const auto& b) { return a.particle < b.particle; });
+  for (const Stop<Dim>& stop : stops) of_body[stop.body] += stop.impulse;
 }
 
 }  // namespace
@@ -152,7 +170,7 @@ void StopAtPlates<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
     if (!end) return;
     const Vec<Dim> n = middle.direction_to_world(shape.gradient(*end)).stableNormalized();
     y_p[p] = fold<Dim>(*grid, back_along_wall<Dim>(*grid, n, middle.to_world(*end)).x);
-    stop_approach<Dim>(rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b])), n, v_p[p]);
+    v_p[p] -= approach<Dim>(rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b])), n, v_p[p]);
   });
 }
 
@@ -161,15 +179,24 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
                                       Read<GridCells<Dim>> cells, Read<body::MiddlePosition<Dim>> c_middle,
                                       Read<body::MiddleRotation<Dim>> R_middle, Read<body::Position<Dim>> c_b,
                                       Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
-                                      Read<body::Spin<Dim>> omega_b, Read<particle::QuadraturePosition<Dim>> y_p,
-                                      Update<particle::Position<Dim>> x_p, Update<particle::Velocity<Dim>> v_p,
-                                      Update<Clamped> clamped) const {
+                                      Read<body::Spin<Dim>> omega_b, Read<particle::Mass> m_p,
+                                      Read<particle::QuadraturePosition<Dim>> y_p, Update<particle::Position<Dim>> x_p,
+                                      Update<particle::Velocity<Dim>> v_p, Update<Clamped> clamped,
+                                      Write<body::StopImpulse<Dim>> J_b) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const PlacedBodies<Dim> in_middle(*set, c_middle.span(), R_middle.span());
   const double move = farthest_move<Dim>(*grid, set->bodies.size(), in_middle, bodies);
   const double least = gap * grid->spacing;
+  std::vector<Stop<Dim>> stops;
+  std::mutex of_stops;
   const auto stop_at_body = [&](std::size_t p, std::size_t b, const Vec<Dim>& n) {
-    stop_approach<Dim>(rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b])), n, v_p[p]);
+    const Vec<Dim> r = x_p[p] - c_b[b];
+    const Vec<Dim> lost = approach<Dim>(rigid_velocity(V_b[b], omega_b[b], r), n, v_p[p]);
+    if (lost.isZero(0)) return;
+    v_p[p] -= lost;
+    const Vec<Dim> impulse = m_p[p] * lost;
+    const std::lock_guard lock(of_stops);
+    stops.push_back({p, b, rigid_vector<Dim>(impulse, moment_of(r, impulse))});
   };
   const auto stop_before_plate = [&](std::size_t p) {
     const Vec<Dim> way = way_between<Dim>(*grid, y_p[p], x_p[p]);
@@ -225,6 +252,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
     }
   });
   clamped->count += count;
+  add_up<Dim>(stops, J_b.span());
 }
 
 template struct StopAtPlates<2>;

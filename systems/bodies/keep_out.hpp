@@ -27,7 +27,8 @@ struct StopAtPlates {
 /// (E89)  A particle less than 1e-3 h from a body goes to that distance, along the normal; one that was inside loses
 /// the part of its velocity that approaches the body. Out of a corner it goes along the wall that held it before, and
 /// from a plate that it went into beyond its middle, or through, back to its side. What the balance of mass
-/// leaves open in cut cells, and steps that are long for a curved wall, carry particles there.
+/// leaves open in cut cells, and steps that are long for a curved wall, carry particles there. The momentum that
+/// particles lose the body gets.
 template <int Dim>
 struct KeepOutOfBodies {
   static constexpr std::string_view doc = "(E89) particles stay outside of bodies";
@@ -35,8 +36,9 @@ struct KeepOutOfBodies {
                   Read<GridCells<Dim>> cells, Read<body::MiddlePosition<Dim>> c_middle,
                   Read<body::MiddleRotation<Dim>> R_middle, Read<body::Position<Dim>> c_b,
                   Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Update<particle::Position<Dim>> x_p,
-                  Update<particle::Velocity<Dim>> v_p, Update<Clamped> clamped) const;
+                  Read<particle::Mass> m_p, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Update<particle::Position<Dim>> x_p, Update<particle::Velocity<Dim>> v_p, Update<Clamped> clamped,
+                  Write<body::StopImpulse<Dim>> J_b) const;
 };
 
 }  // namespace minamo

@@ -56,8 +56,9 @@ double drag(const Json& scene, double from, double to) {
 }  // namespace
 
 TEST_CASE("a stream does nothing to a cylinder without friction", "[verification]") {
-  // 0.24, 0.48 at 6 cells across the cylinder; 1.19, 1.57 without (E120).
-  const auto [body_moves, most] = GENERATE(table<bool, double>({{false, 0.4}, {true, 0.7}}));
+  // 0.79, 0.72 at 6 cells across the cylinder, 0.31, 0.24 at 12. By the pressure alone, without the particles that it
+  // stops, 0.26, 0.39, and 1.19, 1.57 without (E120).
+  const auto [body_moves, most] = GENERATE(table<bool, double>({{false, 0.95}, {true, 0.9}}));
   CAPTURE(body_moves);
   CHECK(std::abs(drag(stream(cylinder, "slip", 0, 0.04, body_moves), 0.4, 1.2)) < most);
 }
@@ -66,8 +67,9 @@ TEST_CASE("drag is the same for a body that moves and one that stands, at any st
   const bool body_moves = GENERATE(false, true);
   const double step = GENERATE(0.04, 0.01);
   CAPTURE(body_moves, step);
-  // Reynolds number 20. Between 3.25 and 3.42; 3.4 to 5.6 when faces beside the wall were set back in every step.
-  CHECK(drag(stream(square, "no_slip", 0.05, step, body_moves), 2, 3) == Approx(3.35).epsilon(0.05));
+  // Reynolds number 20. 3.60 with 24 cells across, between 3.62 and 3.77 with 6; 3.25 to 3.42 where the particles that
+  // the square stops do not count, 3.4 to 5.6 when faces beside the wall were set back in every step.
+  CHECK(drag(stream(square, "no_slip", 0.05, step, body_moves), 2, 3) == Approx(3.6).epsilon(0.05));
 }
 
 TEST_CASE("nothing is damped in liquid that turns like a rigid body in a drum", "[verification]") {

@@ -123,6 +123,34 @@ TEST_CASE("a particle in the corner of two bodies leaves both", "[verification]"
   CHECK(inside == 0);
 }
 
+TEST_CASE("a body gets the momentum of a particle that it stops", "[verification]") {
+  // One particle at rest, too little liquid for a pressure, and a box that comes along with 1 m/s.
+  Json scene = Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 1], "cells": [10, 10]}, "fluid": {"density": 1000, "viscosity": 0},
+    "particles": [{"shape": {"box": {"low": [0.4, 0.5], "high": [0.4125, 0.5125]}}, "per_cell": 8}],
+    "bodies": [{"name": "box", "shape": {"box": {"low": [0.2, 0.3], "high": [0.4, 0.7]}}}],
+    "time": {"end": 1, "step": 0.02}})json");
+  const double mass = 1000 * 0.0125 * 0.0125;
+  SECTION("whose motion is given") {
+    scene["bodies"][0]["motion"]["prescribed"]["velocity"] = {"1", "0"};
+    SceneRun run(scene);
+    run.step();
+    CHECK(run.world().column<particle::Velocity<2>>()[0][0] == Approx(1));
+    CHECK(measured(run.world(), "box_force_x") == Approx(-mass / 0.02));
+    CHECK(measured(run.world(), "box_torque") == Approx(-(0.5 - 0.50625) * mass / 0.02));
+    CHECK(measured(run.world(), "box_work") == Approx(-mass));
+  }
+  SECTION("that moves freely") {
+    scene["bodies"][0]["motion"]["free"] = {{"mass", 1.5}, {"velocity", {1, 0}}, {"locked", {"rotation"}}};
+    SceneRun run(scene);
+    run.step(2);
+    const double of_body = 1.5 * run.world().column<body::Velocity<2>>()[0][0];
+    const double of_particle = mass * run.world().column<particle::Velocity<2>>()[0][0];
+    CHECK(of_body < 1.5 - 0.9 * mass);
+    CHECK(of_body + of_particle == Approx(1.5).epsilon(2e-3));  // (E94) takes a part with it
+  }
+}
+
 TEST_CASE("a plate much thinner than a cell keeps the water on its side", "[verification]") {
   const double angle = GENERATE(90.0, 70.0, 50.0);
   CAPTURE(angle);
