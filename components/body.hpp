@@ -88,13 +88,14 @@ struct EndSpin : Column<Bodies, Vec<rotations<Dim>>> {
   static constexpr ComponentInfo info{"body.end_spin", "omega_b^{n+1}", "1/s", Lifetime::scratch};
 };
 
-/// Force of the pressure on the body, at the instant of the balances. [N; N/m in 2-D]
+/// Force on the body of the pressure at the instant of the balances, and of the particles that it stops. [N; N/m in
+/// 2-D]
 template <int Dim>
 struct Force : Column<Bodies, Vec<Dim>> {
   static constexpr ComponentInfo info{"body.force", "F_b", "N", Lifetime::scratch};
 };
 
-/// Torque of the pressure about the body's position. [N m; N in 2-D]
+/// Torque of these about the body's position. [N m; N in 2-D]
 template <int Dim>
 struct Torque : Column<Bodies, Vec<rotations<Dim>>> {
   static constexpr ComponentInfo info{"body.torque", "T_b", "N m", Lifetime::scratch};
