@@ -54,6 +54,16 @@ struct Free {
   Spring<Dim> spring;
 };
 
+/// About the pivot, of a body turned by R since the start.
+template <int Dim>
+Mat<rotations<Dim>> turned_inertia(const Free<Dim>& free, const Mat<Dim>& R) {
+  if constexpr (Dim == 2) {
+    return free.inertia;
+  } else {
+    return R * free.inertia * R.transpose();
+  }
+}
+
 /// What the surface of a body does to the liquid that moves along it.
 struct BodyWall {
   enum class Kind { slip, no_slip, slip_length, separating };

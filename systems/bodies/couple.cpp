@@ -58,15 +58,6 @@ struct Fluxes {
   }
 };
 
-template <int Dim>
-Mat<rotations<Dim>> turned_inertia(const Free<Dim>& free, const Mat<Dim>& R) {
-  if constexpr (Dim == 2) {
-    return free.inertia;
-  } else {
-    return R * free.inertia * R.transpose();
-  }
-}
-
 /// What of the balances of free bodies does not depend on the liquid.
 struct BodyBalances {
   Eigen::MatrixXd mass;     ///< M [kg, kg m^2]

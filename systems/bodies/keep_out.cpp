@@ -130,20 +130,45 @@ Vec<Dim> approach(const Vec<Dim>& wall, const Vec<Dim>& n, const Vec<Dim>& v) {
   return std::min(0.0, (v - wall).dot(n)) * n;
 }
 
-/// What a body takes from a particle.
+/// What a particle loses to a body.
 template <int Dim>
 struct Stop {
   std::size_t particle;
   std::size_t body;
-  RigidVector<Dim> impulse;
+  Vec<Dim> r;     ///< from the body's position [m]
+  Vec<Dim> lost;  ///< [m/s]
 };
 
-/// Sums in the order of particles: the same on any number of threads.
+/// The velocity along n that a unit of impulse along n gives a point of a body. [1/kg]
 template <int Dim>
-void add_up(std::vector<Stop<Dim>>& stops, std::span<RigidVector<Dim>> of_body) {
-  for (RigidVector<Dim>& impulse : of_body) impulse.setZero();
+double yielding(const BodyScene<Dim>& body, const Mat<Dim>& R, const Vec<Dim>& r, const Vec<Dim>& n) {
+  const Free<Dim>* free = body.free();
+  if (free == nullptr) return 0;
+  Vec<Dim> along = n;
+  Vec<rotations<Dim>> around = moment_of(r, n);
+  for (std::size_t c = 0; c < free->locked.size(); ++c) {
+    const auto k = static_cast<Eigen::Index>(c);
+    if (free->locked[c]) (k < Dim ? along[k] : around[k - Dim]) = 0;
+  }
+  return along.squaredNorm() / free->mass + around.dot(turned_inertia<Dim>(*free, R).inverse() * around);
+}
+
+/// (E89)  Impulses of bodies. A free one that particles push away itself takes a share of what they lose, the rest they
+/// keep: with it they and the body go on together. In the order of particles: the same on any number of threads.
+template <int Dim>
+void share_stops(std::vector<Stop<Dim>>& stops, const BodySet<Dim>& set, std::span<const Mat<Dim>> R_b,
+                 std::span<const double> m_p, std::span<Vec<Dim>> v_p, std::span<RigidVector<Dim>> J_b) {
   std::stable_sort(stops.begin(), stops.end(), [](const auto& a, const auto& b) { return a.particle < b.particle; });
-  for (const Stop<Dim>& stop : stops) of_body[stop.body] += stop.impulse;
+  std::vector<double> yields(set.bodies.size(), 0);
+  for (const auto& [p, b, r, lost] : stops)
+    yields[b] += m_p[p] * yielding<Dim>(set.bodies[b], R_b[b], r, lost.stableNormalized());
+  for (RigidVector<Dim>& J : J_b) J.setZero();
+  for (const auto& [p, b, r, lost] : stops) {
+    const Vec<Dim> taken = lost / (1 + yields[b]);
+    v_p[p] += lost - taken;
+    const Vec<Dim> impulse = m_p[p] * taken;
+    J_b[b] += rigid_vector<Dim>(impulse, moment_of(r, impulse));
+  }
 }
 
 }  // namespace
@@ -194,9 +219,8 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
     const Vec<Dim> lost = approach<Dim>(rigid_velocity(V_b[b], omega_b[b], r), n, v_p[p]);
     if (lost.isZero(0)) return;
     v_p[p] -= lost;
-    const Vec<Dim> impulse = m_p[p] * lost;
     const std::lock_guard lock(of_stops);
-    stops.push_back({p, b, rigid_vector<Dim>(impulse, moment_of(r, impulse))});
+    stops.push_back({p, b, r, lost});
   };
   const auto stop_before_plate = [&](std::size_t p) {
     const Vec<Dim> way = way_between<Dim>(*grid, y_p[p], x_p[p]);
@@ -252,7 +276,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
     }
   });
   clamped->count += count;
-  add_up<Dim>(stops, J_b.span());
+  share_stops<Dim>(stops, *set, R_b.span(), m_p.span(), v_p.span(), J_b.span());
 }
 
 template struct StopAtPlates<2>;

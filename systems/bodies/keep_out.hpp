@@ -28,7 +28,7 @@ struct StopAtPlates {
 /// the part of its velocity that approaches the body. Out of a corner it goes along the wall that held it before, and
 /// from a plate that it went into beyond its middle, or through, back to its side. What the balance of mass
 /// leaves open in cut cells, and steps that are long for a curved wall, carry particles there. The momentum that
-/// particles lose the body gets.
+/// particles lose the body gets, and a free one takes no more than it can without being thrown back.
 template <int Dim>
 struct KeepOutOfBodies {
   static constexpr std::string_view doc = "(E89) particles stay outside of bodies";
