@@ -2,6 +2,7 @@
 /// Bodies that the liquid moves, against exact solutions: free fall, rest at the draught of Archimedes, the
 /// acceleration that added mass leaves to a light disc, a spring, a spinning top, contact.
 
+#include "support/energy.hpp"
 #include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
@@ -227,16 +228,7 @@ TEST_CASE("a box that bobs gives no energy to the water and the box", "[verifica
 
 TEST_CASE("discs that sink and rise give no energy to the water", "[verification][long]") {
   SceneRun run(scene_of_file("sinking_discs.json"));
-  run.start();
-  const auto balance = [&] { return value_of(run.world(), "energy_balance"); };
-  run.step();
-  double lowest = balance();
-  double rise = 0;
-  for (int k = 0; k < 160; ++k) {
-    run.step();
-    lowest = smallest_of(lowest, balance());
-    rise = largest_of(rise, balance() - lowest);
-  }
+  const double rise = largest_rise(run, 161, [&] { return value_of(run.world(), "energy_balance"); });
   // Of 484 J that the discs exchange with the water; 0.01 J measured, 5.5 J where the water gets the momentum of
   // particles that a disc stops and the disc does not lose it.
   CHECK(rise < 0.1);
