@@ -136,6 +136,16 @@ class WithLiquids(PageTest):
         self.assertFalse(self.js(hidden))
 
 
+class Even(PageTest):
+    """A stream in which nothing changes."""
+
+    def test_a_history_that_is_constant_but_for_rounding_has_a_plot(self) -> None:
+        self.open(RESULTS.page(RESULTS.run("uniform_stream", "even", "/time/end=0.2")))
+        low, high = self.js("(({min, max}) => [min, max])(app.plots.drawn[0].scales.y)")
+        self.assertLess(low, 440)
+        self.assertGreater(high, 450)
+
+
 class SideBySide(PageTest):
     """TPIC and FLIP."""
 

@@ -149,10 +149,14 @@ const positive = (values, logarithmic) =>
     ? Array.from(values, (v) => (v > 0 ? v : null))
     : Array.from(values, (v) => (Number.isFinite(v) ? v : null));
 
+/** Values closer than this, relative to their size, are the same: marks between them need some of the 16 digits. */
+const sameValue = 1e-12;
+
 /** Room above and below; something to see where all values are the same. */
 function comfortable(_, low, high) {
   if (low === null) return [0, 1];
-  const room = high > low ? 0.06 * (high - low) : Math.abs(high) * 0.1 || 1;
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  const room = high - low > sameValue * size ? 0.06 * (high - low) : size * 0.1 || 1;
   return [low - room, high + room];
 }
 
