@@ -172,6 +172,32 @@ class Figures(unittest.TestCase):
             self.assertGreater(close_to(half, to_rgb(own)).mean(), 0.5)
             self.assertLess(close_to(half, to_rgb(other)).mean(), 0.1)
 
+    def test_every_frame_is_drawn_where_openings_change_the_number_of_particles(self):
+        self.assertEqual(run_scene("tap", "tap", {"/grid/cells": [48, 32], "/time/end": 0.3}), 0)
+        with h5py.File(WORK / "tap/fields.h5") as file:
+            self.assertGreater(len({len(frame["id"]) for frame in file["particles"].values()}), 5)
+        names = ("speed.png", "history.png", "systems.png", "speed.mp4")
+        self.expect_files(figures("tap", "--field", "speed"), *(f"tap/figures/{name}" for name in names))
+        self.assertEqual(int(stream_of(WORK / "tap/figures/speed.mp4")["nb_read_frames"]), frames_of("tap"))
+        # The jet, which comes in from above, between 1/6 and 5/24 of the width, is there at the end and not before.
+        for time, expected in (("0", False), ("0.3", True)):
+            self.assertEqual(figures("tap", "--times", time, "--field", "speed", "--no-movie").stderr, "")
+            panel = panel_of(WORK / "tap/figures/speed.png")
+            height, width = panel.shape[:2]
+            jet = panel[height // 10:height // 2, width // 6:5 * width // 24]
+            self.assertEqual((np.ptp(jet, axis=2) > 0.1).any(), expected)
+
+    def test_frames_without_particles_are_drawn_empty(self):
+        dry = {"/particles/0/shape": {"box": {"low": [0.25, 0.25], "high": [0.5, 0.5]}},
+               "/particles/0/velocity": ["u", "0"],
+               "/openings": [{"name": "right", "side": "x_high", "outflow": "free"}]}
+        self.assertEqual(run_scene("uniform_stream", "dry", dry), 0)
+        self.assertEqual(figures("dry", "--field", "speed").stderr, "")
+        self.assertEqual(figures("dry", "--field", "speed", "--times", "2", "--no-movie").stderr, "")
+        panel = panel_of(WORK / "dry/figures/speed.png")
+        left = panel[:, :panel.shape[1] // 2]  # beside a square panel the bar of colours is as long as a wall
+        self.assertFalse((np.ptp(left, axis=2) > 0.1).any())
+
     def test_a_slice_shows_nothing_where_there_is_no_liquid(self):
         self.assertEqual(figures("space", "--slice", "x=0.5", "--times", "0", "--no-movie", "--out", "dry").stderr, "")
         self.assertFalse((np.ptp(panel_of(WORK / "dry/speed_x0.5.png"), axis=2) > 0.1).any())

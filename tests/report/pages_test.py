@@ -7,6 +7,8 @@ import numpy as np
 from page_case import PageTest, main
 from results import RESULTS, summary
 
+from reporting.runs import Run
+
 
 class InSpace(PageTest):
     """A ball that flattens: no walls near, an exact solution."""
@@ -134,6 +136,75 @@ class WithLiquids(PageTest):
         self.choose("field", "speed")
         self.browser.wait("app.field === 'speed'")
         self.assertFalse(self.js(hidden))
+
+
+class WithOpenings(PageTest):
+    """A tap fills a basin."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        cls.folder = RESULTS.run("tap", "tap", "/grid/cells=[48, 32]", "/time/end=0.3")
+        cls.page = RESULTS.page(cls.folder)
+
+    def test_every_frame_has_its_own_particles_where_fields_h5_has_them(self) -> None:
+        self.open(self.page)
+        shown = self.js("""((particles) => [...Array(particles.frames).keys()].map((k) =>
+          [...Array(particles.rows).keys()].filter((p) => particles.id(k, p) >= 0)
+            .map((p) => [particles.id(k, p), ...particles.place(k, p)])))(app.panels[0].particles)""")
+        counts = []
+        with h5py.File(self.folder / "fields.h5") as file:
+            for frame, rows in enumerate(shown):
+                stored = file[f"particles/{frame}"]
+                order = np.argsort(stored["id"][:])
+                ids, *places = np.array(sorted(rows)).T
+                np.testing.assert_array_equal(ids, stored["id"][:][order])
+                # 16 bits over at most 0.6 m: off by 0.6/65535/2 m = 4.6e-6 m, and rounding.
+                np.testing.assert_allclose(places, stored["position"][:][order].T, rtol=0, atol=4.7e-6)
+                counts.append(len(ids))
+        self.assertGreater(counts[-1], counts[0])
+        self.assertIn(f"{summary(self.folder)['particles']} at the end", self.text("#viewer"))
+        for frame in (0, len(counts) - 1):
+            self.js(f"app.player.jump(report.runs[0].times[{frame}])")
+            self.browser.settle()
+            self.assertIn(f"{counts[frame]} particles", self.text(".note"))
+
+    def test_the_pointer_finds_those_that_are_there(self) -> None:
+        self.open(self.page)
+        for frame, expected in ((0, False), (-1, True)):  # in the jet, which has not begun at the start
+            self.js(f"app.player.jump(report.runs[0].times.at({frame}))")
+            self.browser.settle()
+            found = self.js("""((panel) => {
+              const frame = panel.particles.frameAt(app.time);
+              const found = panel.particleAt(panel.projection.point([0.1125, 0.35]), frame);
+              return found !== null && panel.particles.id(frame, found) >= 0; })(app.panels[0])""")
+            self.assertEqual(expected, found)
+
+    def test_between_frames_particles_come_and_leave_at_the_pace_of_the_others(self) -> None:
+        folder = RESULTS.run("uniform_stream", "stream")
+        self.open(RESULTS.page(folder))
+        # A half of the way from frame 5 to frame 6, in metres.
+        shown = np.array(self.js("""((panel) => {
+          const {particles, projection} = panel, [x0, y0] = projection.point([0, 0]), found = [];
+          forEachSeen({particles, projection, pixels: 1, slice: null, frame: 5, part: 0.5,
+                       field: particles.fields.get(app.field), range: app.range}, 1, panel.width, panel.height,
+                      (x, y) => found.push([(x - x0) / projection.scale, (y0 - y) / projection.scale]));
+          return found; })(app.panels[0])"""))
+        run = Run(folder)
+        half = 0.5 * (run.times[6] - run.times[5]) * np.array([0.8, 0.5])
+        first, before, after, last = map(run.frame, range(4, 8))
+        comes = ~np.isin(after.id, before.id)
+        leaves = ~np.isin(before.id, after.id)
+        self.assertGreater(min(comes.sum(), leaves.sum()), 100)
+        # One that is there at one output time alone, in a corner, stands still.
+        forth = np.where(leaves & ~np.isin(before.id, first.id), 0, 1)[:, None] * half
+        back = np.where(np.isin(after.id, last.id), 1, 0)[:, None] * half
+        # Particles are not followed beyond where they are at output times, to a 40th of the box at most.
+        places = np.concatenate([before.position + forth, (after.position - back)[comes]])
+        both = [some[np.all((some > 0.025) & (some < 0.975), axis=1)] for some in (places, shown)]
+        both = [some[np.lexsort(some.round(3).T)] for some in both]
+        self.assertGreater(len(both[0]), 850)
+        np.testing.assert_allclose(*both, rtol=0, atol=1e-4)
 
 
 class Even(PageTest):

@@ -26,9 +26,15 @@ from reporting.histories import MOST_ROWS, packed_history, plots
 from reporting.overlays import corner_paths, fits, references
 from reporting.packing import pack_frames
 from reporting.particles import Particles, Quantity
-from reporting.runs import NoResults, Run
+from reporting.rows import Rows, stays_of
+from reporting.runs import NoResults, Run, telling_times
 from reporting.shading import coarsened, shaded, surface_section
 from reporting.surfaces import Surface, loops_of, packed_surfaces
+
+
+# A box of liquid that leaves through the right side; the last frames are empty.
+DRY = ('/particles/0/shape={"box": {"low": [0.25, 0.25], "high": [0.5, 0.5]}}', '/particles/0/velocity=["u", "0"]',
+       '/openings=[{"name": "right", "side": "x_high", "outflow": "free"}]')
 
 
 def unpacked(text: str, frames: int, order: int) -> np.ndarray:
@@ -71,7 +77,7 @@ class Packing(unittest.TestCase):
     def test_one_wild_particle_leaves_the_others_their_codes(self) -> None:
         quantity = Quantity("speed", "m/s")
         quantity.add(np.append(np.linspace(0, 1, 1000), 1e9), np.arange(1001))
-        described, packed = quantity.packed(16)
+        described, packed = quantity.packed(16, [np.arange(1001)], 1001)
         self.assertEqual(1e9, described["most"])
         self.assertLess(packed.step, 1e-3)  # 1/1000 of the others' range
 
@@ -82,11 +88,10 @@ class Choice(unittest.TestCase):
     def test_too_many_particles_are_thinned_and_those_left_are_where_they_were(self) -> None:
         run = Run(RESULTS.run("paper/dam_break_tpic", "thin", "/time/end=0.01", "/output/every=0.005"))
         few, all_of_them = Particles.read(run, 100), Particles.read(run, 10**6)
-        self.assertEqual((800, 100), (few.count, len(few.chosen)))
-        np.testing.assert_array_equal(all_of_them.position[:, few.chosen], few.position)
+        self.assertEqual(([800] * 3, 0.125, 100), (few.counts, few.share, few.ids.shape[1]))
+        np.testing.assert_array_equal(all_of_them.position[:, few.ids[0]], few.position)
         self.assertEqual(*(next(each.high for each in some.quantities if each.name == "speed")
                            for some in (few, all_of_them)))
-
 
     def test_a_long_history_is_thinned_and_says_so(self) -> None:
         run = Run(RESULTS.run("paper/dam_break_tpic", "long", "/time/end=0.01"))
@@ -94,6 +99,61 @@ class Choice(unittest.TestCase):
         run.history = {name: np.resize(values, rows) for name, values in run.history.items()}
         packed = packed_history(run, plots([run]), lambda text: 0)
         self.assertEqual((3, -(-rows // 3)), (packed["every"], packed["rows"]))
+
+
+class Openings(unittest.TestCase):
+    """Particles that come and go."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        # The stream moves by half of the box from frame to frame, then by all of it.
+        cls.stream = Run(RESULTS.run("uniform_stream", "stream", "/time/end=4", "/output/every=0.5"))
+        cls.torrent = Run(RESULTS.run("uniform_stream", "torrent", "/time/end=12", "/output/every=1.5"))
+        cls.dry = Run(RESULTS.run("uniform_stream", "dry", *DRY))
+
+    def test_a_row_is_kept_as_long_as_a_particle_is_there_and_is_empty_for_a_frame_before_the_next_one(self) -> None:
+        used = Rows()
+        rows = [used.of(np.array(ids)).tolist() for ids in ([0, 1, 2], [1, 2, 3], [2, 3, 4], [], [5, 6])]
+        self.assertEqual([[0, 1, 2], [1, 2, 3], [2, 3, 0], [], [0, 1]], rows)
+        self.assertEqual(4, used.count)
+
+    def test_stays_tell_who_was_where_and_when(self) -> None:
+        ids = np.array([[0, 1], [-1, 1], [7, 1], [7, -1], [-1, 3]])
+        stays = np.column_stack(stays_of(ids)).tolist()
+        self.assertEqual([[0, 0, 0, 0], [0, 2, 3, 7], [1, 0, 2, 1], [1, 4, 4, 3]], stays)
+
+    def test_every_frame_has_its_own_particles(self) -> None:
+        for run in (self.stream, self.dry):
+            with self.subTest(run=run.name):
+                particles = Particles.read(run, 10**6)
+                self.assertTrue(particles.changes)
+                self.assertLess(particles.ids.shape[1], 2.5 * max(particles.counts))
+                for index, ids in enumerate(particles.ids):
+                    there = np.argsort(ids)[np.count_nonzero(ids < 0):]
+                    columns = run.columns(index)
+                    np.testing.assert_array_equal(columns["id"], ids[there])
+                    np.testing.assert_array_equal(columns["position"], particles.position[index, there])
+                    self.assertEqual(len(columns["id"]), particles.counts[index])
+        self.assertEqual(0, particles.counts[-1])
+
+    def test_those_left_of_too_many_stay_as_long_as_they_are_there(self) -> None:
+        few = Particles.read(self.stream, 30)
+        shown = [set(ids[ids >= 0]) for ids in few.ids]
+        chosen = set.union(*shown)
+        for index, ids in enumerate(shown):
+            self.assertEqual(ids, chosen & set(self.stream.ids(index)))
+            # A tenth of them by chance: within five standard deviations.
+            expected = few.share * few.counts[index]
+            self.assertLess(abs(len(ids) - expected), 5 * np.sqrt(expected))
+
+    def test_telling_times_of_an_even_stream_are_even(self) -> None:
+        for run in (self.stream, self.torrent):
+            np.testing.assert_allclose(telling_times(run, 5), np.linspace(0, run.times[-1], 5), rtol=0, atol=1e-9)
+
+    def test_telling_times_of_a_box_that_runs_dry_are_those_before_it_is(self) -> None:
+        times = telling_times(self.dry, 4)
+        self.assertEqual((0, self.dry.times[-1]), (times[0], times[-1]))
+        self.assertGreater(len(self.dry.ids(int(np.argmin(abs(self.dry.times - times[2])) - 1))), 0)
 
 
 class Fitting(unittest.TestCase):

@@ -54,7 +54,7 @@ def fields_of(run: Run) -> dict[str, Field]:
         found.append(Field("fluid", "", lambda columns: columns["fluid"].astype(float), classes=run.fluids))
     for name, values in columns.items():
         if name not in ("fluid", "position", "velocity", "pressure", "velocity_gradient"):
-            parts = range(values[0].size) if values.ndim > 1 else ()
+            parts = range(values.shape[1]) if values.ndim > 1 else ()
             unit = UNITS.get(name, ("", ""))[dimension - 2]
             found += [_part(name, unit, k, str(k)) for k in parts] or [_whole(name, unit)]
     return {field.name: field for field in found}

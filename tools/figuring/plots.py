@@ -54,8 +54,9 @@ def _logarithmic(axes) -> None:
     """Whole decades."""
     values = np.concatenate([line.get_ydata() for line in axes.get_lines()])
     values = values[values > 0]
+    low, high = np.floor(np.log10(values.min())), np.ceil(np.log10(values.max()))
+    axes.set_ylim(10**low, 10 ** max(high, low + 1))
     axes.set_yscale("log")
-    axes.set_ylim(10 ** np.floor(np.log10(values.min())), 10 ** np.ceil(np.log10(values.max())))
     axes.yaxis.set_minor_formatter(NullFormatter())
 
 

@@ -91,8 +91,8 @@ def view_of(run: Run, shown: list[np.ndarray], cut: Slice | None) -> View:
         low, high = corners.min(axis=0), corners.max(axis=0)
     else:
         low, high = low[list(plane)], high[list(plane)]
-        if shown and cut is None and not run.scene.get("bodies"):
-            points = np.concatenate(shown)
+        points = np.concatenate([np.empty((0, run.dimension)), *shown])
+        if len(points) and cut is None and not run.scene.get("bodies"):
             near = 3 * run.spacing
             if np.all(points.min(axis=0) > low + near) and np.all(points.max(axis=0) < high - near):
                 half = np.full(2, 1.05 * 0.5 * np.ptp(points, axis=0).max())

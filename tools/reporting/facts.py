@@ -83,9 +83,10 @@ def facts(run: Run) -> dict[str, str]:
 def _cost(run: Run) -> dict[str, str]:
     summary = run.summary
     wall, steps = summary["wall_s"], summary["steps"]
+    particles = f"{summary['particles']}{' at the end' if run.scene.get('openings') else ''}"
     return {
         "Simulated": f"{summary['time']:.6g} s in {steps} steps",
-        "Particles": f"{summary['particles']}, {run.scene['particles'][0].get('per_cell')} per cell and direction",
+        "Particles": f"{particles}, {run.scene['particles'][0].get('per_cell')} per cell and direction",
         "Unknowns": f"at most {summary['unknowns_max']}",
         "Wall time": f"{duration(wall)}, {1e3 * wall / max(1, steps):.3g} ms per step",
         "CPU time": f"{duration(summary['cpu_s'])} on {_threads(summary)}",

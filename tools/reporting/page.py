@@ -150,9 +150,11 @@ def _stored(described: list[dict[str, Any]]) -> str:
             "bits over their range; fields.h5 has the exact numbers. Between output times positions are interpolated "
             "while the page plays; a still picture always shows an output time.")
     for run in shown:
-        if run["particles"]["shown"] < run["particles"]["count"]:
-            text += (f" {run['label']}: the page has {run['particles']['shown']} of {run['particles']['count']} "
-                     "particles, chosen at random and drawn larger; ranges are those of all particles.")
+        if run["particles"]["share"] < 1:
+            text += (f" {run['label']}: the page has {100 * run['particles']['share']:.3g} % of the particles, chosen "
+                     "at random and drawn larger; ranges are those of all particles.")
+    if any(run["particles"]["changes"] for run in shown):
+        text += " Particles that come in or leave between two output times move on evenly from the time that has them."
     return text
 
 

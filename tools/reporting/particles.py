@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from reporting.packing import Packed, pack_frames
-from reporting.runs import NoResults, Run
+from reporting.packing import Packed, pack_frames, pack_table
+from reporting.rows import Rows, stays_of
+from reporting.runs import Run
 
 AXES = "xyz"
 UNITS = {"velocity": "m/s", "pressure": "Pa", "velocity_gradient": "1/s"}
@@ -29,15 +30,15 @@ class Quantity:
     shown: list[np.ndarray] = field(default_factory=list)  # by frame, of the particles in the page
 
     def add(self, values: np.ndarray, chosen: np.ndarray) -> None:
-        """Takes up the next frame."""
+        """Takes up the next frame; `chosen` are the places of the page's particles in it."""
         finite = values[np.isfinite(values)]
         if len(finite):
             self.low, self.high = min(self.low, float(finite.min())), max(self.high, float(finite.max()))
         self.shown.append(values[chosen].astype(np.float32))
 
-    def packed(self, bits: int) -> tuple[dict[str, Any], Packed]:
-        """What the page knows of it, and its codes."""
-        values = np.array(self.shown)
+    def packed(self, bits: int, rows: list[np.ndarray], count: int) -> tuple[dict[str, Any], Packed]:
+        """What the page knows of it, and its codes; `rows` are those of the page's particles, by frame, of `count`."""
+        values = in_rows(self.shown, rows, count)
         finite = values[np.isfinite(values)]
         usual = np.percentile(finite, [0.5, 99.5]).tolist() if len(finite) else [0.0, 0.0]
         low, high = self._coded_range(*usual)
@@ -84,38 +85,44 @@ def _of_gradient(gradient: np.ndarray, unit: str) -> dict[str, tuple[np.ndarray,
 
 @dataclass(frozen=True)
 class Particles:
-    """All frames of a run, those that a page has room for."""
+    """All frames of a run, those particles that a page has room for."""
 
-    count: int  # in the run
-    chosen: np.ndarray  # rows that are in the page, ascending
-    position: np.ndarray  # [m], frames x chosen x dimension
+    counts: list[int]  # in the run, by frame
+    share: float  # of all particles, that are in the page [1]
+    rows: list[np.ndarray]  # of the page's particles, by frame
+    ids: np.ndarray  # frames x rows; -1 where nobody is
+    position: np.ndarray  # [m], frames x rows x dimension
     quantities: list[Quantity]
 
     @classmethod
     def read(cls, run: Run, most: int) -> Particles | None:
-        """At most `most` particles, drawn by chance, always the same ones; None if no frame is written yet."""
+        """About `most` particles at a time, drawn by chance, always the same ones; None if no frame is written yet."""
         if len(run.times) == 0:
             return None
-        count = len(run.columns(0)["id"])
-        chosen = np.arange(count)
-        if count > most:
-            chosen = np.sort(np.random.default_rng(1).choice(count, most, replace=False))
-        position, found = [], {}
-        for index in range(len(run.times)):
-            columns = run.columns(index)
-            if len(columns["id"]) != count:
-                raise NoResults(f"{run.folder}/fields.h5: frame {index} has {len(columns['id'])} particles; expected: "
-                                f"{count}, as in frame 0")
-            position.append(columns["position"][chosen])
+        ids = [run.ids(index) for index in range(len(run.times))]
+        counts = [len(each) for each in ids]
+        share = min(1.0, most / max(counts))
+        chosen = _chosen(ids, share)
+        used, rows, places, found = Rows(), [], [], {}
+        for index, numbers in enumerate(ids):
+            columns, here = run.columns(index), np.flatnonzero(chosen[numbers])
+            rows.append(used.of(numbers[here]))
+            places.append(columns["position"][here])
             for name, (values, unit, signed) in quantities(columns, run.dimension).items():
                 classes = run.fluids if name == "fluid" else ()
-                found.setdefault(name, Quantity(name, unit, signed, classes)).add(values, chosen)
-        return cls(count, chosen, np.array(position), list(found.values()))
+                found.setdefault(name, Quantity(name, unit, signed, classes)).add(values, here)
+        shown = in_rows([each[chosen[each]] for each in ids], rows, used.count, nobody=-1)
+        return cls(counts, share, rows, shown, in_rows(places, rows, used.count), list(found.values()))
+
+    @property
+    def changes(self) -> bool:
+        """Whether particles come or go."""
+        return bool(np.any(self.ids != self.ids[0]))
 
     @property
     def reach(self) -> tuple[np.ndarray, np.ndarray]:
         """Low and high corner of all places at all times. [m]"""
-        places = self.position.reshape(-1, self.position.shape[-1])
+        places = self.position[self.ids >= 0]
         return places.min(axis=0), places.max(axis=0)
 
     def packed(self, add: Any) -> dict[str, Any]:
@@ -123,10 +130,10 @@ class Particles:
         frames, rows, dimension = self.position.shape
         axes = [self._axis(d) for d in range(dimension)]
         bits = COARSE_BITS if frames * rows > MANY else 16
-        fields = [quantity.packed(bits) for quantity in self.quantities]
+        fields = [quantity.packed(bits, self.rows, rows) for quantity in self.quantities]
         return {
-            "count": self.count, "shown": rows,
-            "ids": [int(p) for p in self.chosen] if rows < self.count else None,
+            "counts": self.counts, "share": self.share, "rows": rows, "changes": self.changes,
+            "stays": add(pack_table(stays_of(self.ids))),
             "position": {"low": [axis.low for axis in axes], "high": [axis.high for axis in axes],
                          "step": max(axis.step for axis in axes), "keys": [add(axis.text) for axis in axes]},
             "fields": [described | {"key": add(packed.text)} for described, packed in fields],
@@ -137,6 +144,24 @@ class Particles:
         finite = values[np.isfinite(values)]
         low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
         return pack_frames(values, low, high, 16, 2)
+
+
+def _chosen(ids: list[np.ndarray], share: float) -> np.ndarray:
+    """Whether a particle is in the page, by its id: a share of all that are in a frame, drawn by chance."""
+    seen = np.zeros(max(int(each.max(initial=0)) for each in ids) + 1, bool)
+    for each in ids:
+        seen[each] = True
+    everyone, chosen = np.flatnonzero(seen), np.zeros_like(seen)
+    chosen[np.random.default_rng(1).choice(everyone, round(share * len(everyone)), replace=False)] = True
+    return chosen
+
+
+def in_rows(values: list[np.ndarray], rows: list[np.ndarray], count: int, nobody: float = np.nan) -> np.ndarray:
+    """Values by frame, each in its row of `count`; `nobody` in the others."""
+    found = np.full((len(values), count, *values[0].shape[1:]), nobody, values[0].dtype)
+    for frame, own, of in zip(found, values, rows):
+        frame[of] = own
+    return found
 
 
 def _finite(value: float) -> float:

@@ -26,6 +26,7 @@ class Frame:
     """The particles at an output time, in the order of their ids."""
 
     time: float  # [s]
+    id: np.ndarray
     position: np.ndarray  # [m], particles x dimension
     velocity: np.ndarray  # [m/s], particles x dimension
     pressure: np.ndarray  # [Pa]
@@ -91,6 +92,11 @@ class Run:
             self.problems.append(str(problem))
             return np.empty(0)
 
+    def ids(self, index: int) -> np.ndarray:
+        """Who is there in frame `index` of fields.h5, ascending. Nobody gets the id of one who has left."""
+        with self.fields() as file:
+            return np.sort(file[f"particles/{index}/id"][:])
+
     def columns(self, index: int) -> dict[str, np.ndarray]:
         """All that frame `index` of fields.h5 holds, particles x width or particles, in the order of the ids."""
         with self.fields() as file:
@@ -101,7 +107,7 @@ class Run:
     def frame(self, index: int) -> Frame:
         """Frame `index` of fields.h5."""
         columns = self.columns(index)
-        return Frame(float(self.times[index]), *(columns[name] for name in ("position", "velocity", "pressure")))
+        return Frame(float(self.times[index]), *(columns[name] for name in ("id", "position", "velocity", "pressure")))
 
     def frames(self) -> Iterator[Frame]:
         """All frames, in the order of time."""
@@ -189,11 +195,20 @@ def telling_times(run: Run, count: int) -> list[float]:
     moved, before = [0.0], None
     for frame in run.frames():
         if before is not None:
-            moved.append(moved[-1] + float(np.sqrt(np.mean((frame.position - before) ** 2))))
-        before = frame.position
+            moved.append(moved[-1] + _way(before, frame))
+        before = frame
     way = np.array(moved) + 1e-9 * (moved[-1] or 1) * np.arange(len(moved))  # grows even where nothing moves
     chosen = [0]
     for k, wanted in enumerate(np.linspace(way[0], way[-1], count)[1:], start=1):
         nearest = int(np.argmin(np.abs(way - wanted)))
         chosen.append(min(max(nearest, chosen[-1] + 1), len(way) - (count - k)))
     return [float(time) for time in run.times[chosen]]
+
+
+def _way(before: Frame, after: Frame) -> float:
+    """How far the particles move that are in both frames; where openings have exchanged all, by their velocity. [m]"""
+    _, old, new = np.intersect1d(before.id, after.id, assume_unique=True, return_indices=True)
+    ways = after.position[new] - before.position[old]
+    if len(ways) == 0:
+        ways = (after.time - before.time) * after.velocity
+    return float(np.sqrt(np.mean(ways**2))) if len(ways) else 0.0

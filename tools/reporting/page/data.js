@@ -40,11 +40,20 @@ function floatsOf(bytes) {
   return new Float64Array(ordered.buffer);
 }
 
+/** Who is at [frame*rows + row], from who is in which row from which frame to which. */
+function idsOf([row, first, last, id], frames, rows) {
+  const ids = new Int32Array(frames * rows).fill(-1);
+  id.forEach((own, k) => {
+    for (let frame = first[k]; frame <= last[k]; ++frame) ids[frame * rows + row[k]] = own;
+  });
+  return ids;
+}
+
 /** The particles of a run. */
 class Particles {
   constructor(run) {
     this.run = run;
-    this.rows = run.particles.shown;
+    this.rows = run.particles.rows;
     this.frames = run.times.length;
     this.dimension = run.dimension;
     this.low = run.particles.position.low;
@@ -52,8 +61,12 @@ class Particles {
     this.fields = new Map(run.particles.fields.map((field) => [field.name, { ...field, codes: null }]));
   }
 
-  /** Places are at [(frame*rows + particle)*dimension + axis], 0 ... 65535 from low to low + span. */
+  /**
+   * Places are at [(frame*rows + row)*dimension + axis], 0 ... 65535 from low to low + span; ids at [frame*rows + row],
+   * -1 where nobody is.
+   */
   async loadPlaces() {
+    this.ids = idsOf(await columnsOf(this.run.particles.stays, 4), this.frames, this.rows);
     this.bodies = await loadBodies(this.run);
     this.surfaces = await loadSurfaces(this.run);
     const axes = [];
@@ -64,7 +77,7 @@ class Particles {
     });
   }
 
-  /** Codes of a field are at [frame*rows + particle], 0 ... 2^bits - 1. */
+  /** Codes of a field are at [frame*rows + row], 0 ... 2^bits - 1. */
   load(name) {
     const field = this.fields.get(name);
     field.loading ??= unpack(field.key).then((bytes) => {
@@ -86,8 +99,9 @@ class Particles {
     return field.low + (field.codes[frame * this.rows + p] / (2 ** field.bits - 1)) * (field.high - field.low);
   }
 
-  id(p) {
-    return this.run.particles.ids ? this.run.particles.ids[p] : p;
+  /** The id of the particle in a row, negative if there is none. */
+  id(frame, p) {
+    return this.ids[frame * this.rows + p];
   }
 
   /** The frame whose time is nearest. */

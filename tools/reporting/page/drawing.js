@@ -82,7 +82,7 @@ function inPagePixels(context, pixels, draw) {
 const overlap = (run) => (run.dimension === 2 ? 1.3 : 1.1);
 
 /** Fewer particles in the page than in the run are drawn larger. */
-const crowding = (run) => (run.particles.count / run.particles.shown) ** (1 / run.dimension);
+const crowding = (run) => (1 / run.particles.share) ** (1 / run.dimension);
 
 /** The slab of two particles' thickness around the chosen place, or nothing. */
 function sliceOf(run, slice) {

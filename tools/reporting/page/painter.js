@@ -59,18 +59,25 @@ function forEachSeen(
   height,
   stamp,
 ) {
-  const { places, rows, dimension } = particles;
+  const { places, ids, rows, dimension } = particles;
   const toPixels = linearIn(particles, (place) => [
     ...projection.point(place).map((x) => x * pixels),
     projection.distance(place) * projection.scale * pixels,
   ]);
   const along = slice && linearIn(particles, (place) => [place[slice.axis]]);
-  const frames = framesAround(frame, particles.frames).map((k) => k * rows * dimension);
-  const weights = catmullRom(part);
-  const colourOf = colourIn(field, range, frame * rows, Math.min(frame + 1, particles.frames - 1) * rows, part);
+  const frames = framesAround(frame, particles.frames).map((k) => k * rows);
+  const ways = waysBetween(part);
+  const colourOf = colourIn(field, range, part);
   const code = [0, 0, 0];
   for (let p = 0; p < rows; ++p) {
-    for (let d = 0; d < dimension; ++d) code[d] = codeBetween(places, frames, weights, p * dimension + d, part);
+    const who = whoIs(ids, frames, p);
+    const weights = ways[who];
+    if (!weights) continue;
+    for (let d = 0; d < dimension; ++d) code[d] = codeBetween(places, frames, weights, p, dimension, d, part);
+    if (isOutside(code[0]) || isOutside(code[1]) || isOutside(code[2])) {
+      if ((who & isWhole) !== isWhole) continue; // it has left, or is not there yet
+      for (let d = 0; d < dimension; ++d) code[d] = Math.min(Math.max(code[d], 0), 65535); // a curve may swing
+    }
     if (slice) {
       const at = along[0](code);
       if (at < slice.low || at > slice.high) continue;
@@ -78,7 +85,9 @@ function forEachSeen(
     const x = toPixels[0](code),
       y = toPixels[1](code);
     if (x < -radius || y < -radius || x > width + radius || y > height + radius) continue;
-    stamp(x, y, colourOf(p), dimension === 3 ? toPixels[2](code) : 0);
+    const here = frames[who & isHere ? 1 : 2] + p,
+      next = frames[who & isNext ? 2 : 1] + p;
+    stamp(x, y, colourOf(here, next), dimension === 3 ? toPixels[2](code) : 0);
   }
 }
 
@@ -103,24 +112,58 @@ function catmullRom(part) {
   return [-t + 2 * t2 - t3, 2 - 5 * t2 + 3 * t3, t + 4 * t2 - 3 * t3, t3 - t2].map((w) => w / 2);
 }
 
-/** A curve may swing beyond the places at the frames, but not out of their range. */
-function codeBetween(places, frames, weights, at, part) {
-  if (part === 0) return places[frames[1] + at];
-  const code =
-    weights[0] * places[frames[0] + at] +
-    weights[1] * places[frames[1] + at] +
-    weights[2] * places[frames[2] + at] +
-    weights[3] * places[frames[3] + at];
-  return code < 0 ? 0 : code > 65535 ? 65535 : code;
+const isHere = 0b0100, // at the second of four frames
+  isNext = 0b0010, // at the third
+  isWhole = isHere | isNext;
+
+/**
+ * At which of four frames there is a particle in a row, a bit for each. A row is empty for a frame between one particle
+ * and the next, so neighbouring frames have the same one.
+ */
+function whoIs(ids, frames, p) {
+  let who = 0;
+  for (let k = 0; k < 4; ++k) who = 2 * who + (ids[frames[k] + p] >= 0 ? 1 : 0);
+  return who;
 }
 
-/** Colour 0 ... 255 of a particle between two frames, whose rows start at `here` and `next`. */
-function colourIn(field, range, here, next, part) {
+/** Weights of four frames by who is at them: at a frame that does not have it a particle went on evenly. */
+function waysBetween(part) {
+  const curve = catmullRom(part);
+  const [a, b, c, d] = curve;
+  const ways = new Array(16);
+  ways[0b1111] = curve;
+  ways[0b0111] = [0, b + 2 * a, c - a, d];
+  ways[0b1110] = [a, b - d, c + 2 * d, 0];
+  ways[0b0110] = [0, 1 - part, part, 0];
+  ways[0b1100] = ways[0b1101] = [-part, 1 + part, 0, 0];
+  ways[0b0100] = ways[0b0101] = [0, 1, 0, 0];
+  if (part === 0) return ways; // what comes later is not there
+  ways[0b0011] = ways[0b1011] = [0, 0, 2 - part, part - 1];
+  ways[0b0010] = ways[0b1010] = [0, 0, 1, 0];
+  return ways;
+}
+
+/** Beyond the range of the places at all frames. */
+const isOutside = (code) => code < 0 || code > 65535;
+
+function codeBetween(places, frames, weights, p, dimension, d, part) {
+  const at = p * dimension + d;
+  if (part === 0) return places[frames[1] * dimension + at];
+  return (
+    weights[0] * places[frames[0] * dimension + at] +
+    weights[1] * places[frames[1] * dimension + at] +
+    weights[2] * places[frames[2] * dimension + at] +
+    weights[3] * places[frames[3] * dimension + at]
+  );
+}
+
+/** Colour 0 ... 255 of a particle between two frames, whose codes are at `here` and `next`. */
+function colourIn(field, range, part) {
   const { codes, low, high, bits } = field;
   const perCode = (255 * (high - low)) / (2 ** bits - 1) / (range[1] - range[0]);
   const start = (255 * (low - range[0])) / (range[1] - range[0]);
-  return (p) => {
-    const code = codes[here + p] + part * (codes[next + p] - codes[here + p]);
+  return (here, next) => {
+    const code = codes[here] + part * (codes[next] - codes[here]);
     const colour = Math.round(start + perCode * code);
     return colour < 0 ? 0 : colour > 255 ? 255 : colour;
   };

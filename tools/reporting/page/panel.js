@@ -47,6 +47,8 @@ class Panel {
       parts.push(["", `${this.run.references[0].name} at ${this.referenceTimes()} s`]);
     if (this.run.surfaces) parts.push(["", "line: the surface of the liquid"]);
     if (this.run.corners) parts.push(["×", "where the corners are in theory: in free flight"]);
+    const { counts, changes } = this.run.particles;
+    if (changes) parts.push(["", `${counts[this.particles.frameAt(time)]} particles`]);
     const last = this.run.times[this.run.times.length - 1];
     if (time > last * (1 + 1e-6)) parts.push(["", `ended at ${shown(last)} s`]);
     const text = parts.flat().join();
@@ -134,7 +136,7 @@ class Panel {
       .place(frame, found)
       .map((x) => shown(x, 5))
       .join(", ");
-    const lines = [`particle ${this.particles.id(found)}`, `at (${place}) m`];
+    const lines = [`particle ${this.particles.id(frame, found)}`, `at (${place}) m`];
     for (const field of this.particles.fields.values()) {
       const value = this.particles.value(field.name, frame, found);
       const text = field.classes?.[Math.round(value)] ?? withUnit(shown(value), field.unit);
@@ -152,6 +154,7 @@ class Panel {
     let best = null,
       least = Infinity;
     for (let p = 0; p < this.particles.rows; ++p) {
+      if (this.particles.id(frame, p) < 0) continue;
       const place = this.particles.place(frame, p);
       if (slice && (place[slice.axis] < slice.low || place[slice.axis] > slice.high)) continue;
       const [px, py] = this.projection.point(place);
