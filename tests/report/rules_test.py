@@ -180,16 +180,20 @@ class Fitting(unittest.TestCase):
             with self.subTest(walls=walls):
                 self.assertEqual(expected, fits({"walls": "slip"}, scene | {"walls": walls}))
 
-    def test_what_was_made_without_bodies_does_not_fit_a_scene_with_them(self) -> None:
+    def test_what_was_made_without_bodies_and_openings_does_not_fit_a_scene_with_them(self) -> None:
         scene = {"dimension": 2, "walls": "slip"}
-        self.assertTrue(fits({"walls": "slip"}, scene | {"bodies": []}))
-        self.assertFalse(fits({"walls": "slip"}, scene | {"bodies": [{"name": "step"}]}))
+        for key in ("bodies", "openings"):
+            with self.subTest(key=key):
+                self.assertTrue(fits({"walls": "slip"}, scene | {key: []}))
+                self.assertFalse(fits({"walls": "slip"}, scene | {key: [{"name": "step"}]}))
 
     def test_only_boxes_in_free_flight_have_exact_corners(self) -> None:
         for name, expected in (("paper/rotating_square_tpic", True), ("ballistic_block", True), ("dam_break", False),
                                ("elliptical_drop", False), ("gresho", False), ("drop_3d", False)):
             with self.subTest(scene=name):
                 self.assertEqual(expected, corner_paths(self.run_of(name)) is not None)
+        opening = '/openings=[{"name": "out", "side": "x_high", "outflow": "free"}]'
+        self.assertIsNone(corner_paths(self.run_of("ballistic_block", opening)))
 
 
 class Sections(unittest.TestCase):

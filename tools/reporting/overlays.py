@@ -2,7 +2,7 @@
 
 A reference is a folder of scenes/reference with lines, NAME_tT.csv, and fits.json, the part of a scene that it was made
 for. It fits a run if the run's scene.json has all that is in fits.json, numbers within 1e-6 of each other, and no
-bodies beside.
+bodies or openings beside.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def references(run: Run, folder: Path = REFERENCES) -> list[dict[str, Any]]:
 
 
 def fits(wanted: dict[str, Any], scene: dict[str, Any]) -> bool:
-    """Whether a scene has all that is wanted of it, and no bodies unless they are wanted."""
-    if scene.get("bodies") and "bodies" not in wanted:
+    """Whether a scene has all that is wanted of it, and no bodies or openings unless they are wanted."""
+    if any(scene.get(key) and key not in wanted for key in ("bodies", "openings")):
         return False
     dimension = int(scene["dimension"])
     given = scene | {"walls": walls(scene.get("walls", "slip"), dimension)}
@@ -68,14 +68,14 @@ def corner_paths(run: Run) -> dict[str, Any] | None:
 
     At a corner two free surfaces meet, the pressure gradient vanishes, and the liquid goes on as in free flight. For a
     square of side L that rotates at the rate w: (L/2) (1 - wt, 1 + wt) and its turned copies. None unless every region
-    is a box that no wall and no other region touches, there are no bodies, the body force is constant, and the velocity at the start is
-    linear and not everywhere zero.
+    is a box that no wall and no other region touches, there are no bodies and openings, the body force is constant, and
+    the velocity at the start is linear and not everywhere zero.
     """
     boxes = [region["shape"].get("box") for region in run.scene["particles"]]
     force = run.scene.get("body_force", [0, 0])
-    if run.scene.get("bodies"):
+    if run.scene.get("bodies") or run.scene.get("openings") or run.dimension != 2 or len(run.times) == 0:
         return None
-    if run.dimension != 2 or not all(boxes) or any(box.get("angle", 0) for box in boxes) or not all(map(_is_number, force)) or len(run.times) == 0:
+    if not all(boxes) or any(box.get("angle", 0) for box in boxes) or not all(map(_is_number, force)):
         return None
     sides = [(np.array(box["low"], float), np.array(box["high"], float)) for box in boxes]
     if not all(_is_free(box, sides[:k] + [run.box], run) for k, box in enumerate(sides)):
