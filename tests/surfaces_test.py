@@ -11,7 +11,7 @@ from figures_test import ROOT, SHORT, WORK, close_to, figures, panel_of, run_sce
 sys.path.insert(0, str(ROOT / "tools"))
 from figuring.smoothing import smooth  # noqa: E402
 from reporting.runs import Run  # noqa: E402
-from reporting.surfaces import Surface, surface_of  # noqa: E402
+from reporting.surfaces import Surface, has_surface, surface_of  # noqa: E402
 
 LOW, HIGH = np.zeros(3), np.ones(3)
 
@@ -130,6 +130,17 @@ class Surfaces(unittest.TestCase):
                 done = figures(name, "--times", "0", "--field", "speed", "--no-movie")
                 self.assertEqual(done.returncode, 2)
                 self.assertIn(f"0000.{name}: cannot be read", done.stderr)
+
+    def test_what_an_earlier_run_has_left_is_not_drawn(self):
+        short = SHORT | {"/time/end": 0.01}
+        moved = {"/particles/0/shape": {"box": {"low": [0.3, 0], "high": [0.4, 0.1]}}}
+        self.assertEqual(run_scene("dam_break", "earlier", short | moved | {"/output/surface": "vtp"}), 0)
+        for name in ("none", "ply"):
+            self.assertEqual(run_scene("dam_break", f"later_{name}", short | {"/output/surface": name}), 0)
+            shutil.copytree(WORK / "earlier/surface", WORK / f"later_{name}/surface", dirs_exist_ok=True)
+        run = Run(WORK / "later_none")
+        self.assertFalse(any(has_surface(run, frame) for frame in range(len(run.times))))
+        self.assertLess(surface_of(Run(WORK / "later_ply"), 0).points[:, 0].max(), 0.2)  # that of the column at the left
 
     def test_both_formats_say_the_same_and_enclose_the_liquid(self):
         coarse = {"/grid/cells": [8, 4, 8], "/time/end": 0.02, "/time/step": 0.01, "/output/every": 0.02}

@@ -39,7 +39,7 @@ def surface_of(run: Run, index: int) -> Surface:
     """The surface of a frame; NoResults where there is none."""
     path = surface_file(run, index)
     try:
-        points, elements = {".vtp": _vtp, ".ply": _ply}[path.suffix](path.read_bytes(), run.dimension)
+        points, elements = READERS[path.suffix[1:]](path.read_bytes(), run.dimension)
         if elements.size and (elements.min() < 0 or elements.max() >= len(points)):
             raise ValueError("an element has a point that is not there")
     except (AttributeError, IndexError, KeyError, ValueError) as problem:
@@ -83,11 +83,9 @@ def packed_surfaces(run: Run, add: Any) -> dict[str, Any] | None:
 
 
 def _find(run: Run, index: int) -> Path | None:
-    for extension in ("vtp", "ply"):
-        path = run.folder / "surface" / f"{index:04}.{extension}"
-        if path.is_file():
-            return path
-    return None
+    extension = run.scene.get("output", {}).get("surface")
+    path = run.folder / "surface" / f"{index:04}.{extension}"  # others in the folder are of earlier runs
+    return path if extension in READERS and path.is_file() else None
 
 
 def _vtp(data: bytes, dimension: int) -> tuple[np.ndarray, np.ndarray]:
@@ -110,3 +108,6 @@ def _ply(data: bytes, dimension: int) -> tuple[np.ndarray, np.ndarray]:
     row = np.dtype([("corners", "<i4", 2)] if dimension == 2 else [("number", "u1"), ("corners", "<i4", 3)])
     rows = np.frombuffer(numbers, row, count["edge" if dimension == 2 else "face"], 4 * width * count["vertex"])
     return points[:, :3], rows["corners"]
+
+
+READERS = {"vtp": _vtp, "ply": _ply}  # by "/output/surface" of the scene
