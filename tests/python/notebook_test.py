@@ -43,20 +43,67 @@ class Notebook(unittest.TestCase):
         nbformat.write(notebook, WORK / "transfer_schemes.ipynb")
 
 
+def printed_by(block, names):
+    """Runs a block of code; what each of its lines printed, by number."""
+    printed = {}
+
+    def record(*values):
+        printed[sys._getframe(1).f_lineno] = " ".join(map(str, values))
+
+    names["print"] = record
+    exec(compile(block.replace('"out/', f'"{WORK}/out/'), "README.md", "exec"), names)
+    return printed
+
+
+NUMBER = r"-?\d+\.\d+(?:e-?\d+)?"
+
+
+def agrees(promised, printed):
+    """Whether a comment says what was printed: numbers to their last digit there, `...` for what it leaves out."""
+    words = promised.split()
+    patterns = [".*" if word == "..." else NUMBER if re.fullmatch(NUMBER, word) else re.escape(word) for word in words]
+    match = re.fullmatch(r"\s+".join(f"({pattern})" for pattern in patterns), printed, re.DOTALL)
+    return bool(match) and all(pattern != NUMBER or rounded_as(word, got) == word
+                               for word, pattern, got in zip(words, patterns, match.groups()))
+
+
+def rounded_as(word, got):
+    """A number with as many decimals as another."""
+    return f"{float(got):.{len(word.partition('.')[2])}f}"
+
+
 class Documentation(unittest.TestCase):
-    def test_examples_run_one_after_the_other(self):
+    def test_examples_run_one_after_the_other_and_print_what_they_say(self):
         text = (PYTHON / "README.md").read_text()
         blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
         self.assertGreater(len(blocks), 4)
-        names = {}
+        names, compared = {}, 0
         before = os.getcwd()
         os.chdir(ROOT)
         try:
             for block in blocks:
                 with self.subTest(block=block):
-                    exec(compile(block.replace('"out/', f'"{WORK}/out/'), "README.md", "exec"), names)
+                    printed = printed_by(block, names)
+                    for number, line in enumerate(block.splitlines(), start=1):
+                        if promised := re.search(r"# -> (.*)", line):
+                            self.assertTrue(agrees(promised[1], printed[number]), f"{line}: printed {printed[number]}")
+                            compared += 1
         finally:
             os.chdir(before)
+        self.assertGreaterEqual(compared, 6)
+
+    def test_numbers_agree_to_the_digits_that_are_written(self):
+        for promised, printed, expected in (("0.1 10", "0.1080741859755799 10", True), ("0.11", "0.10499", False),
+                                            ("0.1, 50", "0.1080741859755799 10", False), ("10", "100", False),
+                                            ("(3, 2) False", "(3, 2) False", True), ("a: ... c", "a:\n b c", True),
+                                            ("a ... c", "a:\n b c", False)):
+            with self.subTest(promised=promised, printed=printed):
+                self.assertEqual(agrees(promised, printed), expected)
+
+    def test_programs_to_copy_are_built_into_folders_of_their_own(self):
+        folders = [set(re.findall(r"\bout/\w+", path.read_text())) for path in ROOT.glob("tools/example_*/README.md")]
+        self.assertEqual([len(each) for each in folders], [1, 1, 1])
+        self.assertEqual(len(set.union(*folders)), 3)
 
     def test_the_table_of_columns_is_that_of_the_program(self):
         import minamo
