@@ -3,6 +3,7 @@
 #include "engine/text_file.hpp"
 #include "tools/interrupt.hpp"
 #include "tools/machine.hpp"
+#include "tools/results_folder.hpp"
 #include "tools/single_run.hpp"
 #include "tools/study_others.hpp"
 #include "tools/study_picture.hpp"
@@ -13,6 +14,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 
@@ -26,20 +28,42 @@ fs::path output_folder(const StudyOptions& options) {
   return options.out.empty() ? fs::path("out/studies") / fs::path(options.study).stem() : fs::path(options.out);
 }
 
+constexpr std::array<const char*, 3> results{"study.csv", "study.png", "others.csv"};
+
 /// Makes the folder, without what an earlier study left in it beside the folders of its variants.
-void open_output(const fs::path& folder) {
+/// \param inputs  that must stay
+FolderClaim open_output(const fs::path& folder, const std::vector<fs::path>& inputs) {
   make_output_folder(folder);
-  for (const char* name : {"study.csv", "study.png", "others.csv"}) {
+  FolderClaim claim(folder);
+  require_kept(inputs, folder, results);
+  for (const char* name : results) {
     std::error_code error;
     fs::remove(folder / name, error);
-    if (!error) continue;
-    throw InputError({{folder.string(),
-                       {},
-                       fmt::format("{} cannot be removed: {}", name, error.message()),
-                       "a folder for the results (--out)",
-                       {},
+    if (error) refuse_folder(folder, fmt::format("{} cannot be removed: {}", name, error.message()));
+  }
+  return claim;
+}
+
+/// So that problems are told before the first run. \throws InputError
+void require_others(const Study& study) {
+  if (study.others.empty()) return;
+  if (!fs::exists(study.others)) {
+    throw InputError({{study.file,
+                       "/others",
+                       "no such file",
+                       "a table of points of others, from the folder of the study",
+                       shown(Json(study.others)),
                        {}}});
   }
+  read_others(study.others);
+}
+
+/// The files of a study beside those that its scene refers to.
+std::vector<fs::path> inputs_of(const Study& study) {
+  std::vector<fs::path> inputs{study.file, study.scene};
+  if (!study.others.empty()) inputs.emplace_back(study.others);
+  if (const auto* program = std::get_if<ErrorOfProgram>(&study.error)) inputs.emplace_back(program->program);
+  return inputs;
 }
 
 StudyTable empty_table(const Study& study, int threads) {
@@ -161,13 +185,19 @@ void repeat_runs(const Study& study, const std::vector<Variant>& variants, const
 
 int run_study(const StudyOptions& options, const SystemRegistry& registry) {
   const Study study = read_study(options.study);
-  if (!study.others.empty()) read_others(study.others);  // problems are told before the first run
+  require_others(study);
   const std::vector<Variant> variants = make_variants(study, registry);
   const fs::path folder = output_folder(options);
-  open_output(folder);
+  const std::vector<fs::path> inputs = inputs_of(study);
+  const FolderClaim claim = open_output(folder, inputs);
   const int threads = prepare_threads(options.threads);
-  const RunPlan plan{
-      .scene = study.scene, .folder = folder, .threads = threads, .steps = {}, .quiet = options.quiet, .at_end = {}};
+  const RunPlan plan{.scene = study.scene,
+                     .folder = folder,
+                     .inputs = inputs,
+                     .threads = threads,
+                     .steps = {},
+                     .quiet = options.quiet,
+                     .at_end = {}};
   const std::atomic<bool>& stop = stop_on_signal();
   StudyTable table = empty_table(study, threads);
   for (const Variant& variant : variants) {

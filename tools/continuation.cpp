@@ -6,6 +6,7 @@
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/ranks/rows_of_ranks.hpp"
+#include "systems/surface/surface_folder.hpp"
 
 #include "minamo_version.hpp"
 
@@ -175,6 +176,8 @@ void continue_output(const fs::path& folder, StoredFields stored, World& world) 
   fields.folder = folder.string();
   fields.frames = std::move(stored.frames);
   write_index(world);
+  remove_surfaces(folder, fields.frames.size());
+  if (fs::exists(folder / surface_index)) write_surface_index(fields);
 }
 
 }  // namespace minamo

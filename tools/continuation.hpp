@@ -28,7 +28,7 @@ struct StoredFields {
 StoredFields load_checkpoint(const std::filesystem::path& folder, const std::string& scene_path, const SceneFile& scene,
                              World& world);
 
-/// Takes fields.h5 and history.csv back to the checkpoint, and goes on with them.
+/// Takes fields.h5, history.csv and the surfaces back to the checkpoint, and goes on with them.
 /// \throws InputError if the history does not reach to it.
 void continue_output(const std::filesystem::path& folder, StoredFields fields, World& world);
 

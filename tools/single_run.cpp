@@ -12,6 +12,7 @@
 #include "systems/time/turns.hpp"
 #include "tools/continuation.hpp"
 #include "tools/progress.hpp"
+#include "tools/results_folder.hpp"
 #include "tools/summary.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -26,27 +27,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse_output(const fs::path& path, const std::string& what) {
-  throw InputError({{path.string(), {}, what, "a folder for the results (--out)", {}, {}}});
-}
-
-/// Makes the folder, without what an earlier run left in it.
+/// Begins the output of a new run.
 void open_output(const fs::path& folder, World& world) {
-  make_output_folder(folder);
-  for (const char* name : {"history.csv", "fields.h5", "fields.xdmf", "summary.json", "checkpoint.h5", "trace.json"}) {
-    std::error_code error;
-    fs::remove(folder / name, error);
-    if (error) refuse_output(folder, fmt::format("{} cannot be removed: {}", name, error.message()));
-  }
+  remove_results(folder);
   auto& history = world.resource<HistoryFile>().file;
   history.open(folder / "history.csv");
-  if (!history) refuse_output(folder, "cannot be written");
+  if (!history) refuse_folder(folder, "cannot be written");
   world.resource<FieldsFile>().folder = folder.string();
 }
 
+/// Makes the folder this run's own, and finds out whether its files may be written there.
+FolderClaim claim_folder(const RunPlan& plan, const std::string& scene_text, const SceneFile& file) {
+  const bool is_start = plan.beginning == Beginning::start;
+  if (is_start) make_output_folder(plan.folder);
+  FolderClaim claim(plan.folder);
+  std::vector<fs::path> inputs = files_named_in(file.as_run);
+  inputs.insert(inputs.end(), plan.inputs.begin(), plan.inputs.end());
+  // The scene as run may be run again where it is: what is written is what was read, or goes on from it.
+  if (is_start && !holds(plan.folder / scene_as_run, scene_text)) inputs.emplace_back(plan.scene);
+  require_kept(inputs, plan.folder);
+  if (is_start) warn_of_other_scene(plan.folder, plan.scene);
+  return claim;
+}
+
 /// Makes the output, or takes it up where the checkpoint was written.
+/// \param claim  to the folder, for as long as the run lasts
 /// \return whether there is anything left to run
-bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& times, World& world) {
+bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& times, World& world, FolderClaim& claim) {
+  const std::string scene_text = file.as_run.dump(2) + "\n";
+  do_on_all(all_ranks(), [&] {
+    if (writes_for_all()) claim = claim_folder(plan, scene_text, file);
+  });
   std::optional<StoredFields> fields;
   if (plan.beginning == Beginning::continuation) {
     fields = load_checkpoint(plan.folder, plan.scene, file, world);
@@ -60,7 +71,7 @@ bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& ti
     } else {
       open_output(plan.folder, world);
     }
-    write_text(plan.folder / "scene.json", file.as_run.dump(2) + "\n");
+    write_text(plan.folder / scene_as_run, scene_text);
   });
   return true;
 }
@@ -137,13 +148,6 @@ void take_back_row(const fs::path& folder, World& world) {
 
 }  // namespace
 
-void make_output_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (fs::exists(folder) && !fs::is_directory(folder)) refuse_output(folder, "is a file");
-  if (error) refuse_output(folder, fmt::format("cannot be made: {}", error.message()));
-}
-
 RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& profiler,
                           const std::atomic<bool>& stop) {
   const Stopwatch stopwatch;
@@ -163,7 +167,8 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
   TimePlan times = make_time_plan(scene);
   times.max_steps = plan.steps;
   RunResult result;
-  if (!begin_output(plan, file, times, world)) {
+  FolderClaim claim;
+  if (!begin_output(plan, file, times, world, claim)) {
     result.clock = world.resource<Clock>();
     result.was_over = true;
     return result;
@@ -192,7 +197,7 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
 
   if (writes_for_all()) close_history(plan.folder, world);
   result.clock = world.resource<Clock>();
-  result.summary = make_summary(plan.scene, result.outcome, plan.threads, stopwatch, profiler, world);
+  result.summary = make_summary(plan.scene, result.outcome, plan.threads, times.end, stopwatch, profiler, world);
   if (writes_for_all()) write_summary(plan.folder, result);
   warn_of_energy(result.summary, world);
   warn_of_turns(world);

@@ -11,14 +11,16 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace minamo {
 
 struct RunPlan {
-  std::string scene;                  ///< the scene file, as the messages and summary.json call it
-  std::filesystem::path folder;       ///< for the results
-  int threads = 1;                    ///< that the caller has set, for summary.json
-  std::optional<std::int64_t> steps;  ///< of the whole run
+  std::string scene;                               ///< the scene file, as the messages and summary.json call it
+  std::filesystem::path folder;                    ///< for the results
+  std::vector<std::filesystem::path> inputs = {};  ///< files beside the scene and those that it refers to
+  int threads = 1;                                 ///< that the caller has set, for summary.json
+  std::optional<std::int64_t> steps;               ///< of the whole run
   Beginning beginning = Beginning::start;
   bool quiet = false;
   std::function<void(World&)> at_end;  ///< called where the run is done; may be empty
@@ -34,12 +36,9 @@ struct RunResult {
 };
 
 /// Runs the scene and writes all that a run leaves but the trace.
-/// \throws InputError if the scene cannot be seeded, the folder cannot be used or its checkpoint does not fit; nothing
-/// is run then.
+/// \throws InputError if the scene cannot be seeded, the folder cannot be used, another run writes into it, an input
+/// lies where a result would, or its checkpoint does not fit; nothing is run then.
 RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& profiler,
                           const std::atomic<bool>& stop);
-
-/// Makes a folder for results, which may be there already. \throws InputError
-void make_output_folder(const std::filesystem::path& folder);
 
 }  // namespace minamo

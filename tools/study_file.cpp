@@ -135,7 +135,8 @@ Study read(Input& input) {
   study.repeats = static_cast<int>(input.integer(
       "repeat",
       {.doc = "runs of a variant, of which the cheapest counts", .fallback = 1, .at_least = 1, .at_most = 100}));
-  if (input.has("others")) study.others = input.path("others", "table of points of others, for the picture").string();
+  const std::string_view doc = "table of points of others, for the picture";
+  if (input.optional_text("others", doc)) study.others = input.path("others", doc).string();
   check_use(input, study);
   check_count(input, study);
   return study;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace minamo {
@@ -168,6 +169,18 @@ Variant make_variant(const Json& scene, const Study& study, const Combination& c
   return variant;
 }
 
+/// The scene of a study. That it is missing is a problem of the study. \throws InputError
+Json scene_json(const Study& study) {
+  try {
+    return read_json(study.scene);
+  } catch (const InputError& error) {
+    if (std::filesystem::exists(study.scene)) throw;
+    const Problem& missing = error.problems().front();
+    throw InputError({{study.file, "/scene", missing.what, "a scene file, from the folder of the study",
+                       minamo::shown(Json(study.scene)), missing.closest}});
+  }
+}
+
 }  // namespace
 
 std::string value_text(const Json& value) {
@@ -222,7 +235,7 @@ std::vector<Variant> read_variants(const Study& study, const Json& scene, const 
 }
 
 std::vector<Variant> make_variants(const Study& study, const SystemRegistry& registry) {
-  std::vector<Variant> variants = read_variants(study, read_json(study.scene), registry);
+  std::vector<Variant> variants = read_variants(study, scene_json(study), registry);
   Problems problems;
   for (const Variant& variant : variants) {
     const std::string file = file_of(study, variant.name);

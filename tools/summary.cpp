@@ -84,7 +84,7 @@ double energy_rise(double mass, World& world) {
 
 }  // namespace
 
-Json make_summary(const std::string& scene, const Outcome& outcome, int threads, const Stopwatch& stopwatch,
+Json make_summary(const std::string& scene, const Outcome& outcome, int threads, double end, const Stopwatch& stopwatch,
                   const Profiler& profiler, World& world) {
   const Clock& clock = world.resource<Clock>();
   const RunTotals& totals = totals_of_all_rows(world);
@@ -97,6 +97,8 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   if (!outcome.message.empty()) summary["message"] = outcome.message;
   summary.update({{"steps", clock.index},
                   {"time", clock.time},
+                  {"end", end},
+                  {"complete", clock.time >= end},
                   {"rejected_steps", world.resource<StepControl>().rejected},
                   {"wall_s", wall},
                   {"cpu_s", stopwatch.cpu_seconds()},

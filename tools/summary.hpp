@@ -10,7 +10,8 @@
 
 namespace minamo {
 
-nlohmann::ordered_json make_summary(const std::string& scene, const Outcome& outcome, int threads,
+/// \param end  of the scene [s]
+nlohmann::ordered_json make_summary(const std::string& scene, const Outcome& outcome, int threads, double end,
                                     const Stopwatch& stopwatch, const Profiler& profiler, World& world);
 
 }  // namespace minamo

@@ -1,29 +1,13 @@
 #include "systems/surface/write_surfaces.hpp"
 
-#include "engine/text_file.hpp"
 #include "systems/bodies/cut.hpp"
 #include "systems/ranks/gathered.hpp"
-
-#include <spdlog/fmt/fmt.h>
+#include "systems/surface/surface_folder.hpp"
 
 #include <filesystem>
 #include <optional>
 
 namespace minamo {
-
-namespace {
-
-std::string file_of(std::size_t frame, SurfaceFormat format) { return fmt::format("{:04}.{}", frame, name_of(format)); }
-
-/// The index of all frames, which ParaView opens.
-void write_index(const FieldsFile& fields, SurfaceFormat format) {
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-  for (std::size_t k = 0; k < fields.frames.size(); ++k)
-    text += fmt::format("<DataSet timestep=\"{}\" file=\"surface/{}\"/>\n", fields.frames[k].time, file_of(k, format));
-  write_text(fields.folder + "/surface.pvd", text + "</Collection>\n</VTKFile>\n");
-}
-
-}  // namespace
 
 template <int Dim>
 void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> output, Read<particle::Position<Dim>> x_p,
@@ -51,11 +35,10 @@ void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> ou
     bodies.emplace(*set, c_b.span(), R_b.span());
     of.distance_to_bodies = [&](const Vec<Dim>& point) { return bodies->distance(point); };
   }
-  std::filesystem::create_directories(fields->folder + "/surface");
-  const std::size_t frame = fields->frames.size() - 1;
-  write_surface<Dim>(surface_of<Dim>(of), output->format, output->spacing,
-                     fields->folder + "/surface/" + file_of(frame, output->format));
-  if (output->format == SurfaceFormat::vtp) write_index(*fields, output->format);
+  const auto path = surface_path(fields->folder, fields->frames.size() - 1, output->format);
+  std::filesystem::create_directories(path.parent_path());
+  write_surface<Dim>(surface_of<Dim>(of), output->format, output->spacing, path.string());
+  if (output->format == SurfaceFormat::vtp) write_surface_index(*fields);
 }
 
 template struct WriteSurfaces<2>;

@@ -20,8 +20,8 @@ struct SurfaceOutput {
   static constexpr ComponentInfo info{"surface.output", "", "", Lifetime::constant};
 };
 
-/// (E111) as surface/NNNN.vtp, .ply or .vdb, NNNN the number of the frame; of VTP also surface.pvd with the times of
-/// all. Of several ranks the first one gathers the particles of all and writes. \throws std::runtime_error if a file
+/// (E111) as surface/NNNN.vtp, .ply or .vdb, NNNN the number of the frame; of VTP also surface.pvd with their
+/// times. Of several ranks the first one gathers the particles of all and writes. \throws std::runtime_error if a file
 /// cannot be written
 template <int Dim>
 struct WriteSurfaces {

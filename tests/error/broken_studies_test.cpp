@@ -115,8 +115,11 @@ TEST_CASE("a study whose time step or error makes no sense is refused", "[error]
 
 TEST_CASE("a study whose variants cannot all run is refused, and no problem is told twice", "[error]") {
   const auto [study, text] = GENERATE(values<Case>({
-      {R"({"scene": "scent.json", "vary": {"cells": [8]}, "error": "velocity"})", "scent.json: no such file\n"
-                                                                                  "  closest   \"scene.json\"\n"},
+      {R"({"scene": "scent.json", "vary": {"cells": [8]}, "error": "velocity"})",
+       "a.json: /scene: no such file\n"
+       "  expected  a scene file, from the folder of the study\n"
+       "  got       \"scent.json\" (string)\n"
+       "  closest   \"scene.json\"\n"},
       {R"({"scene": "scene.json", "vary": {"cells": [8, 16], "/transfer/scheme": ["pic", "apci"]}, "error": "velocity"})",
        "scene.json: variant cells8_apci: /transfer/scheme: unknown name\n"
        "  expected  one of [\"apic\", \"flip\", \"fmpm\", \"pic\", \"tpic\", \"tpic2\", \"xpic\"]\n"
@@ -146,6 +149,27 @@ TEST_CASE("a study whose variants cannot all run is refused, and no problem is t
        "  got       2 s\n"},
   }));
   check_refused(study, text);
+}
+
+TEST_CASE("a study without the table of others that it names is refused", "[error]") {
+  const StudyFolder folder(
+      R"({"scene": "scene.json", "vary": {"cells": [8]}, "error": "velocity", "others": "none.csv"})");
+  const ProgramOutput run = output_of_program(folder / "", {"study", "a.json"});
+  CHECK(run.err == "a.json: /others: no such file\n"
+                   "  expected  a table of points of others, from the folder of the study\n"
+                   "  got       \"" +
+                       (folder / "none.csv") + "\" (string)\n");
+  CHECK(run.code == 2);
+  CHECK_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_CASE("a study with an unknown key is told all that it may have", "[error]") {
+  check_refused(
+      R"({"scene": "scene.json", "vary": {"cells": [8]}, "error": "velocity", "colour": 1})",
+      "a.json: /colour: unknown key\n"
+      "  expected  one of [\"title\", \"scene\", \"vary\", \"set\", \"time_step\", \"end\", \"error\", \"cost\", "
+      "\"repeat\", \"others\"]\n"
+      "  got       1 (number)\n");
 }
 
 TEST_CASE("a study of a file that is no scene is refused", "[error]") {
