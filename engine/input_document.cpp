@@ -7,6 +7,15 @@ namespace minamo {
 
 namespace {
 
+/// The known keys without those that another one excludes.
+std::vector<std::string> possible_keys(const InputPlace& place) {
+  std::vector<std::string> keys;
+  for (const std::string& key : place.known) {
+    if (std::find(place.excluded.begin(), place.excluded.end(), key) == place.excluded.end()) keys.push_back(key);
+  }
+  return keys;
+}
+
 /// Looks for keys that nobody has read.
 class UnknownKeys {
  public:
@@ -47,8 +56,8 @@ class UnknownKeys {
     if (closest.empty()) closest = closest_name(key, place.known);
     Problem problem{record_.file, place.pointer_to(key), "unknown key", {}, shown(value), closest};
     if (closest.empty()) {
-      problem.what += place.decided;
-      if (!place.known.empty()) problem.expected = one_of_text(place.known);
+      if (place.parent) problem.what += place.decided;  // of a whole document a choice decides too little to tell
+      if (!place.known.empty()) problem.expected = one_of_text(possible_keys(place));
     }
     if (!explains) {
       record_.problems.push_back(std::move(problem));

@@ -78,9 +78,10 @@ struct InputPlace {
   Standing standing = Standing::absent;
   InputPlace* parent = nullptr;  ///< with the key there; none for the root
   std::string key;
-  bool unknown_keys_pass = false;  ///< it could not be decided which keys there are
-  std::string decided;             ///< what decided it, as the messages say it: ` with scheme "pic"`
-  std::vector<std::string> known;  ///< keys asked for
+  bool unknown_keys_pass = false;     ///< it could not be decided which keys there are
+  std::string decided;                ///< what decided it, as the messages say it: ` with scheme "pic"`
+  std::vector<std::string> known;     ///< keys asked for
+  std::vector<std::string> excluded;  ///< of them, those that another key excludes
   std::map<std::string, std::vector<std::size_t>, std::less<>> missing;  ///< problems noted because this key is missing
   std::map<std::string, std::vector<std::shared_ptr<InputPlace>>, std::less<>> children;
   Json echo = Json::object();

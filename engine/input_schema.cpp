@@ -111,13 +111,20 @@ std::string types_text(const Json& types) {
   return text;
 }
 
+/// Of a value that only its schema describes.
+std::string raw_type_text(const Json& schema) {
+  if (!schema.contains("type")) return "see meaning";
+  if (!schema.contains("items") || !schema["items"].contains("enum")) return types_text(schema["type"]);
+  return "list of some of " + listed(schema["items"]["enum"].get<std::vector<std::string>>());
+}
+
 std::string type_text(const KeyShape& key) {
   std::string text = key.expected;
   if (key.schema.contains("maxItems")) {
     const Json &least = key.schema["minItems"], most = key.schema["maxItems"];
     text = fmt::format("list of {}{} {}", least.dump(), least == most ? "" : " or " + most.dump(), key.items);
   }
-  if (text.empty()) text = key.schema.contains("type") ? types_text(key.schema["type"]) : "see meaning";
+  if (text.empty()) text = raw_type_text(key.schema);
   for (const std::string article : {"a ", "an "})
     if (text.starts_with(article)) return text.substr(article.size());
   return text;

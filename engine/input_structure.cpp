@@ -72,18 +72,24 @@ ChoiceShape choice_shape(std::string_view key, std::string_view doc, std::option
   return choice;
 }
 
-/// Reads the chosen variants; their keys belong to their alternatives.
+/// Reads the chosen variants, in the order in which they are chosen; their keys belong to their alternatives.
 void read_chosen(Input& input, InputPlace& place, ChoiceShape choice, const Input::Variants& variants,
                  const std::vector<std::string>& chosen) {
   ObjectShape* const outer = place.open_shape;
   ChoiceShape& shape = outer->choice(std::move(choice));
-  for (std::size_t i = 0; i < variants.size(); ++i) {
-    const auto& [name, read] = variants[i];
-    if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) continue;
-    place.open_shape = &shape.alternatives[i].shape;
-    read(input);
+  for (const std::string& name : chosen) {
+    const auto variant = std::find_if(variants.begin(), variants.end(), [&](const auto& v) { return v.first == name; });
+    place.open_shape = &shape.alternatives[static_cast<std::size_t>(variant - variants.begin())].shape;
+    variant->second(input);
     place.open_shape = outer;
   }
+}
+
+/// The default last: what is read later then depends on it, as in a document that names no variant.
+std::vector<std::string> in_order_of_description(std::vector<std::string> names,
+                                                 const std::optional<std::string>& fallback) {
+  std::stable_partition(names.begin(), names.end(), [&](const std::string& name) { return name != fallback; });
+  return names;
 }
 
 }  // namespace
@@ -171,7 +177,9 @@ std::string Input::variant(std::string_view key, std::string_view doc, const std
   const auto name = read_name(*place_, key, names, {{"enum", Json(names)}}, doc, fallback);
   if (!name) place_->unknown_keys_pass = true;
   if (name) place_->decided.append(fmt::format(" with {} \"{}\"", key, *name));
-  const auto chosen = describing() ? names : name ? std::vector{*name} : std::vector<std::string>{};
+  const auto chosen = describing() ? in_order_of_description(names, fallback)
+                      : name       ? std::vector{*name}
+                                   : std::vector<std::string>{};
   read_chosen(*this, *place_, choice_shape(key, doc, fallback, variants), variants, chosen);
   return name.value_or(fallback.value_or(names.front()));
 }
@@ -189,7 +197,11 @@ std::string Input::one_of(std::string_view doc, const Variants& variants) {
   if (present.size() > 1) place_->note({{}, pointer(), "keys that exclude each other", expected, listed(present), {}});
   const bool decided = present.size() == 1;
   if (!decided) place_->unknown_keys_pass = true;
-  if (decided) place_->decided.append(fmt::format(" beside \"{}\"", present.front()));
+  if (decided) {
+    place_->decided.append(fmt::format(" beside \"{}\"", present.front()));
+    std::copy_if(names.begin(), names.end(), std::back_inserter(place_->excluded),
+                 [&](const std::string& name) { return name != present.front(); });
+  }
   const auto chosen = describing() ? names : decided ? present : std::vector<std::string>{};
   read_chosen(*this, *place_, choice_shape({}, doc, {}, variants), variants, chosen);
   return decided ? present.front() : names.front();

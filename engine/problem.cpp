@@ -115,7 +115,7 @@ std::string listed(std::span<const std::string> names) {
 }
 
 std::string one_of_text(std::span<const std::string> names) {
-  constexpr std::size_t screenful = 24;
+  constexpr std::size_t screenful = 30;  // the keys at the top of a scene are 26
   return names.size() > screenful ? "a known name" : fmt::format("one of {}", listed(names));
 }
 

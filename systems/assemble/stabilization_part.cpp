@@ -63,7 +63,7 @@ Contribution read_oss(Input&, Scene&) {
 
 /// Only equal order needs one.
 Contribution read_stabilization(const Stabilization& stabilization, Input& input, Scene& scene) {
-  return is_conforming(scene) ? Contribution{} : stabilization.read(input, scene);
+  return is_conforming(scene) && !input.describing() ? Contribution{} : stabilization.read(input, scene);
 }
 
 /// Whoever names one for a discretization without pressure modes to stabilize is told.

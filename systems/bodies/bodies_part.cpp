@@ -111,7 +111,8 @@ void read_motion(Input& input, const Scene& scene, BodyScene<Dim>& body) {
 template <int Dim>
 void check_inside(Input& input, const BodyScene<Dim>& body, const GridScene& grid) {
   const Bounds<Dim> bounds = body.shape->bounds();
-  if (!bounds.finite() || body.moves()) return;
+  const bool may_come_in = body.moves() && body.free() == nullptr;  // what moves a free body is the liquid in the grid
+  if (!bounds.finite() || may_come_in) return;
   for (int d = 0; d < Dim; ++d) {
     const auto axis = static_cast<std::size_t>(d);
     if (bounds.high[d] > grid.low[axis] && bounds.low[d] < grid.high[axis]) continue;

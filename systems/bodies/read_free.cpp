@@ -27,12 +27,15 @@ void read_locked(Input& input, Free<Dim>& free) {
                        {"uniqueItems", true}};
   const Json locked = input.raw("locked", schema, Json::array());
   if (input.describing()) return;
-  for (std::size_t k = 0; k < locked.size(); ++k) {
-    const auto name =
-        locked.is_array() && locked[k].is_string() ? locked[k].template get<std::string>() : std::string();
+  if (!locked.is_array()) {
+    input.problem("locked", "wrong type", "a list of some of " + listed(names), shown(locked));
+    return;
+  }
+  for (const Json& element : locked) {
+    const auto name = element.is_string() ? element.template get<std::string>() : std::string();
     const auto known = std::find(names.begin(), names.end(), name);
     if (known == names.end()) {
-      input.problem("locked", "not a motion", one_of_text(names), locked.is_array() ? shown(locked[k]) : shown(locked),
+      input.problem("locked", "not a motion", "a list of some of " + listed(names), shown(element),
                     closest_name(name, names));
       return;
     }

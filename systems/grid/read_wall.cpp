@@ -58,6 +58,18 @@ std::vector<std::string> known_names(const WallWords& words, const std::vector<s
   return known;
 }
 
+namespace {
+
+/// What a wall may be.
+std::string expected_wall(const WallWords& words, const std::vector<std::string>& names) {
+  std::string expected = one_of_text(names);
+  if (!words.is_conforming) return expected;
+  for (const std::string& name : words.lengths) expected += fmt::format(R"(, or {{"{}": m}})", name);
+  return expected;
+}
+
+}  // namespace
+
 Json slip_length_schema(const WallWords& words) {
   auto description = Input::Document::describe();
   description.root().use_constants({});
@@ -78,7 +90,7 @@ WallOfScene read_wall(Input& input, const std::string& at, const Json& value, co
                   fmt::format(R"({}, or "discretization": {{"scheme": "conforming"}})", one_of_text(names)),
                   shown(value));
   } else {
-    input.problem(at, value.is_string() ? "unknown name" : "wrong type", one_of_text(names), shown(value),
+    input.problem(at, value.is_string() ? "unknown name" : "wrong type", expected_wall(words, names), shown(value),
                   closest_name(name, names));
   }
   return {names.front()};

@@ -57,14 +57,25 @@ bool is_length(const Json& value, const WallWords& words) {
                                           [&](const std::string& name) { return value.contains(name); });
 }
 
+/// "periodic" in the place of one side, or of all.
+bool is_misplaced(Input& input, const std::string& at, const Json& value) {
+  if (value != periodic) return false;
+  input.problem(at, "is of a whole axis", R"(per axis, {"x": "periodic"})", shown(value));
+  return true;
+}
+
+WallOfScene read_side(Input& input, const std::string& at, const Json& value, const WallWords& words) {
+  if (is_misplaced(input, at, value)) return {words.names.front()};
+  return read_wall(input, at, value, words, known_names(words));
+}
+
 std::array<WallOfScene, 2> read_axis(Input& input, const std::string& at, const Json& value, const WallWords& words) {
   if (!value.is_array()) {
     const WallOfScene both = read_wall(input, at, value, words, known_names(words, {std::string(periodic)}));
     return {both, both};
   }
   if (value.size() == 2) {
-    return {read_wall(input, at + "/0", value[0], words, known_names(words)),
-            read_wall(input, at + "/1", value[1], words, known_names(words))};
+    return {read_side(input, at + "/0", value[0], words), read_side(input, at + "/1", value[1], words)};
   }
   input.problem(at, "wrong length", "one wall, or a list of two: low side, high side", shown(value));
   return {WallOfScene{words.names.front()}, WallOfScene{words.names.front()}};
@@ -83,7 +94,7 @@ SidesOfScene read_sides(Input& input, std::span<const int> cells, const WallWord
   const Json walls = input.raw("walls", schema(words), usual.condition);
   SidesOfScene all(cells.size(), {usual, usual});
   if (walls.is_string() || is_length(walls, words)) {
-    const WallOfScene wall = read_wall(input, "walls", walls, words, known_names(words));
+    const WallOfScene wall = read_side(input, "walls", walls, words);
     std::fill(all.begin(), all.end(), std::array{wall, wall});
     return all;
   }

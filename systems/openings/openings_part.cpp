@@ -30,7 +30,6 @@ struct Flow {
 };
 
 ExpressionScope of_place_and_time(const std::map<std::string, double>& constants) { return scene_scope(constants); }
-ExpressionScope of_time(const std::map<std::string, double>& constants) { return {{"x", "y", "z", "t"}, constants}; }
 
 std::vector<std::string> side_names(int dimension) {
   std::vector<std::string> names;
@@ -43,13 +42,10 @@ std::vector<std::string> side_names(int dimension) {
 /// A number that depends on time alone.
 Expression read_of_time(Input& in, const std::string& key, const std::map<std::string, double>& constants,
                         const Number& rule) {
-  Expression value = in.expression(key, of_time(constants), rule);
-  for (const char* axis : {"x", "y", "z"}) {
-    if (!in.describing() && value.uses(axis)) {
-      in.problem(key, fmt::format("depends on {}", axis), "a number, or an expression in t and constants");
-    }
-  }
-  return value;
+  const Expression value = in.expression(key, {{"t"}, constants}, rule);
+  const auto text = in.text_at(key);
+  // Evaluated with the places of the others beside it.
+  return text && in.sound(key) ? Expression(*text, of_place_and_time(constants)) : value;
 }
 
 /// Levels are coordinates in the box.

@@ -123,10 +123,13 @@ std::vector<std::pair<std::string, std::string>> schemes_of(const SystemRegistry
   return schemes;
 }
 
-/// The scheme of a scene that names none; it may depend on what else stands in the scene.
-using DefaultScheme = std::function<std::string(const Input&, const Scene&)>;
+/// The scheme of a scene that names none.
+struct DefaultScheme {
+  std::function<std::string(const Input&, const Scene&)> of;  ///< may depend on what else stands in the scene
+  std::string other = {};  ///< which one it is when, if not always the same; a phrase
+};
 inline DefaultScheme always(const std::string& scheme) {
-  return [scheme](const Input&, const Scene&) { return scheme; };
+  return {[scheme](const Input&, const Scene&) { return scheme; }};
 }
 
 /// A part whose key holds `scheme`, the name of a registered scheme, and its options.
@@ -155,9 +158,10 @@ Part choice(const std::string& key, const std::string& doc, const DefaultScheme&
     for (const auto& [name, scheme] : registry_of(scene).template choices<SchemeType>()) {
       variants.emplace_back(name, [&, &scheme = scheme](Input& in) { contribution = read(scheme, in, scene); });
     }
-    const std::string unless_named = fallback(input, scene);
+    const std::string unless_named = fallback.of(input, scene);
+    const std::string meaning = fallback.other.empty() ? doc : doc + "; by default " + fallback.other;
     input.object(key, doc, Input::Presence::optional,
-                 [&](Input& in) { note_scheme(scene, key, in.variant("scheme", doc, unless_named, variants)); });
+                 [&](Input& in) { note_scheme(scene, key, in.variant("scheme", meaning, unless_named, variants)); });
     return contribution;
   };
   return {key, doc, read_part, schemes_of<SchemeType>};

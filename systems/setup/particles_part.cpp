@@ -52,7 +52,8 @@ std::size_t read_fluid_of(Input& input, const Scene& scene) {
   const auto* fluids = scene.facts.find<Fluids>();
   if (!input.describing() && fluids != nullptr && !fluids->names.empty()) {
     const auto& names = fluids->names;
-    const auto named = std::find(names.begin(), names.end(), input.choice("fluid", names, doc));
+    const auto only = names.size() == 1 ? std::optional(names.front()) : std::nullopt;
+    const auto named = std::find(names.begin(), names.end(), input.choice("fluid", names, doc, only));
     return static_cast<std::size_t>(named - names.begin());
   }
   const bool is_named = input.optional_text("fluid", doc).has_value();

@@ -106,7 +106,8 @@ void add_transfer(SystemRegistry& registry) {
   registry.add<G2PForceGradient>("g2p_force_gradient");
   registry.add<Advect>("advect");
   for (const TransferScheme& scheme : built_in_transfer_schemes()) registry.add(scheme);
-  registry.add(choice<TransferScheme>("transfer", "transfer between particles and grid", recommended, read_scheme));
+  const DefaultScheme fallback{recommended, "\"tpic2\" with the discretization \"equal_order\""};
+  registry.add(choice<TransferScheme>("transfer", "transfer between particles and grid", fallback, read_scheme));
 }
 
 }  // namespace minamo

@@ -64,6 +64,19 @@ std::vector<std::string> unknown_keys(const std::vector<Json>& schemas, const Js
   return unknown;
 }
 
+/// A small scene as it would run.
+Json as_run(const std::string& liquid) {
+  SystemRegistry registry;
+  register_parts(registry);
+  const Json json = Json::parse(R"({"dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [8, 8]},
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.5]}}}], "time": {"end": 1}, )" +
+                                liquid + "}");
+  Input::Document document(json, "a.json");
+  read_scene(document.root(), registry);
+  document.require_valid();
+  return document.echo();
+}
+
 std::vector<std::string> scene_files() {
   std::vector<std::string> files;
   for (const std::string folder : {"/scenes", "/scenes/paper"}) {
@@ -98,6 +111,19 @@ TEST_CASE("the schema holds in two and in three dimensions", "[unit]") {
   CHECK(lengths["minItems"] == 2);
   CHECK(lengths["maxItems"] == 3);
   CHECK_FALSE(lengths.contains("default"));
+}
+
+TEST_CASE("the defaults of the schema are those of a scene that names none", "[unit]") {
+  const std::string part = GENERATE("discretization", "transfer", "integrator", "quadrature", "solver", "volume");
+  CAPTURE(part);
+  const Json properties = described().schema()["properties"][part]["properties"];
+  const Json echo = as_run(R"("fluid": {"density": 1000, "viscosity": 0})")[part];
+  CHECK(properties["scheme"]["default"] == echo["scheme"]);
+}
+
+TEST_CASE("particles need not name the only liquid that has a name", "[unit]") {
+  const Json echo = as_run(R"("fluids": {"water": {"density": 1000, "viscosity": 0}})");
+  CHECK(echo["particles"][0]["fluid"] == "water");
 }
 
 TEST_CASE("describing a scene finds no problems", "[unit]") { CHECK(described().problems().empty()); }
