@@ -121,8 +121,8 @@ void Profiler::write_trace(const std::string& path) const {
   errno = 0;  // streams set it, but do not clear it
   std::ofstream file(path);
   if (!file) throw unwritable(path);
-  file << "{\"traceEvents\": [" << std::fixed << std::setprecision(3);  // the clock ticks in ns
-  std::map<std::uint32_t, std::size_t> threads;                         // in order of first appearance in this trace
+  file << trace_begin << std::fixed << std::setprecision(3);  // the clock ticks in ns
+  std::map<std::uint32_t, std::size_t> threads;               // in order of first appearance in this trace
   const char* separator = "\n";
   for (const auto& [begin, end, thread, line] : calls) {
     const std::size_t tid = threads.emplace(thread, threads.size()).first->second;

@@ -11,6 +11,9 @@
 
 namespace minamo {
 
+/// What traces begin with.
+inline constexpr std::string_view trace_begin = "{\"traceEvents\": [";
+
 class Profiler {
  public:
   using Time = std::chrono::steady_clock::time_point;

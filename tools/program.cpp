@@ -16,6 +16,8 @@
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <limits>
 #include <new>
@@ -23,6 +25,8 @@
 namespace minamo {
 
 namespace {
+
+constexpr std::string_view how_to_profile = "write --profile=FILE, or SCENE before --profile";
 
 /// The option's value is a whole number, at least `least`.
 CLI::Validator whole_number(std::int64_t least) {
@@ -35,6 +39,44 @@ CLI::Validator whole_number(std::int64_t least) {
     return fmt::format("expected a whole number >= {}, got \"{}\"", least, text);
   };
   return {check, {}};
+}
+
+/// The option's value names no file that has anything in it but a trace: the word after `--profile` may be meant to be
+/// the scene.
+CLI::Validator trace_file() {
+  const auto check = [](const std::string& text) -> std::string {
+    std::error_code no_file;
+    if (!std::filesystem::is_regular_file(text, no_file) || std::filesystem::is_empty(text, no_file)) return {};
+    std::ifstream file(text);
+    std::string begin(trace_begin.size(), ' ');
+    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (begin == trace_begin) return {};
+    return fmt::format("\"{}\" is there and is no trace; {}", text, how_to_profile);
+  };
+  return {check, {}};
+}
+
+/// The long names of the options of a command.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options({})) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// \throws InputError if a command was given an option that it does not have
+void require_known_options(const CLI::App& command) {
+  const std::vector<std::string> words = command.remaining();
+  const auto unknown = std::find_if(words.begin(), words.end(), [](const auto& word) { return word.starts_with("-"); });
+  if (unknown == words.end()) return;
+  const std::vector<std::string> names = option_names(command);
+  throw InputError({{"minamo " + command.get_name(),
+                     {},
+                     "unknown option",
+                     one_of_text(names),
+                     shown(Json(*unknown)),
+                     closest_name(unknown->substr(0, unknown->find('=')), names)}});
 }
 
 /// What is wrong with the command line, in the voice of all messages.
@@ -64,13 +106,28 @@ void add_run(CLI::App& app, RunOptions& options) {
   app.add_option("SCENE", options.scene, "scene file")->required();
   app.add_option("--out", options.out, "folder for the results; by default out/NAME");
   app.add_option("--threads", options.threads, "threads; by default one per processor")->check(whole_number(1));
-  app.add_option("--set", options.overrides, "/pointer=JSON, overrides a key of the scene")->allow_extra_args(false);
+  app.add_option("--set", options.overrides, "overrides a key of the scene; may be given again")
+      ->allow_extra_args(false)
+      ->option_text("/pointer=JSON");
   app.add_option("--steps", options.steps, "stop after so many steps of the whole run")->check(whole_number(0));
   app.add_flag("--resume", options.resume, "go on from the checkpoint in the folder for the results");
   app.add_option("--profile", options.trace,
                  "print time per system and write a Chrome trace; by default OUT/trace.json")
-      ->expected(0, 1);
+      ->expected(0, 1)
+      ->option_text("[FILE]")
+      ->check(trace_file());
   app.add_flag("--quiet", options.quiet, "print nothing but problems");
+}
+
+/// \throws InputError if `--profile` has taken what must be the scene
+void require_no_scene_taken(const RunOptions& options) {
+  if (options.trace.empty()) return;
+  throw InputError({{"minamo run",
+                     {},
+                     "SCENE is required: --profile has taken the word after it for its FILE",
+                     std::string(how_to_profile),
+                     shown(Json(options.trace)),
+                     {}}});
 }
 
 /// Adds the command line of `minamo study`.
@@ -126,6 +183,12 @@ int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) 
   require_command(app, argc, argv);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    for (const CLI::App* command : app.get_subcommands()) require_known_options(*command);
+    return app.exit(error) == 0 ? exit_done : exit_bad_input;
+  } catch (const CLI::RequiredError& error) {
+    require_no_scene_taken(run_options);
+    return app.exit(error) == 0 ? exit_done : exit_bad_input;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_bad_input;
   }

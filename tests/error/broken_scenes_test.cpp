@@ -98,6 +98,17 @@ TEST_CASE("a command line that cannot be is refused", "[error]") {
        "--steps: expected a whole number >= 0, got \"-1\"\n  options are shown by --help\n"},
       {{"run", "scene.json", "again.json"},
        "the following argument was not expected: again.json\n  options are shown by --help\n"},
+      {{"run", "scene.json", "--thread", "1"},
+       "minamo run: unknown option\n  expected  one of [\"--help\", \"--out\", \"--threads\", \"--set\", \"--steps\", "
+       "\"--resume\", \"--profile\", \"--quiet\"]\n  got       \"--thread\" (string)\n  closest   \"--threads\"\n"},
+      {{"run", "scene.json", "--set", "/time/end=1", "/time/step=1"},
+       "the following argument was not expected: /time/step=1\n  options are shown by --help\n"},
+      {{"run", "--profile", "scene.json", "other.json"},
+       "--profile: \"scene.json\" is there and is no trace; write --profile=FILE, or SCENE before --profile\n"},
+      {{"run", "scene.json", "--profile=scene.json"}, "--profile: \"scene.json\" is there and is no trace; "},
+      {{"run", "--profile", "trace.json", "--steps", "1"},
+       "minamo run: SCENE is required: --profile has taken the word after it for its FILE\n"
+       "  expected  write --profile=FILE, or SCENE before --profile\n  got       \"trace.json\" (string)\n"},
       {{"run", "scent.json"}, "scent.json: no such file\n  closest   \"scene.json\"\n"},
       {{"run", "unlike"}, "unlike: no such file\n"},
       {{"run", "."}, ".: is a folder\n  expected  a JSON file\n"},
