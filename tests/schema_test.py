@@ -50,10 +50,21 @@ def problems(path: Path) -> Iterator[str]:
             yield f"{path}: the schema takes \"{key}e\" for \"{key}\""
 
 
+def disagreements(scene: dict[str, Any], schema: dict[str, Any]) -> Iterator[str]:
+    """Where the schema takes the options of another scheme than the one that a scene without a scheme has."""
+    validator = Draft202012Validator(schema)
+    for transfer, valid in (({}, True), ({"spin": "gradient"}, True), ({"share": 0.5}, False),
+                            ({"scheme": "tpic2", "share": 0.5}, True), ({"scheme": "tpic2", "spin": "gradient"}, False)):
+        if validator.is_valid(scene | {"transfer": transfer}) != valid:
+            yield f"transfer {transfer}: the program {'takes' if valid else 'refuses'} it, the schema does not"
+
+
 def main() -> int:
     root = Path(sys.argv[1])
+    schema = json.loads((root / "scenes/schema/scene.schema.json").read_text())
     scenes = sorted([*root.glob("scenes/*.json"), *root.glob("tools/example_system/scene.json")])
     found = [problem for path in scenes for problem in problems(path)]
+    found += disagreements(json.loads((root / "scenes/dam_break.json").read_text()), schema)
     print("\n".join(found) or f"{len(scenes)} scenes are valid, and not one with a misspelt key")
     return 1 if found or not scenes else 0
 
