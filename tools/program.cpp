@@ -183,14 +183,14 @@ int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) 
   require_command(app, argc, argv);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
-    for (const CLI::App* command : app.get_subcommands()) require_known_options(*command);
-    return app.exit(error) == 0 ? exit_done : exit_bad_input;
-  } catch (const CLI::RequiredError& error) {
-    require_no_scene_taken(run_options);
-    return app.exit(error) == 0 ? exit_done : exit_bad_input;
+  } catch (const CLI::Success& request) {  // of help, or of the version
+    app.exit(request);
+    return exit_done;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_done : exit_bad_input;
+    for (const CLI::App* command : app.get_subcommands()) require_known_options(*command);
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) require_no_scene_taken(run_options);
+    app.exit(error);
+    return exit_bad_input;
   }
   if (*run) {
     run_options.profile = run->count("--profile") > 0;

@@ -101,6 +101,9 @@ TEST_CASE("a command line that cannot be is refused", "[error]") {
       {{"run", "scene.json", "--thread", "1"},
        "minamo run: unknown option\n  expected  one of [\"--help\", \"--out\", \"--threads\", \"--set\", \"--steps\", "
        "\"--resume\", \"--profile\", \"--quiet\"]\n  got       \"--thread\" (string)\n  closest   \"--threads\"\n"},
+      {{"study", "--qiet"},
+       "minamo study: unknown option\n  expected  one of [\"--help\", \"--out\", \"--threads\", \"--quiet\"]\n"
+       "  got       \"--qiet\" (string)\n  closest   \"--quiet\"\n"},
       {{"run", "scene.json", "--set", "/time/end=1", "/time/step=1"},
        "the following argument was not expected: /time/step=1\n  options are shown by --help\n"},
       {{"run", "--profile", "scene.json", "other.json"},
