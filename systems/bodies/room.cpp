@@ -41,7 +41,8 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
                                   Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
                                   Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
                                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Closed<Dim>> closed,
-                                  Read<face::Closer<Dim>> closer, Read<multiplier::Volume> v_l,
+                                  Read<face::Closer<Dim>> closer, Read<face::Open<Dim>> open,
+                                  Optional<Read<face::Prescribed<Dim>>> w_f, Read<multiplier::Volume> v_l,
                                   Read<multiplier::Capacity> capacity, Read<unknown::Staggered> of_unknown,
                                   Read<unknown::NullVector> n_l, Read<MultiplierSolver<Dim>> solver) const {
   const ClosedComponents& components = solver->closed();
@@ -50,6 +51,10 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
   const SitePlaces<Dim> places(*grid, *splines);
   const MovingWalls<Dim> walls{places,     site.span(), closed.span(), closer.span(),
                                c_b.span(), V_b.span(),  omega_b.span()};
+  const auto flux = [&](std::size_t f, std::size_t d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    return walls.flux(f, d) + (w_f ? open[f][axis] * w_f[f][axis] : 0);
+  };
   std::vector<Change> changes(components.count());
   // One after the other: the same sums on any number of threads.
   for (std::size_t l = 0; l < of_unknown.size() && !changes.empty(); ++l) {
@@ -58,7 +63,7 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
     change.room += n_l[l];
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::size_t i = of_unknown[l];
-      const double out = n_l[l] * incidence.per_width(i, d) * (walls.flux(incidence.above(i, d), d) - walls.flux(i, d));
+      const double out = n_l[l] * incidence.per_width(i, d) * (flux(incidence.above(i, d), d) - flux(i, d));
       change.sum += out;
       change.absolute += std::abs(out);
     }
@@ -67,9 +72,9 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
     const double rate = std::abs(change.sum) / std::max(change.room, 1.0);
     if (std::abs(change.sum) <= least_change_of_room * change.absolute || rate * clock->step <= least_squeeze) continue;
     throw StepRejected(fmt::format(
-        "bodies: at t = {:.6g} s they {} liquid that is enclosed all around by {:.3g} of its volume per second; it "
+        "bodies: at t = {:.6g} s they {}{} liquid that is enclosed all around by {:.3g} of its volume per second; it "
         "needs a free surface",
-        clock->time, change.sum < 0 ? "squeeze" : "stretch", rate));
+        clock->time, w_f ? "and what comes in " : "", change.sum < 0 ? "squeeze" : "stretch", rate));
   }
 }
 

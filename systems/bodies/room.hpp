@@ -1,9 +1,10 @@
 #pragma once
 /// \file
-/// (E88) Liquid that walls and bodies enclose all around, and that moving ones leave less room, or more.
+/// (E88) Liquid that walls and bodies enclose all around, and that moving ones, or inflow, leave less room, or more.
 
 #include "components/body.hpp"
 #include "components/grid.hpp"
+#include "components/openings.hpp"
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/conforming/solve.hpp"
@@ -24,10 +25,10 @@ inline constexpr double least_change_of_room = 1e-2;
 std::vector<bool> full_components(const ClosedComponents& closed, std::span<const std::uint32_t> of_unknown,
                                   std::span<const double> v_l, std::span<const double> capacity);
 
-/// (E88)  Rejects the step if walls squeeze or stretch a closed component that is full: its balance of mass has no
-/// solution, for sum_l n_l (B c w)_l is not zero, and what (E79) takes from the right-hand side would stay as
-/// divergence. Free bodies that have no way out have stopped by then, (E92).
-/// \throws StepRejected naming the rate
+/// (E88)  Rejects the step if walls and inflow together squeeze or stretch a closed component that is full: its balance
+/// of mass has no solution, for sum_l n_l (B (c w_b + a w_f))_l is not zero, and what (E79) takes from the right-hand
+/// side would stay as divergence. Free bodies that have no way out have stopped by then, (E92). \throws StepRejected
+/// naming the rate
 template <int Dim>
 struct RequireRoom {
   static constexpr std::string_view doc = "(E88) reject the step if bodies squeeze liquid that is enclosed";
@@ -35,7 +36,8 @@ struct RequireRoom {
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
                   Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Closed<Dim>> closed,
-                  Read<face::Closer<Dim>> closer, Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                  Read<face::Closer<Dim>> closer, Read<face::Open<Dim>> open, Optional<Read<face::Prescribed<Dim>>> w_f,
+                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Read<unknown::Staggered> of_unknown, Read<unknown::NullVector> n_l,
                   Read<MultiplierSolver<Dim>> solver) const;
 };

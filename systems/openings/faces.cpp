@@ -35,9 +35,9 @@ void hold_faces_at(const std::vector<opening::SideVelocity<Dim>>& velocities, co
   });
 }
 
-/// What faces with rows have on a side; zero elsewhere.
+/// What faces with rows have on a side, across it what passes them; zero elsewhere.
 template <int Dim>
-opening::SideVelocity<Dim> velocity_on(const Side<Dim>& side, const Splines<Dim>& splines,
+opening::SideVelocity<Dim> velocity_on(const Side<Dim>& side, const Splines<Dim>& splines, const Passage<Dim>& passage,
                                        std::span<const Index<Dim>> site, std::span<const Vec<Dim>> v_f) {
   opening::SideVelocity<Dim> velocity;
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -45,7 +45,8 @@ opening::SideVelocity<Dim> velocity_on(const Side<Dim>& side, const Splines<Dim>
     of.assign(side.count(d), 0);
     for_each_row(site.size(), [&](std::size_t i) {
       if (!side.holds(site[i], d) || !splines.has_face(site[i], d)) return;
-      of[side.index(site[i], d)] = v_f[i][static_cast<Eigen::Index>(d)];
+      const auto axis = static_cast<Eigen::Index>(d);
+      of[side.index(site[i], d)] = (d == side.axis() ? passage.share(i, axis) : 1) * v_f[i][axis];
     });
   }
   return velocity;
@@ -184,6 +185,18 @@ void PrescribeInflow<Dim>::operator()(Read<Clock> clock, Read<Rates> rates, Read
 }
 
 template <int Dim>
+void PassInflow<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
+                                 Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site,
+                                 Read<face::Closed<Dim>> closed, Update<face::Open<Dim>> open) const {
+  for_each_prescribed<Dim>(
+      *set, *grid, *splines, *walls, site.span(), [&](std::size_t i, std::size_t d, std::size_t o) {
+        if (d != set->openings[o].side / 2) return;
+        const auto [by_resting, by_moving] = closed[i][d];
+        open[i][static_cast<Eigen::Index>(d)] = by_moving == 0 ? 1 : 1 - by_moving / (1 - by_resting);
+      });
+}
+
+template <int Dim>
 void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                      Read<OpeningSet<Dim>> set, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                      Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
@@ -281,15 +294,17 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
                                             Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f,
                                             Read<face::Velocity<Dim>> v_old, Read<face::BalanceVelocity<Dim>> v_f,
                                             Read<face::NewVelocity<Dim>> v_new, Read<multiplier::Force> lambda,
+                                            Optional<Read<face::Open<Dim>>> open,
                                             Update<opening::Velocities<Dim>> velocities,
                                             Update<opening::EnergyIn> energy, Write<opening::StepWork> work) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Passage<Dim> passage{open.span()};
   const auto at = [&](std::size_t l) { return lambda[l]; };
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     if (set->openings[o].is_prescribed()) continue;
     const Side<Dim> side(*grid, *splines, set->openings[o].side);
-    velocities->in_balances[o] = velocity_on<Dim>(side, *splines, site.span(), v_f.span());
-    velocities->at_end[o] = velocity_on<Dim>(side, *splines, site.span(), v_new.span());
+    velocities->in_balances[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_f.span());
+    velocities->at_end[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_new.span());
   }
   work->value = 0;
   // One after the other: the same sums on any number of threads.
@@ -299,9 +314,10 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
       const FaceCondition condition = condition_at<Dim>(*set, *grid, *splines, *walls, site[i], d);
       if (condition.opening == no_opening) continue;
       const auto o = static_cast<std::size_t>(condition.opening);
-      double impulse = clock->step * F_f[i][axis];
+      const double share = passage.share(i, axis);
+      double impulse = clock->step * share * F_f[i][axis];
       if (condition.is_held) {
-        impulse = m_f[i][axis] * (v_new[i][axis] - v_old[i][axis]) - clock->step * incidence.gradient(i, d, at);
+        impulse = m_f[i][axis] * (v_new[i][axis] - v_old[i][axis]) - clock->step * share * incidence.gradient(i, d, at);
       }
       energy[o] += impulse * v_f[i][axis];
       work->value += impulse * v_f[i][axis];
@@ -340,6 +356,8 @@ template struct HoldInflow<2>;
 template struct HoldInflow<3>;
 template struct PrescribeInflow<2>;
 template struct PrescribeInflow<3>;
+template struct PassInflow<2>;
+template struct PassInflow<3>;
 template struct FillAtOpenings<2>;
 template struct FillAtOpenings<3>;
 template struct PushAtOpenings<2>;

@@ -3,6 +3,7 @@
 /// What openings do to the staggered grid: which faces they hold and at which velocity, which they leave open, how full
 /// the grid is beside them, and the pressure outside.
 
+#include "components/body.hpp"
 #include "components/cells.hpp"
 #include "components/particle.hpp"
 #include "engine/clock.hpp"
@@ -12,8 +13,9 @@
 
 namespace minamo {
 
-/// (E97)  Inflow holds the faces on its part of a side in every direction, outflow none: they are unknowns, and outside
-/// is the pressure zero.
+/// (E97)  Inflow holds the faces on its part of a side in every direction; the faces across free outflow are unknowns,
+/// and outside is the pressure zero. Where outflow has a pressure or a level, liquid leaves straight: faces along the
+/// side are held at rest.
 template <int Dim>
 struct OpenFaces {
   static constexpr std::string_view doc = "(E97) faces that openings hold, or leave open";
@@ -36,6 +38,15 @@ struct PrescribeInflow {
   void operator()(Read<Clock> clock, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                   Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site,
                   Write<opening::Velocities<Dim>> velocities, Write<face::Prescribed<Dim>> w_f) const;
+};
+
+/// (E97)  s_f already says what bodies at rest leave of a face that inflow holds: a_f is what moving ones leave of
+/// that.
+template <int Dim>
+struct PassInflow {
+  static constexpr std::string_view doc = "(E97) what bodies leave open of faces that inflow holds";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set,
+                  Read<staggered::Site<Dim>> site, Read<face::Closed<Dim>> closed, Update<face::Open<Dim>> open) const;
 };
 
 /// (E98)  Particles that lie nearer to an opening than their size a are where a lattice ends: what a sum over it misses
@@ -64,7 +75,8 @@ struct PushAtOpenings {
 };
 
 /// Velocities on the sides of openings whose faces are unknowns; (E100) the work done in all openings, dt sum_f F_f v_f
-/// of the pressure outside and, where faces are held, dt sum_f (m_f (v^{n+1} - v^n)/dt - (B^T lambda)_f) w_f.
+/// of the pressure outside and, where faces are held, dt sum_f (m_f (v^{n+1} - v^n)/dt - a_f (B^T lambda)_f) w_f;
+/// beside bodies a_f F_f is the force outside.
 template <int Dim>
 struct TakeOpeningVelocities {
   static constexpr std::string_view doc = "(E100) velocities in openings, and the work done there";
@@ -72,8 +84,9 @@ struct TakeOpeningVelocities {
                   Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f, Read<face::Velocity<Dim>> v_old,
                   Read<face::BalanceVelocity<Dim>> v_f, Read<face::NewVelocity<Dim>> v_new,
-                  Read<multiplier::Force> lambda, Update<opening::Velocities<Dim>> velocities,
-                  Update<opening::EnergyIn> energy, Write<opening::StepWork> work) const;
+                  Read<multiplier::Force> lambda, Optional<Read<face::Open<Dim>>> open,
+                  Update<opening::Velocities<Dim>> velocities, Update<opening::EnergyIn> energy,
+                  Write<opening::StepWork> work) const;
 };
 
 /// Rejects the step if inflow presses liquid into a full enclosure without a way out: its balance of mass has no

@@ -296,6 +296,7 @@ void add_systems_of_openings(const OpeningsOfScene& openings, const std::vector<
   recipe.add("configure", "let_in", When::step);
   if (scene.facts.get<TransferScheme>().carries_gradient) recipe.add("configure", "give_gradient", When::step);
   recipe.add("boundaries", "fill_at_openings");
+  if (scene.facts.find<BodiesOfScene>()) recipe.add("boundaries", "pass_inflow");
   recipe.add("forces", "prescribe_inflow");
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
@@ -341,7 +342,8 @@ Contribution read_nothing(Input&, Scene&) {
     if (!scene.facts.find<OpeningsOfScene>()) return;
     recipe.seed(number_on);
     recipe.add("assemble", "push_at_openings");
-    recipe.add("solve", "require_outlet", When::step);
+    // With bodies, require_room adds up what both do.
+    if (!scene.facts.find<BodiesOfScene>()) recipe.add("solve", "require_outlet", When::step);
     recipe.add("correct", "take_opening_velocities", When::step);
     recipe.add("accept", "move_columns", When::step);
     recipe.add("accept", "let_out", When::step);
@@ -363,6 +365,7 @@ void add_openings(SystemRegistry& registry) {
   registry.add<LetIn>("let_in");
   registry.add<GiveGradient>("give_gradient");
   registry.add<FillAtOpenings>("fill_at_openings");
+  registry.add<PassInflow>("pass_inflow");
   registry.add<PrescribeInflow>("prescribe_inflow");
   registry.add(Part{"openings", "where liquid comes in through sides of the box, or leaves", read_openings});
 }
