@@ -1,5 +1,7 @@
 #include "systems/bodies/attached.hpp"
 
+#include "systems/conforming/face_density.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +13,12 @@ void FindAttachedMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
                                        Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
                                        Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open,
                                        Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
-                                       Read<multiplier::FillFraction> phi, Write<face::AttachedMass<Dim>> mass,
-                                       Write<face::AttachedTo<Dim>> body) const {
+                                       Read<multiplier::FillFraction> phi, Optional<Read<face::Density<Dim>>> rho_f,
+                                       Write<face::AttachedMass<Dim>> mass, Write<face::AttachedTo<Dim>> body) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const SitePlaces<Dim> places(*grid, *splines);
-  const double full_cell = fluid->density * std::pow(grid->spacing, Dim);
+  const double cell_volume = std::pow(grid->spacing, Dim);
+  const FaceDensity<Dim> density{fluid->density, rho_f.span()};
   // Of the two multipliers of a face the one that bodies leave more of tells whether there is liquid.
   const auto fill = [&](std::size_t i, std::size_t d) {
     const std::int32_t below = neighbour[i][2 * d];
@@ -33,7 +36,8 @@ void FindAttachedMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
       const auto resting = bodies.nearest(x, false);
       const auto moving = bodies.nearest(x, true);
       body[i][d] = static_cast<std::int16_t>(moving.distance < resting.distance ? moving.body : resting.body);
-      mass[i][axis] = full_cell * splines->face_integral(site[i], d) * attached * fill(i, d);
+      const double volume = cell_volume * splines->face_integral(site[i], d) * attached;
+      mass[i][axis] = density.at(i, axis) * volume * fill(i, d);
     }
   });
 }

@@ -3,7 +3,7 @@
 /// (E94) Liquid that the faces of the grid do not see: between a wall and the nearest face in front of it.
 
 #include "components/body.hpp"
-#include "components/fluid.hpp"
+#include "components/fluids.hpp"
 #include "components/grid.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/cut.hpp"
@@ -20,7 +20,8 @@ struct FindAttachedMass {
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
                   Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
-                  Write<face::AttachedMass<Dim>> mass, Write<face::AttachedTo<Dim>> body) const;
+                  Optional<Read<face::Density<Dim>>> rho_f, Write<face::AttachedMass<Dim>> mass,
+                  Write<face::AttachedTo<Dim>> body) const;
 };
 
 }  // namespace minamo

@@ -3,7 +3,7 @@
 /// (E86) How full the grid is beside bodies.
 
 #include "components/body.hpp"
-#include "components/fluid.hpp"
+#include "components/fluids.hpp"
 #include "components/grid.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/cut.hpp"
@@ -35,7 +35,7 @@ struct FindUncutMass {
                   Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
                   Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
                   Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
-                  Write<face::UncutMass<Dim>> uncut) const;
+                  Optional<Read<face::Density<Dim>>> rho_f, Write<face::UncutMass<Dim>> uncut) const;
 };
 
 }  // namespace minamo

@@ -220,7 +220,8 @@ class UnknownFaces {
   Eigen::Index axis() const { return static_cast<Eigen::Index>(faces_.direction); }
   /// Mass of a face full of liquid. [kg]
   double full(std::size_t i) const {
-    return faces_.full_cell * faces_.splines.face_integral(faces_.site[i], faces_.direction);
+    return faces_.density.at(i, axis()) * faces_.cell_volume *
+           faces_.splines.face_integral(faces_.site[i], faces_.direction);
   }
   /// Finds what lies around unknown faces that were not looked around before.
   /// \return those faces that are new

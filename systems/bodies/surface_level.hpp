@@ -6,6 +6,7 @@
 
 #include "components/body.hpp"
 #include "components/staggered.hpp"
+#include "systems/conforming/face_density.hpp"
 #include "systems/conforming/splines.hpp"
 
 namespace minamo {
@@ -19,7 +20,8 @@ struct FacesOnLevels {
   std::span<const Vec<Dim>> open_volume;  ///< of faces [1]
   std::span<const double> open_share;     ///< of multipliers [1]
   std::size_t direction;
-  double full_cell;  ///< mass of a cell full of liquid [kg]
+  double cell_volume;  ///< [m^d]
+  FaceDensity<Dim> density;
 };
 
 /// (E123)

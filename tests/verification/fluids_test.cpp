@@ -97,6 +97,20 @@ TEST_CASE("a light liquid rests on a heavy one, under the weight of both", "[ver
   CHECK(measured(run.world(), "error_pressure") < 1e-3);  // 4e-4 to 6e-4 measured
 }
 
+TEST_CASE("a body in the light one of two liquids is lifted by the weight of that", "[verification]") {
+  // Across the grid; the heavy one lies two cells below.
+  Json scene = Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 1], "cells": [24, 24]}, "body_force": [0, -9.81],
+    "fluids": {"heavy": {"density": 1000, "viscosity": 0}, "light": {"density": 500, "viscosity": 0}},
+    "particles": [{"fluid": "heavy", "shape": {"box": {"low": [0, 0], "high": [1, "1/6"]}}},
+                  {"fluid": "light", "shape": {"box": {"low": [0, "1/6"], "high": [1, 0.9]}}}],
+    "bodies": [{"name": "box", "shape": {"box": {"low": [0.35, 0.38], "high": [0.64, 0.67]}}}],
+    "time": {"end": 1, "step": 2e-3}})json");
+  SceneRun run(scene);
+  run.step(5);
+  CHECK(measured(run.world(), "box_force_y") == Approx(500 * 9.81 * 0.29 * 0.29).epsilon(1e-3));
+}
+
 TEST_CASE("a heavy liquid sinks through a light one", "[verification]") {
   Json scene = layers(1000, 500);
   // On a flat boundary it would rest for ever.
