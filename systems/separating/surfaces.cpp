@@ -94,7 +94,8 @@ void ReleaseFromBodies<Dim>::operator()(Read<SeparatingRows<Dim>> separating, Wr
 }
 
 template <int Dim>
-void DetachFromBodies<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Row> row,
+void DetachFromBodies<Dim>::operator()(Read<BodySet<Dim>> set, Read<staggered::Neighbour<Dim>> neighbour,
+                                       Read<multiplier::Row> row, Read<face::AttachedTo<Dim>> attached_to,
                                        Update<SeparatingRows<Dim>> separating,
                                        Write<face::AttachedMass<Dim>> attached) const {
   constexpr std::uint8_t presses = 1;
@@ -110,6 +111,8 @@ void DetachFromBodies<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour
     attached[i] = separating->attached[i];
     for (std::size_t d = 0; d < Dim; ++d) {
       if (attached[i][static_cast<Eigen::Index>(d)] == 0) continue;
+      const auto& body = set->bodies[static_cast<std::size_t>(attached_to[i][d])];
+      if (body.wall.kind != BodyWall::Kind::separating) continue;
       // The two multipliers of the face, and one more to each side.
       unsigned around = state[i];
       const auto look = [&](std::int32_t from, std::size_t side) {

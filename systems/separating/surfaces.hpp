@@ -3,6 +3,7 @@
 /// (E108) Bodies that the liquid may leave. A multiplier beside such a body pushes, or there is none and the cell may
 /// take in air.
 
+#include "components/body.hpp"
 #include "components/contact.hpp"
 #include "components/grid.hpp"
 #include "components/step.hpp"
@@ -50,12 +51,13 @@ struct ReleaseFromBodies {
                   Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b, Write<body::Work> W_b) const;
 };
 
-/// (E109) Liquid moves with a separating body, (E94), only where it presses it.
+/// (E109) Liquid moves with a separating body, (E94), only where it presses it. It goes on with other bodies beside.
 template <int Dim>
 struct DetachFromBodies {
   static constexpr std::string_view doc = "(E109) no attached mass where liquid leaves a body";
-  void operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Row> row,
-                  Update<SeparatingRows<Dim>> separating, Write<face::AttachedMass<Dim>> attached) const;
+  void operator()(Read<BodySet<Dim>> set, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Row> row,
+                  Read<face::AttachedTo<Dim>> attached_to, Update<SeparatingRows<Dim>> separating,
+                  Write<face::AttachedMass<Dim>> attached) const;
 };
 
 /// (E108) Releases multipliers that pull, and takes back those around which the liquid would be squeezed. Enclosed

@@ -190,6 +190,29 @@ TEST_CASE("liquid under a separating body falls freely in space", "[verification
   CHECK(off_free_fall<3>(run, 20, 0.01) < 1e-10);
 }
 
+TEST_CASE("liquid that falls from a separating body goes on with the body beside", "[verification]") {
+  // Two lids side by side, across a cell; what is attached to the second.
+  const auto attached = [](const std::string& first) {
+    Json scene = under_lid(2, "slip");
+    scene["bodies"] = {
+        {{"name", "first"}, {"wall", first}, {"shape", {{"box", {{"low", {0.1, 0.87}}, {"high", {0.48, 2}}}}}}},
+        {{"name", "second"}, {"shape", {{"box", {{"low", {0.48, 0.87}}, {"high", {0.9, 2}}}}}}}};
+    scene["volume"]["scheme"] = "none";
+    SceneRun run(scene);
+    run.step();
+    double sum = 0;
+    const auto mass = run.world().column<face::AttachedMass<2>>();
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      for (std::size_t d = 0; d < 2; ++d) {
+        if (run.world().column<face::AttachedTo<2>>()[i][d] == 1) sum += std::abs(mass[i][static_cast<int>(d)]);
+      }
+    }
+    return sum;
+  };
+  CHECK(attached("slip") > 0);
+  CHECK(attached("separating") == Approx(attached("slip")).epsilon(1e-12));
+}
+
 TEST_CASE("a separating piston that goes away leaves the liquid where it is", "[verification]") {
   const auto largest_displacement = [](const std::string& wall) {
     SceneRun run(piston("-t", wall));
