@@ -64,7 +64,7 @@ class ContactSearch {
     const bool is_high = side % 2 == 1;
     const Vec<Dim> normal = (is_high ? -1.0 : 1.0) * Vec<Dim>::Unit(axis);
     std::vector<Touch<Dim>> touches;
-    add_points_of(b, reach_[b], touches, [&](const Vec<Dim>& x) {
+    add_points_of(b, reach_[b], touches, 1, [&](const Vec<Dim>& x) {
       return Touch<Dim>{x, normal, is_high ? grid_.high[axis] - x[axis] : x[axis] - grid_.low[axis]};
     });
     for (const auto& touch : far_apart<Dim>(touches)) add(b, {}, touch);
@@ -74,8 +74,8 @@ class ContactSearch {
     const double reach = reach_[b] + reach_[other];
     if (!may_touch(b, other, reach)) return;
     std::vector<Touch<Dim>> touches;
-    add_points_of(b, reach, touches, [&](const Vec<Dim>& x) { return touch_at(x, other, 1); });
-    add_points_of(other, reach, touches, [&](const Vec<Dim>& x) { return touch_at(x, b, -1); });
+    add_points_of(b, reach, touches, 1, [&](const Vec<Dim>& x) { return touch_at(x, other, 1); });
+    add_points_of(other, reach, touches, -1, [&](const Vec<Dim>& x) { return touch_at(x, b, -1); });
     for (const auto& touch : far_apart<Dim>(touches)) add(b, other, touch);
   }
 
@@ -97,8 +97,10 @@ class ContactSearch {
 
   /// The points of a body that something else is within reach of, the closest one slid along the surface to where the
   /// gap is least: round bodies touch between the points that stand for their surfaces.
+  /// \param sign  of the normal of a touch, to that along which its gap grows
   template <class TouchAt>
-  void add_points_of(std::size_t b, double reach, std::vector<Touch<Dim>>& touches, const TouchAt& touch_at) const {
+  void add_points_of(std::size_t b, double reach, std::vector<Touch<Dim>>& touches, double sign,
+                     const TouchAt& touch_at) const {
     const std::size_t before = touches.size();
     for (const Vec<Dim>& X : set_.bodies[b].surface) {
       const Touch<Dim> touch = touch_at(placed_.placement(b).to_world(X));
@@ -106,18 +108,19 @@ class ContactSearch {
     }
     const auto closest = std::min_element(touches.begin() + static_cast<std::ptrdiff_t>(before), touches.end(),
                                           [](const auto& a, const auto& c) { return a.gap < c.gap; });
-    if (closest != touches.end()) *closest = slid(b, *closest, touch_at);
+    if (closest != touches.end()) *closest = slid(b, *closest, sign, touch_at);
   }
 
   template <class TouchAt>
-  Touch<Dim> slid(std::size_t b, Touch<Dim> touch, const TouchAt& touch_at) const {
+  Touch<Dim> slid(std::size_t b, Touch<Dim> touch, double sign, const TouchAt& touch_at) const {
     constexpr int most_tries = 16;
     const auto& shape = *set_.bodies[b].shape;
     const auto& placement = placed_.placement(b);
     double way = point_spacing * grid_.spacing;
     for (int k = 0; k < most_tries; ++k) {
       const Vec<Dim> outwards = placement.gradient(shape, touch.x).normalized();
-      const Vec<Dim> closer = outwards.dot(touch.normal) * outwards - touch.normal;  // along the surface
+      const Vec<Dim> away = sign * touch.normal;
+      const Vec<Dim> closer = outwards.dot(away) * outwards - away;  // along the surface
       if (closer.norm() < 1e-9) break;
       Vec<Dim> x = touch.x + way * closer.normalized();
       x -= placement.distance(shape, x) * placement.gradient(shape, x).normalized();
