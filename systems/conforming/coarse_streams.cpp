@@ -40,32 +40,30 @@ std::optional<Ends> ends_of(const Splines<2>& splines, const Index<2>& site, std
 
 }  // namespace
 
-void CoarseStreams::prepare(double spacing, const FrictionOf<2>& friction, std::span<const Index<2>> site,
+bool CoarseStreams::prepare(double spacing, const FrictionOf<2>& friction, std::span<const Index<2>> site,
                             std::span<const double> mass) {
   const Splines<2>& splines = friction.splines;
   per_spacing_ = 1 / spacing;
-  is_there_ = false;
   for (std::size_t d = 0; d < 2; ++d) {
     periodic_[d] = splines.axis[d].periodic();
-    if (periodic_[d] && splines.axis[d].cells() % 2 != 0) return;
+    if (periodic_[d] && splines.axis[d].cells() % 2 != 0) return false;
     corners_[d] = splines.axis[d].sites();
     counts_[d] = periodic_[d] ? corners_[d] / 2 : corners_[d] / 2 + 2;
   }
   hold_corners(splines, site, mass);
   fill_faces(splines, site, mass);
-  if (functions_ == 0) return;
+  if (functions_ == 0) return false;
   start_matrix(friction);
   with_degree(splines.degree, [&](auto degree) { add_friction<degree()>(friction); });
   add_masses(mass);
   // At a surface more functions than corners may be left, one of them a sum of others; along bodies many are.
   const double apart = friction.cut == nullptr ? 1e-9 : 1e-5;
   for (std::size_t k = 0; k < functions_; ++k) factors_.at(k, k) *= 1 + apart;
-  is_there_ = factors_.factorize();
   x_.resize(factors_.padded_rows());
+  return factors_.factorize();
 }
 
 void CoarseStreams::correct(std::span<const double> r, std::span<double> z) {
-  if (!is_there_) return;
   for (auto& row : x_) row.lane = Four{};
   for (std::size_t f = 0; f < r.size(); ++f) {
     const FaceRow& face = faces_[f];

@@ -18,9 +18,10 @@ class CoarseStreams {
  public:
   /// Finds the functions Z that no wall holds, and the factors of Z^T (m + K) Z.
   /// \param mass  of faces, 0 at those that walls hold or bodies cut [kg/s]
-  void prepare(double spacing, const FrictionOf<2>& friction, std::span<const Index<2>> site,
+  /// \return whether there are any: none on a periodic axis with an odd number of cells
+  bool prepare(double spacing, const FrictionOf<2>& friction, std::span<const Index<2>> site,
                std::span<const double> mass);
-  /// z += Z (Z^T (m + K) Z)^-1 Z^T r; nothing where there are no functions.
+  /// z += Z (Z^T (m + K) Z)^-1 Z^T r. \pre there are functions
   void correct(std::span<const double> r, std::span<double> z);
 
  private:
@@ -56,7 +57,6 @@ class CoarseStreams {
   std::vector<std::uint32_t> first_;  ///< of the envelope
   EnvelopeCholesky factors_;
   std::vector<EnvelopeCholesky::Row> x_;
-  bool is_there_ = false;
 };
 
 }  // namespace minamo

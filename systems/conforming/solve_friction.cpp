@@ -287,11 +287,11 @@ void SolveFriction<Dim>::operator()(
       work->z[f] = system.passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) < 1 ? 0 : work->mass[f];
     });
     if constexpr (Dim == 2) {
-      work->coarse.prepare(grid->spacing, system.friction, site.span(), work->z);
+      system.has_coarse = work->coarse.prepare(grid->spacing, system.friction, site.span(), work->z);
     } else {
       work->coarse.prepare(grid->spacing, system.friction, site.span(), work->z, of_unknown.span());
+      system.has_coarse = true;
     }
-    system.has_coarse = true;
   }
   const double size = system.size_of(work->f);
   const double target = tolerance->relative * size;
