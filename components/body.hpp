@@ -88,8 +88,8 @@ struct EndSpin : Column<Bodies, Vec<rotations<Dim>>> {
   static constexpr ComponentInfo info{"body.end_spin", "omega_b^{n+1}", "1/s", Lifetime::scratch};
 };
 
-/// Force on the body of the pressure at the instant of the balances, and of the particles that it stops. [N; N/m in
-/// 2-D]
+/// Force on the body of the pressure at the instant of the balances, of the impulse of damping, and of the particles
+/// that it stops. [N; N/m in 2-D]
 template <int Dim>
 struct Force : Column<Bodies, Vec<Dim>> {
   static constexpr ComponentInfo info{"body.force", "F_b", "N", Lifetime::scratch};
@@ -106,6 +106,12 @@ struct Torque : Column<Bodies, Vec<rotations<Dim>>> {
 template <int Dim>
 struct StopImpulse : Column<Bodies, RigidVector<Dim>> {
   static constexpr ComponentInfo info{"body.stop_impulse", "J_b", "N s", Lifetime::state};
+};
+
+/// The same from particles that it stopped as a plate in the first half of a step. [N s, N m s]
+template <int Dim>
+struct PlateImpulse : Column<Bodies, RigidVector<Dim>> {
+  static constexpr ComponentInfo info{"body.plate_impulse", "J_b", "N s", Lifetime::state};
 };
 
 }  // namespace body

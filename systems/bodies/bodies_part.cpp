@@ -15,9 +15,11 @@
 #include "systems/bodies/outlines.hpp"
 #include "systems/bodies/read_body_wall.hpp"
 #include "systems/bodies/read_free.hpp"
+#include "systems/bodies/repeats.hpp"
 #include "systems/bodies/room.hpp"
 #include "systems/bodies/solid.hpp"
 #include "systems/bodies/solid_parts.hpp"
+#include "systems/bodies/wall_flux.hpp"
 #include "systems/conforming/friction_choice.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
@@ -182,6 +184,24 @@ void check_distances(const BodySet<Dim>& set, const Grid<Dim>& grid, SeedProblem
   }
 }
 
+/// Liquid flows over the ends of a periodic axis, a body does not.
+template <int Dim>
+void check_repeats(const BodySet<Dim>& set, World& world, SeedProblems& problems) {
+  const Grid<Dim>& grid = world.resource<Grid<Dim>>();
+  const double reach = reach_over_ends<Dim>(grid, world.resource<Splines<Dim>>());
+  const auto ends = first_that_ends<Dim>(set, PlacedBodies<Dim>::at_start(set), grid, reach);
+  if (!ends) return;
+  const Bounds<Dim> bounds = set.bodies[ends->body].shape->bounds();
+  const auto axis = static_cast<Eigen::Index>(ends->axis);
+  const char name = "xyz"[ends->axis];
+  problems.note(fmt::format("/bodies/{}/shape", ends->body),
+                fmt::format("not the same at both ends of periodic {}", name),
+                fmt::format("a body {0:.4g} m or more from both ends, or one that reaches as far over one as over the "
+                            "other, {0:.4g} m or more",
+                            reach),
+                fmt::format("{} = {:.4g} ... {:.4g} m", name, bounds.low[axis], bounds.high[axis]));
+}
+
 template <int Dim>
 void seed_bodies(BodySet<Dim> set, World& world) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
@@ -204,12 +224,16 @@ void seed_bodies(BodySet<Dim> set, World& world) {
     world.column<body::Angle<Dim>>()[b].setZero();
     world.column<body::Work>()[b] = 0;
     world.column<body::StopImpulse<Dim>>()[b].setZero();
+    world.column<body::PlateImpulse<Dim>>()[b].setZero();
   }
 }
 
 void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
   const bool rubs = finds_friction(bodies, scene);
   recipe.add("configure", "place_bodies", When::step);
+  const auto& periodic = scene.grid.periodic;
+  if (std::find(periodic.begin(), periodic.end(), true) != periodic.end())
+    recipe.add("configure", "require_repeats", When::step);
   recipe.add("sort", "place_bodies", When::standing);
   recipe.add("sort", "cut_faces");
   recipe.add("sort", "find_face_extension");
@@ -234,6 +258,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
     recipe.seed([set](const Scene& of, World& world, SeedProblems& problems) {
       check_solver(set.any_is_free(), set.any_moves(), of, problems);
       check_distances<Dim>(set, world.resource<Grid<Dim>>(), problems);
+      check_repeats<Dim>(set, world, problems);
       seed_bodies<Dim>(set, world);
     });
   });
@@ -280,9 +305,13 @@ Contribution read_bodies(Input& input, Scene& scene) {
 /// take a force gradient from them.
 Contribution read_nothing(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
-    if (!scene.facts.find<BodiesOfScene>()) return;
+    const auto* bodies = scene.facts.find<BodiesOfScene>();
+    if (!bodies) return;
     recipe.add("configure", "stop_at_plates", When::step);
     recipe.add("solve", "require_room", When::step);
+    if (bodies->in_plane.any_is_free() || bodies->in_space.any_is_free())
+      recipe.add("solve", "renew_wall_flux", When::step);
+    recipe.add("solve", "measure_face_divergence");
     recipe.add("solve", "extend_balance_velocity");
     recipe.add("measure", "measure_energy_balance");
   };
@@ -298,6 +327,7 @@ bool finds_friction(const BodiesOfScene& bodies, const Scene& scene) {
 
 void add_bodies(SystemRegistry& registry) {
   registry.add<PlaceBodies>("place_bodies");
+  registry.add<RequireRepeats>("require_repeats");
   registry.add<CutFaces>("cut_faces");
   registry.add<FindFaceExtension>("find_face_extension");
   registry.add<FindCutFriction>("find_cut_friction");
@@ -320,6 +350,7 @@ void add_bodies(SystemRegistry& registry) {
 void add_behind_bodies(SystemRegistry& registry) {
   registry.add<StopAtPlates>("stop_at_plates");
   registry.add<RequireRoom>("require_room");
+  registry.add<RenewWallFlux>("renew_wall_flux");
   registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
   registry.add<MeasureEnergyBalance>("measure_energy_balance");
   registry.add(Part{"behind_bodies", "velocities of faces that bodies close, balance of energy; no key", read_nothing});

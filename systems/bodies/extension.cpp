@@ -14,7 +14,7 @@ namespace minamo {
 namespace {
 
 constexpr int rings = 2;
-constexpr int across = 2 * rings + 1;
+constexpr int rows_across = 2 * rings + 1;
 
 /// Faces nearer than this to a wall that liquid sticks to have velocities between the wall's and those farther away, or
 /// what lies between a wall and the first free face would slip wherever a cell has both: flow in a channel of 11 cells
@@ -27,9 +27,9 @@ constexpr double some = 1e-6;
 /// Open faces around a closed one.
 template <int Dim>
 struct Around {
-  std::array<std::uint32_t, power(across, Dim)> row;
-  std::array<Vec<Dim>, power(across, Dim)> offset;  ///< in units of h
-  std::array<double, power(across, Dim)> filled;    ///< what of the cells around is liquid [1]
+  std::array<std::uint32_t, power(rows_across, Dim)> row;
+  std::array<Vec<Dim>, power(rows_across, Dim)> offset;  ///< in units of h
+  std::array<double, power(rows_across, Dim)> filled;    ///< what of the cells around is liquid [1]
   std::size_t count = 0;
 };
 
@@ -170,7 +170,7 @@ void FindFaceExtension<Dim>::operator()(
     Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
     Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site, Read<face::Held> held,
     Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume, Write<FaceExtension<Dim>> extension) const {
-  constexpr std::size_t most = power(across, Dim);
+  constexpr std::size_t most = power(rows_across, Dim);
   const SitePlaces<Dim> places(*grid, *splines);
   const Sticks<Dim> sticks{*set, {*set, c_b.span(), R_b.span()}};
   const bool any_sticks = set->any_sticks();

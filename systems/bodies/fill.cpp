@@ -29,7 +29,11 @@ class EmptySites {
   EmptySites(const SitePlaces<Dim>& places, const StaticCut<Dim>& at_rest, const PlacedBodies<Dim>& bodies)
       : places_(places), at_rest_(at_rest), bodies_(bodies) {}
 
-  /// Of the neighbour of a site towards a side. \pre there is one
+  /// Open volume of the neighbour of a site towards a side, over that of a cell. \pre there is one
+  double room(const Index<Dim>& of, std::size_t side) const {
+    return share(of, side) * places_.splines().widths(*site_beside(places_.splines(), of, side));
+  }
+  /// Open share of that neighbour.
   double share(const Index<Dim>& of, std::size_t side) const {
     const Index<Dim> site = *site_beside(places_.splines(), of, side);
     const double by_resting = at_rest_.of.empty() ? 1 : at_rest_.at(site).share;
@@ -73,7 +77,7 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
       if (splines->ends_at(site[i], side)) continue;
       const std::int32_t j = neighbour[i][side];
       if (j == staggered::none) {
-        open += cell_volume * empty.share(site[i], side);
+        open += cell_volume * empty.room(site[i], side);
       } else {
         filled += v_l[static_cast<std::size_t>(j)];
         open += capacity[static_cast<std::size_t>(j)];
@@ -101,7 +105,8 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
                                     Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open_face,
                                     Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
                                     Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least,
-                                    Read<face::Mass<Dim>> m_f, Write<face::UncutMass<Dim>> uncut) const {
+                                    Read<face::Mass<Dim>> m_f, Optional<Read<face::Density<Dim>>> rho_f,
+                                    Write<face::UncutMass<Dim>> uncut) const {
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {
     constexpr double of_empty = 1e-3;
@@ -132,7 +137,7 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
                                 m_f[i][axis] / std::max(open_volume[i][axis], least_open_liquid));
     }
   });
-  const double full_cell = fluid->density * std::pow(grid->spacing, Dim);
+  const FaceDensity<Dim> density{fluid->density, rho_f.span()};
   for (std::size_t d = 0; d < Dim; ++d) {
     const auto axis = static_cast<Eigen::Index>(d);
     std::vector<std::uint32_t> cut;
@@ -142,8 +147,9 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
       if (filled_indicator(least_fill_of_face<Dim>(*splines, site[i], neighbour[i], least.span(), i, d)) < 1)
         cut.push_back(static_cast<std::uint32_t>(i));
     }
-    level_with_surface<Dim>({*splines, *rows, site.span(), open_volume.span(), share.span(), d, full_cell},
-                            std::move(cut), uncut.span());
+    level_with_surface<Dim>(
+        {*splines, *rows, site.span(), open_volume.span(), share.span(), d, std::pow(grid->spacing, Dim), density},
+        std::move(cut), uncut.span());
   }
 }
 

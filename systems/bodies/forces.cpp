@@ -50,16 +50,18 @@ void set_columns(measure::Columns& columns, const std::string& name, const BodyR
 }  // namespace
 
 template <int Dim>
-void PushBodies<Dim>::operator()(
-    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
-    Read<Rates> rates, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
-    Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
-    Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
-    Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-    Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
-    Optional<Read<surface::ForceOnBodies<Dim>>> lines, Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
-    Update<body::Work> W_b) const {
+void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                 Read<BodySet<Dim>> set, Read<staggered::Site<Dim>> site,
+                                 Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
+                                 Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
+                                 Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
+                                 Read<multiplier::Row> row, Read<unknown::Solution> solution,
+                                 Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
+                                 Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old,
+                                 Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
+                                 Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
+                                 Optional<Read<surface::ForceOnBodies<Dim>>> lines, Write<body::Force<Dim>> F_b,
+                                 Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
@@ -67,7 +69,8 @@ void PushBodies<Dim>::operator()(
     T_b[b].setZero();
   }
   const auto at = [&](std::size_t l) { return lambda[l]; };
-  // The impulse that takes divergence at the start of the step acts on bodies, too.
+  // The impulse that takes divergence at the start of the step acts on bodies, too. Its work is that of the velocity
+  // then.
   const auto damping = [&](std::size_t l) {
     return row[l] == staggered::none ? 0 : -solution[static_cast<std::size_t>(row[l])][unknown::damping];
   };
@@ -76,6 +79,7 @@ void PushBodies<Dim>::operator()(
     F_b[b] += force;
     T_b[b] += moment_of(r, force);
   };
+  std::vector<RigidVector<Dim>> impulse(set->bodies.size(), RigidVector<Dim>::Zero());
   // One after the other: the same sums on any number of threads.
   for (std::size_t i = 0; i < site.size(); ++i) {
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -86,7 +90,7 @@ void PushBodies<Dim>::operator()(
         const Vec<Dim> change = rigid_velocity(V_b[b], omega_b[b], r) - rigid_velocity(V_old[b], omega_old[b], r);
         push(b, r, attached[i][axis] * (b_f[i][axis] - per_tau * change[axis]) * Vec<Dim>::Unit(axis));
       }
-      if (open[i][axis] == 1) continue;
+      if (closer[i][d][0] < 0 && closer[i][d][1] < 0) continue;
       const double drop = incidence.gradient(i, d, at);
       const double damped = incidence.gradient(i, d, damping);
       if (drop == 0 && damped == 0) continue;
@@ -96,7 +100,8 @@ void PushBodies<Dim>::operator()(
         const auto b = static_cast<std::size_t>(closer[i][d][moving]);
         const Vec<Dim> r = x - c_b[b];
         push(b, r, closed[i][d][moving] * drop * Vec<Dim>::Unit(axis));
-        W_b[b] += closed[i][d][moving] * damped * rigid_velocity(V_old[b], omega_old[b], r)[axis];
+        const Vec<Dim> of_damping = closed[i][d][moving] * damped * Vec<Dim>::Unit(axis);
+        impulse[b] += rigid_vector<Dim>(of_damping, moment_of(r, of_damping));
       }
     }
   }
@@ -107,16 +112,21 @@ void PushBodies<Dim>::operator()(
     }
     W_b[b] += clock->step * (F_b[b].dot(V_b[b]) + T_b[b].dot(omega_b[b]));
     if (set->rubs) W_b[b] += clock->step * friction->of[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
+    W_b[b] += impulse[b].dot(rigid_vector<Dim>(V_old[b], omega_old[b]));
+    F_b[b] += impulse[b].template head<Dim>() / clock->step;
+    T_b[b] += impulse[b].template tail<rotations<Dim>>() / clock->step;
   }
 }
 
 template <int Dim>
-void CountStops<Dim>::operator()(Read<Clock> clock, Read<body::StopImpulse<Dim>> J_b, Read<body::Velocity<Dim>> V_b,
+void CountStops<Dim>::operator()(Read<Clock> clock, Read<body::StopImpulse<Dim>> J_b,
+                                 Read<body::PlateImpulse<Dim>> J_plates, Read<body::Velocity<Dim>> V_b,
                                  Read<body::Spin<Dim>> omega_b, Update<body::Force<Dim>> F_b,
                                  Update<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
   for (std::size_t b = 0; b < J_b.size(); ++b) {
-    F_b[b] += J_b[b].template head<Dim>() / clock->step;
-    T_b[b] += J_b[b].template tail<rotations<Dim>>() / clock->step;
+    const RigidVector<Dim> force = (J_b[b] + J_plates[b]) / clock->step;
+    F_b[b] += force.template head<Dim>();
+    T_b[b] += force.template tail<rotations<Dim>>();
     W_b[b] += J_b[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
   }
 }

@@ -16,7 +16,8 @@
 namespace minamo {
 
 /// (E90)  F_b = sum_f c_fb (B^T lambda)_f e_f and its moment: the force that does the work of the wall velocities in
-/// the balance of mass. Friction (E110) and contact lines (E121) do work, too.
+/// the balance of mass; and the impulse of damping (E63) over the step. Friction (E110) and contact lines (E121) do
+/// work, too.
 template <int Dim>
 struct PushBodies {
   static constexpr std::string_view doc = "(E90) force, torque and work of the pressure on bodies";
@@ -24,22 +25,22 @@ struct PushBodies {
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<multiplier::Force> lambda, Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
                   Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
-                  Read<multiplier::Row> row, Read<unknown::Solution> solution, Read<face::Open<Dim>> open,
-                  Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
-                  Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
-                  Optional<Read<surface::ForceOnBodies<Dim>>> lines, Write<body::Force<Dim>> F_b,
-                  Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
+                  Read<multiplier::Row> row, Read<unknown::Solution> solution, Read<face::Closed<Dim>> closed,
+                  Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old,
+                  Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
+                  Optional<Read<FrictionOnWalls<Dim>>> friction, Optional<Read<surface::ForceOnBodies<Dim>>> lines,
+                  Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
 };
 
 /// (E90)  What particles that a body stops, (E89), give it: force, torque and work of their impulse. A free body takes
-/// it up in the next step, with the liquid around it.
+/// up that of the end of the step in the next one, with the liquid around it. Of plates in the first half of the step
+/// the work is known.
 template <int Dim>
 struct CountStops {
   static constexpr std::string_view doc = "(E90) force, torque and work of particles that bodies stop";
-  void operator()(Read<Clock> clock, Read<body::StopImpulse<Dim>> J_b, Read<body::Velocity<Dim>> V_b,
-                  Read<body::Spin<Dim>> omega_b, Update<body::Force<Dim>> F_b, Update<body::Torque<Dim>> T_b,
-                  Update<body::Work> W_b) const;
+  void operator()(Read<Clock> clock, Read<body::StopImpulse<Dim>> J_b, Read<body::PlateImpulse<Dim>> J_plates,
+                  Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Update<body::Force<Dim>> F_b,
+                  Update<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
 };
 
 /// Columns of the history: NAME_force_x, ..., NAME_torque, NAME_position_x, ..., NAME_velocity_x, ..., NAME_angle,

@@ -18,6 +18,9 @@ namespace {
 
 /// Distance that particles keep from bodies, in units of h.
 constexpr double gap = 1e-3;
+/// From this depth in a body on, in units of h, faces around a particle are closed, and what it takes of them no
+/// pressure has done. Less deep ones are found out at the end of the step.
+constexpr double deep = 0.1;
 /// Of those that a particle in a corner takes, two are enough between two plane walls.
 constexpr int most_tries = 16;
 
@@ -113,6 +116,16 @@ std::optional<Vec<Dim>> end_before_plate(const Shape<Dim>& shape, const Vec<Dim>
   return {};
 }
 
+/// The nearest point of the surface, of a point at least so deep inside. None of others.
+template <int Dim>
+std::optional<Vec<Dim>> surface_above(const Shape<Dim>& shape, const Vec<Dim>& x, double depth) {
+  const double distance = shape.distance(x);
+  if (distance > -depth) return {};
+  const Vec<Dim> gradient = shape.gradient(x);
+  if (gradient.isZero(0)) return {};
+  return x - distance / gradient.squaredNorm() * gradient;
+}
+
 /// The body nearest to a point, if one may be within `reach` of it.
 template <int Dim>
 typename PlacedBodies<Dim>::Nearest nearest_within(const Grid<Dim>& grid, const StaticCut<Dim>& at_rest,
@@ -153,23 +166,49 @@ double yielding(const BodyScene<Dim>& body, const Mat<Dim>& R, const Vec<Dim>& r
   return along.squaredNorm() / free->mass + around.dot(turned_inertia<Dim>(*free, R).inverse() * around);
 }
 
-/// (E89)  Impulses of bodies. A free one that particles push away itself takes a share of what they lose, the rest they
-/// keep: with it they and the body go on together. In the order of particles: the same on any number of threads.
+/// (E89)  Particles that bodies stop, and the impulses that bodies get of them.
 template <int Dim>
-void share_stops(std::vector<Stop<Dim>>& stops, const BodySet<Dim>& set, std::span<const Mat<Dim>> R_b,
-                 std::span<const double> m_p, std::span<Vec<Dim>> v_p, std::span<RigidVector<Dim>> J_b) {
-  std::stable_sort(stops.begin(), stops.end(), [](const auto& a, const auto& b) { return a.particle < b.particle; });
-  std::vector<double> yields(set.bodies.size(), 0);
-  for (const auto& [p, b, r, lost] : stops)
-    yields[b] += m_p[p] * yielding<Dim>(set.bodies[b], R_b[b], r, lost.stableNormalized());
-  for (RigidVector<Dim>& J : J_b) J.setZero();
-  for (const auto& [p, b, r, lost] : stops) {
-    const Vec<Dim> taken = lost / (1 + yields[b]);
-    v_p[p] += lost - taken;
-    const Vec<Dim> impulse = m_p[p] * taken;
-    J_b[b] += rigid_vector<Dim>(impulse, moment_of(r, impulse));
+class Stops {
+ public:
+  Stops(const BodySet<Dim>& set, std::span<const Mat<Dim>> R_b, std::span<const Vec<Dim>> c_b,
+        std::span<const Vec<Dim>> V_b, std::span<const Vec<rotations<Dim>>> omega_b)
+      : set_(set), R_b_(R_b), c_b_(c_b), V_b_(V_b), omega_b_(omega_b) {}
+
+  /// Takes from v what approaches a body with normal n at x. From any thread, once a particle at a time.
+  void stop(std::size_t p, std::size_t b, const Vec<Dim>& x, const Vec<Dim>& n, Vec<Dim>& v) {
+    const Vec<Dim> r = x - c_b_[b];
+    const Vec<Dim> lost = approach<Dim>(rigid_velocity(V_b_[b], omega_b_[b], r), n, v);
+    if (lost.isZero(0)) return;
+    v -= lost;
+    const std::lock_guard lock(mutex_);
+    stops_.push_back({p, b, r, lost});
   }
-}
+  /// Impulses of bodies. A free one that particles push away itself takes a share of what they lose, the rest they
+  /// keep: with it they and the body go on together. In the order of particles: the same on any number of threads.
+  void share(std::span<const double> m_p, std::span<Vec<Dim>> v_p, std::span<RigidVector<Dim>> J_b) {
+    std::stable_sort(stops_.begin(), stops_.end(),
+                     [](const auto& a, const auto& b) { return a.particle < b.particle; });
+    std::vector<double> yields(set_.bodies.size(), 0);
+    for (const auto& [p, b, r, lost] : stops_)
+      yields[b] += m_p[p] * yielding<Dim>(set_.bodies[b], R_b_[b], r, lost.stableNormalized());
+    for (RigidVector<Dim>& J : J_b) J.setZero();
+    for (const auto& [p, b, r, lost] : stops_) {
+      const Vec<Dim> taken = lost / (1 + yields[b]);
+      v_p[p] += lost - taken;
+      const Vec<Dim> impulse = m_p[p] * taken;
+      J_b[b] += rigid_vector<Dim>(impulse, moment_of(r, impulse));
+    }
+  }
+
+ private:
+  const BodySet<Dim>& set_;
+  std::span<const Mat<Dim>> R_b_;
+  std::span<const Vec<Dim>> c_b_;
+  std::span<const Vec<Dim>> V_b_;
+  std::span<const Vec<rotations<Dim>>> omega_b_;
+  std::vector<Stop<Dim>> stops_;
+  std::mutex mutex_;
+};
 
 }  // namespace
 
@@ -178,11 +217,13 @@ void StopAtPlates<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
                                    Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b,
                                    Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,
                                    Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle,
-                                   Read<particle::Position<Dim>> x_p, Update<particle::QuadraturePosition<Dim>> y_p,
-                                   Update<particle::Velocity<Dim>> v_p) const {
+                                   Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                                   Update<particle::QuadraturePosition<Dim>> y_p, Update<particle::Velocity<Dim>> v_p,
+                                   Write<body::PlateImpulse<Dim>> J_b, Update<body::Work> W_b) const {
   const PlacedBodies<Dim> at_start(*set, c_b.span(), R_b.span());
   const PlacedBodies<Dim> in_middle(*set, c_middle.span(), R_middle.span());
   const double move = farthest_move<Dim>(*grid, set->bodies.size(), at_start, in_middle);
+  Stops<Dim> stops(*set, R_b.span(), c_b.span(), V_b.span(), omega_b.span());
   for_each_row(x_p.size(), [&](std::size_t p) {
     const Vec<Dim> way = way_between<Dim>(*grid, x_p[p], y_p[p]);
     const auto nearest = nearest_within<Dim>(*grid, *at_rest, at_start, x_p[p], way.norm() + move);
@@ -191,12 +232,16 @@ void StopAtPlates<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
     const Shape<Dim>& shape = *set->bodies[b].shape;
     const Placement<Dim>& middle = in_middle.placement(b);
     const Vec<Dim> from = at_start.placement(b).to_body(x_p[p]);
-    const auto end = end_before_plate<Dim>(shape, from, middle.to_body(x_p[p] + way));
+    const Vec<Dim> to = middle.to_body(x_p[p] + way);
+    auto end = end_before_plate<Dim>(shape, from, to);
+    if (!end) end = surface_above<Dim>(shape, to, deep * grid->spacing);
     if (!end) return;
     const Vec<Dim> n = middle.direction_to_world(shape.gradient(*end)).stableNormalized();
     y_p[p] = fold<Dim>(*grid, back_along_wall<Dim>(*grid, n, middle.to_world(*end)).x);
-    v_p[p] -= approach<Dim>(rigid_velocity(V_b[b], omega_b[b], Vec<Dim>(x_p[p] - c_b[b])), n, v_p[p]);
+    stops.stop(p, b, x_p[p], n, v_p[p]);
   });
+  stops.share(m_p.span(), v_p.span(), J_b.span());
+  for (std::size_t b = 0; b < J_b.size(); ++b) W_b[b] += J_b[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
 }
 
 template <int Dim>
@@ -212,16 +257,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
   const PlacedBodies<Dim> in_middle(*set, c_middle.span(), R_middle.span());
   const double move = farthest_move<Dim>(*grid, set->bodies.size(), in_middle, bodies);
   const double least = gap * grid->spacing;
-  std::vector<Stop<Dim>> stops;
-  std::mutex of_stops;
-  const auto stop_at_body = [&](std::size_t p, std::size_t b, const Vec<Dim>& n) {
-    const Vec<Dim> r = x_p[p] - c_b[b];
-    const Vec<Dim> lost = approach<Dim>(rigid_velocity(V_b[b], omega_b[b], r), n, v_p[p]);
-    if (lost.isZero(0)) return;
-    v_p[p] -= lost;
-    const std::lock_guard lock(of_stops);
-    stops.push_back({p, b, r, lost});
-  };
+  Stops<Dim> stops(*set, R_b.span(), c_b.span(), V_b.span(), omega_b.span());
   const auto stop_before_plate = [&](std::size_t p) {
     const Vec<Dim> way = way_between<Dim>(*grid, y_p[p], x_p[p]);
     const auto nearest = nearest_within<Dim>(*grid, *at_rest, in_middle, y_p[p], way.norm() + move);
@@ -233,7 +269,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
     if (!end) return false;
     const Vec<Dim> n = bodies.placement(b).direction_to_world(shape.gradient(*end)).stableNormalized();
     x_p[p] = back_along_wall<Dim>(*grid, n, bodies.placement(b).to_world(*end)).x;
-    stop_at_body(p, b, n);
+    stops.stop(p, b, x_p[p], n, v_p[p]);
     return true;
   };
   std::atomic<std::int64_t> count = 0;
@@ -255,7 +291,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
       held_by = placed.clamped ? Vec<Dim>((placed.x - away).normalized()) : n;
       if (nearest.distance >= 0) continue;
       was_inside = true;
-      stop_at_body(p, b, n);
+      stops.stop(p, b, x_p[p], n, v_p[p]);
     }
     if (was_inside) ++count;
   };
@@ -276,7 +312,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
     }
   });
   clamped->count += count;
-  share_stops<Dim>(stops, *set, R_b.span(), m_p.span(), v_p.span(), J_b.span());
+  stops.share(m_p.span(), v_p.span(), J_b.span());
 }
 
 template struct StopAtPlates<2>;

@@ -13,15 +13,18 @@
 namespace minamo {
 
 /// (E89)  A particle whose way to the middle of the step leads through a plate, or beyond the middle of one, stays on
-/// its side and loses the part of its velocity that approaches the plate. The grid does not see that way.
+/// its side and loses the part of its velocity that approaches the plate. The grid does not see that way. One that is
+/// deep in another body by then goes to its surface likewise. What particles lose the body gets, with the work of that.
 template <int Dim>
 struct StopAtPlates {
-  static constexpr std::string_view doc = "(E89) no particle takes the first half of a step through a plate";
+  static constexpr std::string_view doc =
+      "(E89) no particle takes the first half of a step through a plate, or deep into a body";
   void operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
                   Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
                   Read<body::Spin<Dim>> omega_b, Read<body::MiddlePosition<Dim>> c_middle,
-                  Read<body::MiddleRotation<Dim>> R_middle, Read<particle::Position<Dim>> x_p,
-                  Update<particle::QuadraturePosition<Dim>> y_p, Update<particle::Velocity<Dim>> v_p) const;
+                  Read<body::MiddleRotation<Dim>> R_middle, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                  Update<particle::QuadraturePosition<Dim>> y_p, Update<particle::Velocity<Dim>> v_p,
+                  Write<body::PlateImpulse<Dim>> J_b, Update<body::Work> W_b) const;
 };
 
 /// (E89)  A particle less than 1e-3 h from a body goes to that distance, along the normal; one that was inside loses

@@ -76,7 +76,7 @@ class Surroundings {
     constexpr double facing = -0.9;  // cosine: walls of a wedge of less than 26 degrees
     const Shape<Dim>& shape = *set_.bodies[b].shape;
     std::vector<Vec<Dim>> points;
-    std::vector<Narrow<Dim>> across;
+    std::vector<Narrow<Dim>> widths;
     for (const Vec<Dim>& x : samples_[b]) {
       if (!is_near_grid<Dim>(grid_, x)) continue;
       const double width = opposite.distance(x);
@@ -84,9 +84,9 @@ class Surroundings {
       const Vec<Dim> normal = opposite.gradient(x);
       if (shape.gradient(x).dot(normal) > facing) continue;
       points.push_back(x);
-      across.push_back({x, Vec<Dim>(x - width * normal), width});
+      widths.push_back({x, Vec<Dim>(x - width * normal), width});
     }
-    return narrowest_open(groups_of<Dim>(points, 2 * sample()), across);
+    return narrowest_open(groups_of<Dim>(points, 2 * sample()), widths);
   }
 
   /// How deep the points of a body reach into something, if they do.
@@ -113,12 +113,12 @@ class Surroundings {
   /// Of gaps that are open all along: where one closes, walls meet at an angle or bodies touch, which is no mistake.
   /// Beyond the sides of the grid it matters only whether they close.
   std::optional<Narrow<Dim>> narrowest_open(const std::vector<std::size_t>& group,
-                                            const std::vector<Narrow<Dim>>& across) const {
+                                            const std::vector<Narrow<Dim>>& widths) const {
     std::map<std::size_t, Narrow<Dim>> narrowest;
     for (std::size_t k = 0; k < group.size(); ++k) {
-      if (across[k].width > least() && is_outside(across[k].from)) continue;
-      const auto [found, is_new] = narrowest.try_emplace(group[k], across[k]);
-      if (!is_new && across[k].width < found->second.width) found->second = across[k];
+      if (widths[k].width > least() && is_outside(widths[k].from)) continue;
+      const auto [found, is_new] = narrowest.try_emplace(group[k], widths[k]);
+      if (!is_new && widths[k].width < found->second.width) found->second = widths[k];
     }
     std::optional<Narrow<Dim>> best;
     for (const auto& [number, narrow] : narrowest) {

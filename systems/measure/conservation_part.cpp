@@ -1,3 +1,4 @@
+#include "systems/bodies/bodies_part.hpp"
 #include "systems/measure/conservation.hpp"
 #include "systems/measure/volume.hpp"
 #include "systems/parts.hpp"
@@ -20,7 +21,9 @@ void add_conservation(SystemRegistry& registry) {
                for (const char* system : {"measure_energy", "measure_momentum", "measure_max_speed"}) {
                  recipe.add("measure", system);
                }
-               add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});
+               // Beside bodies it is measured in the slot of the solve, before velocities are extended to closed faces.
+               if (!of.facts.find<BodiesOfScene>())
+                 add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});
              };
            }});
 }

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// Bodies beside the ends of periodic axes. A body is where it is and has no images: at both ends it must look the
+/// same.
+
+#include "components/body.hpp"
+#include "components/grid.hpp"
+#include "engine/clock.hpp"
+#include "engine/system.hpp"
+#include "systems/bodies/cut.hpp"
+
+#include <optional>
+
+namespace minamo {
+
+/// A body that is not the same at both ends of a periodic axis.
+struct EndsAt {
+  std::size_t body;
+  std::size_t axis;
+};
+
+/// How near to an end a body may not come without being the same at the other one. [m]
+template <int Dim>
+double reach_over_ends(const Grid<Dim>& grid, const Splines<Dim>& splines) {
+  return splines.degree * grid.spacing;
+}
+
+/// \return the first of them, if there is one
+template <int Dim>
+std::optional<EndsAt> first_that_ends(const BodySet<Dim>& set, const PlacedBodies<Dim>& placed, const Grid<Dim>& grid,
+                                      double reach);
+
+/// \throws std::runtime_error naming the body that has come to the end of a periodic axis
+template <int Dim>
+struct RequireRepeats {
+  static constexpr std::string_view doc = "stop the run if a body comes to the end of a periodic axis";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b) const;
+};
+
+}  // namespace minamo
