@@ -111,8 +111,6 @@ struct StaticCut {
   double clearance_of(const Grid<Dim>& grid, const Index<Dim>& cell) const {
     return of.empty() ? std::numeric_limits<double>::infinity() : clearance[row_in<Dim>(grid.cells, cell)];
   }
-  /// Whether a point of a cell may lie in a body at rest.
-  bool is_near(const Grid<Dim>& grid, const Index<Dim>& cell) const { return clearance_of(grid, cell) == 0; }
 };
 
 template <int Dim>

@@ -29,7 +29,6 @@ class FreeMotions {
     std::size_t body;
     int component;  ///< a direction, or Dim + an axis of rotation
   };
-  const std::vector<Motion>& all() const { return motions_; }
   Eigen::Index count() const { return static_cast<Eigen::Index>(motions_.size()); }
 
   /// Calls use(k, weight) for the motions of a body: a point at r from its pivot moves along e with sum weight q_k.

@@ -73,11 +73,13 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
                               [&](const Vec<Dim>& y) { return std::min(depth(y), bodies.distance(y)); });
   });
 
+  const auto volume_of = [&](std::size_t p) {
+    return seeds.share[p] * std::pow(regions[seeds.region[p]].size, Dim);
+  };
   LiquidCut cut;
   for (std::size_t p = 0; p < parts; ++p) {
-    const double volume = seeds.share[p] * std::pow(regions[seeds.region[p]].size, Dim);
-    cut.volume += (within[p] - pieces[p].share) * volume;
-    cut.of += within[p] * volume;
+    cut.volume += (within[p] - pieces[p].share) * volume_of(p);
+    cut.of += within[p] * volume_of(p);
   }
 
   Seeds<Dim> kept;
@@ -118,7 +120,11 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
         }
       }
     }
-    if (std::isfinite(nearest)) kept.share[heir] += seeds.share[p] * pieces[p].share;
+    if (std::isfinite(nearest)) {
+      kept.share[heir] += seeds.share[p] * pieces[p].share;
+    } else {
+      cut.volume += pieces[p].share * volume_of(p);
+    }
   }
   seeds = std::move(kept);
   return cut;

@@ -30,8 +30,8 @@ struct CutRegion {
 };
 
 /// (E91)  A particle gets the volume that bodies, and the surface of its region, leave of its part of a cell, and the
-/// place of its middle; what is less than 0.3 of a part goes to the nearest particle. The volume of the liquid is that
-/// of what is left.
+/// place of its middle; what is less than 0.3 of a part goes to the nearest particle, and where there is none is cut
+/// away, too. The volume of the liquid is that of what is left.
 template <int Dim>
 LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<CutRegion<Dim>>& regions,
                    Seeds<Dim>& seeds);

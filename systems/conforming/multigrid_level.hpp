@@ -15,7 +15,6 @@ struct SingleRow {
   Lanes lane;
 };
 
-/// Sites of a grid, and the order of its rows.
 /// Sites of a grid in their order, x fastest, and where their rows stand.
 template <int Dim>
 class ColouredSites {

@@ -9,6 +9,7 @@
 #include "components/body.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
+#include "systems/bodies/seed_cut.hpp"
 #include "systems/conforming/sites_around.hpp"
 
 #include <catch2/catch.hpp>
@@ -266,6 +267,22 @@ TEST_CASE("the liquid that is left has the volume that bodies leave", "[verifica
   SceneRun run(tilted_tank(40, 2));
   // Half of the tank, but for the samples of the parts that are cut.
   CHECK(total_mass(run.world()) == Approx(500).epsilon(1e-3));
+}
+
+TEST_CASE("what bodies leave too little of for a particle counts as cut away", "[verification]") {
+  // A film of 0.15 of a particle's size over a step, and a pool beside it.
+  SceneRun run(Json::parse(R"json({"dimension": 2,
+    "grid": {"low": [0, 0], "high": [1, 1], "cells": [16, 16]}, "fluid": {"density": 1000, "viscosity": 0},
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [0.25, 0.03125]}}, "per_cell": 2},
+                  {"shape": {"box": {"low": [0.5, 0], "high": [1, 0.5]}}, "per_cell": 2}],
+    "bodies": [{"name": "step", "shape": {"box": {"low": [-1, -1], "high": [0.4, 0.0265625]}}}],
+    "time": {"end": 1, "step": 1e-3}})json"));
+  run.start();
+  double left = 0;
+  for (const double volume : run.world().column<particle::Volume>()) left += volume;
+  const auto& cut = run.world().resource<LiquidCut>();
+  CHECK(cut.of == Approx(0.25 * 0.03125 + 0.25));
+  CHECK(left + cut.volume == Approx(cut.of).epsilon(1e-12));
 }
 
 TEST_CASE("a piston accelerates the water before it as one body", "[verification]") {
