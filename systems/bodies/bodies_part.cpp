@@ -1,6 +1,7 @@
 #include "systems/bodies/bodies_part.hpp"
 
 #include "systems/bodies/attached.hpp"
+#include "systems/bodies/closed_faces.hpp"
 #include "systems/bodies/contact.hpp"
 #include "systems/bodies/couple.hpp"
 #include "systems/bodies/cut.hpp"
@@ -245,6 +246,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   recipe.add("material", "find_uncut_mass");
   recipe.add("material", "find_attached_mass");
   recipe.add("correct", "push_bodies", When::step);
+  recipe.add("advect", "count_closed_faces", When::step);
   recipe.add("advect", "move_bodies", When::step);
   recipe.add("accept", "keep_out_of_bodies", When::step);
   recipe.add("accept", "count_stops", When::step);
@@ -342,6 +344,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<FindSolidParts>("find_solid_parts");
   registry.add<KeepOutOfBodies>("keep_out_of_bodies");
   registry.add<CountStops>("count_stops");
+  registry.add<CountClosedFaces>("count_closed_faces");
   registry.add<MeasureBodies>("measure_bodies");
   registry.add<MeasureBodiesAtStart>("measure_bodies_at_start");
   registry.add(Part{"bodies", "solids in the liquid", read_bodies});

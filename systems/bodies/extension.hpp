@@ -43,8 +43,10 @@ struct FindFaceExtension {
 template <int Dim>
 struct ExtendOldVelocity {
   static constexpr std::string_view doc = "(E87) v_f^n of closed faces";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<FaceExtension<Dim>> extension,
-                  Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Update<face::Velocity<Dim>> v_f) const {
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,
+                  Update<FaceExtension<Dim>> extension, Update<face::Velocity<Dim>> v_f) const {
+    extension->before.clear();
+    for (const auto& at : extension->targets) extension->before.push_back(v_f[at.row][at.direction]);
     extension->apply(v_f.span(), beyond_open_faces * grid->spacing / clock->step,
                      [&](std::size_t b) { return rigid_vector<Dim>(V_b[b], omega_b[b]); });
   }

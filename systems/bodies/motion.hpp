@@ -14,7 +14,8 @@ template <int Dim>
 std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body, double time);
 
 /// (E88)  c_b and R_b in the middle of the step, and the mean of V_b and omega_b over it, by Simpson's rule; free
-/// bodies as if they kept their velocities. \throws std::runtime_error if a velocity is not finite: no shorter step gets past it
+/// bodies as if they kept their velocities. \throws std::runtime_error if a velocity is not finite: no shorter step
+/// gets past it
 template <int Dim>
 struct PlaceBodies {
   static constexpr std::string_view doc = "(E88) bodies in the middle of the step; their work so far";

@@ -73,9 +73,7 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
                               [&](const Vec<Dim>& y) { return std::min(depth(y), bodies.distance(y)); });
   });
 
-  const auto volume_of = [&](std::size_t p) {
-    return seeds.share[p] * std::pow(regions[seeds.region[p]].size, Dim);
-  };
+  const auto volume_of = [&](std::size_t p) { return seeds.share[p] * std::pow(regions[seeds.region[p]].size, Dim); };
   LiquidCut cut;
   for (std::size_t p = 0; p < parts; ++p) {
     cut.volume += (within[p] - pieces[p].share) * volume_of(p);

@@ -29,11 +29,14 @@ struct FaceExtension {
     std::size_t number() const { return Dim * std::size_t{row} + static_cast<std::size_t>(direction); }
   };
   std::vector<Target> targets;
+  std::vector<double> before;         ///< by target: what particles brought to it at the start of the step [m/s]
   std::vector<std::uint32_t> source;  ///< rows of open faces of the same direction
   std::vector<double> weight;         ///< [1]
   using rows_of = Staggered;
   static constexpr ComponentInfo info{"bodies.extension", "", "1", Lifetime::scratch};
 
+  /// Whether the values of a target are set: it has no own ones, and there is something to make them of.
+  static bool sets(const Target& at) { return !at.own && (at.count > 0 || at.wall >= 0); }
   /// Sets the closed faces of a field.
   /// \param beyond  how far a value may lie outside of the range of those that it is made of
   /// \param motion  of a wall, by body
@@ -41,7 +44,7 @@ struct FaceExtension {
   void apply(std::span<Vec<Dim>> field, double beyond, const MotionOf& motion) const {
     for_each_row(targets.size(), [&](std::size_t k) {
       const Target& at = targets[k];
-      if (at.own || (at.count == 0 && at.wall < 0)) return;
+      if (!sets(at)) return;
       double sum = 0;
       ValueRange range;
       for (std::size_t j = at.begin; j < at.begin + at.count; ++j) {

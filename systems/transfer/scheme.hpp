@@ -24,7 +24,8 @@ struct TransferScheme {
   std::vector<std::string> p2g_face_acceleration = {"p2g_face_acceleration_pic"};
   std::vector<std::string> g2p_face_acceleration = {"g2p_face_acceleration_pic"};
   bool carries_gradient =
-      false;  ///< in particle.velocity_gradient, and with p2g_acceleration_tpic that of acceleration
+      false;                  ///< in particle.velocity_gradient, and with p2g_acceleration_tpic that of acceleration
+  bool adds_changes = false;  ///< particles keep their velocity, and get changes of the grid's
   bool reads_liquid_indicator = false;  ///< liquid or spray, (E61)
 };
 

@@ -1,3 +1,4 @@
+#include "components/transfer.hpp"
 #include "systems/assemble/inertia.hpp"
 #include "systems/grid/liquid_cells.hpp"
 #include "systems/parts.hpp"
@@ -58,6 +59,7 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
                    "lumped mass, with or without what it leaves out: (E53), (E62)", "corrected") == "corrected";
   return [scheme, p2g, g2p, corrected](const Scene& of, Recipe& recipe) {
     const auto& integrator = of.facts.get<IntegratorNeeds>();
+    recipe.constant(VelocityOfParticles{.is_kept = scheme.adds_changes});
     const bool needs_liquid = corrected || scheme.reads_liquid_indicator;
     if (is_conforming(of)) {
       if (needs_liquid || scheme.carries_gradient) recipe.add("material", "find_liquid_cells_by_multipliers");
