@@ -108,10 +108,10 @@ struct StopImpulse : Column<Bodies, RigidVector<Dim>> {
   static constexpr ComponentInfo info{"body.stop_impulse", "J_b", "N s", Lifetime::state};
 };
 
-/// The same from particles that it stopped as a plate in the first half of a step. [N s, N m s]
+/// The same from particles that it stopped in the first half of the step; not of free bodies. [N s, N m s]
 template <int Dim>
 struct PlateImpulse : Column<Bodies, RigidVector<Dim>> {
-  static constexpr ComponentInfo info{"body.plate_impulse", "J_b", "N s", Lifetime::state};
+  static constexpr ComponentInfo info{"body.plate_impulse", "J_b", "N s", Lifetime::scratch};
 };
 
 }  // namespace body

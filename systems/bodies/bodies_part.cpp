@@ -225,7 +225,6 @@ void seed_bodies(BodySet<Dim> set, World& world) {
     world.column<body::Angle<Dim>>()[b].setZero();
     world.column<body::Work>()[b] = 0;
     world.column<body::StopImpulse<Dim>>()[b].setZero();
-    world.column<body::PlateImpulse<Dim>>()[b].setZero();
   }
 }
 

@@ -240,8 +240,7 @@ void CoupleFreeBodies<Dim>::operator()(
     Read<Clock> clock, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
     Read<SolverTolerance> tolerance, Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode, Read<BodySet<Dim>> set,
     Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::StopImpulse<Dim>> J_b,
-    Read<body::PlateImpulse<Dim>> J_plates, Read<body::MiddlePosition<Dim>> c_middle,
-    Read<body::MiddleRotation<Dim>> R_middle, Read<staggered::Site<Dim>> site,
+    Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle, Read<staggered::Site<Dim>> site,
     Read<staggered::Neighbour<Dim>> neighbour, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
     Read<face::AttachedTo<Dim>> attached_to, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
     Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
@@ -324,8 +323,7 @@ void CoupleFreeBodies<Dim>::operator()(
                            balances.impulse += tau * attached[i][axis] * b_f[i][axis] * along;
                          });
   for (std::size_t b = 0; b < set->bodies.size(); ++b)
-    motions.for_each_of(
-        b, [&](Eigen::Index k, int c) { balances.impulse[k] += tau / clock->step * (J_b[b][c] + J_plates[b][c]); });
+    motions.for_each_of(b, [&](Eigen::Index k, int c) { balances.impulse[k] += tau / clock->step * J_b[b][c]; });
   for (std::size_t b = 0; set->rubs && b < set->bodies.size(); ++b)
     motions.for_each_of(b, [&](Eigen::Index k, int c) { balances.impulse[k] += tau * friction->of[b][c]; });
   for (std::size_t b = 0; lines && b < set->bodies.size(); ++b)

@@ -161,14 +161,17 @@ void StopAtPlates<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
     const Vec<Dim> from = at_start.placement(b).to_body(x_p[p]);
     const Vec<Dim> to = middle.to_body(x_p[p] + way);
     auto end = end_before_plate<Dim>(shape, from, to);
-    if (!end) end = surface_above<Dim>(shape, to, deep * grid->spacing);
+    if (!end && set->bodies[b].free() == nullptr) end = surface_above<Dim>(shape, to, deep * grid->spacing);
     if (!end) return;
     const Vec<Dim> n = middle.direction_to_world(shape.gradient(*end)).stableNormalized();
     y_p[p] = fold<Dim>(*grid, back_along_wall<Dim>(*grid, n, middle.to_world(*end)).x);
     stops.stop(p, b, x_p[p], n, v_p[p]);
   });
-  stops.share(m_p.span(), v_p.span(), J_b.span());
-  for (std::size_t b = 0; b < J_b.size(); ++b) W_b[b] += J_b[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
+  stops.give(m_p.span(), J_b.span());
+  for (std::size_t b = 0; b < J_b.size(); ++b) {
+    if (set->bodies[b].free() != nullptr) J_b[b].setZero();
+    W_b[b] += J_b[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
+  }
 }
 
 template <int Dim>
@@ -239,7 +242,8 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
     }
   });
   clamped->count += count;
-  stops.share(m_p.span(), v_p.span(), J_b.span());
+  stops.share(m_p.span(), v_p.span());
+  stops.give(m_p.span(), J_b.span());
 }
 
 template struct StopAtPlates<2>;

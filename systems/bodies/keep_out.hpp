@@ -14,7 +14,8 @@ namespace minamo {
 
 /// (E89)  A particle whose way to the middle of the step leads through a plate, or beyond the middle of one, stays on
 /// its side and loses the part of its velocity that approaches the plate. The grid does not see that way. One that is
-/// deep in another body by then goes to its surface likewise. What particles lose the body gets, with the work of that.
+/// deep in another body by then, not a free one, goes to its surface likewise. What particles lose the body gets, with
+/// the work of that; a free one does not: a light one would be thrown to and fro.
 template <int Dim>
 struct StopAtPlates {
   static constexpr std::string_view doc =

@@ -57,24 +57,36 @@ class Stops {
     const std::lock_guard lock(mutex_);
     stops_.push_back({p, b, r, lost});
   }
-  /// Impulses of bodies. A free one that particles push away itself takes a share of what they lose, the rest they
-  /// keep: with it they and the body go on together. In the order of particles: the same on any number of threads.
-  void share(std::span<const double> m_p, std::span<Vec<Dim>> v_p, std::span<RigidVector<Dim>> J_b) {
-    std::stable_sort(stops_.begin(), stops_.end(),
-                     [](const auto& a, const auto& b) { return a.particle < b.particle; });
+  /// A free body that particles push away itself takes a share of what they lose, the rest they keep: with it they and
+  /// the body go on together.
+  void share(std::span<const double> m_p, std::span<Vec<Dim>> v_p) {
+    put_in_order();
     std::vector<double> yields(set_.bodies.size(), 0);
     for (const auto& [p, b, r, lost] : stops_)
       yields[b] += m_p[p] * yielding<Dim>(set_.bodies[b], R_b_[b], r, lost.stableNormalized());
-    for (RigidVector<Dim>& J : J_b) J.setZero();
-    for (const auto& [p, b, r, lost] : stops_) {
+    for (auto& [p, b, r, lost] : stops_) {
       const Vec<Dim> taken = lost / (1 + yields[b]);
       v_p[p] += lost - taken;
-      const Vec<Dim> impulse = m_p[p] * taken;
+      lost = taken;
+    }
+  }
+  /// Impulses of bodies.
+  void give(std::span<const double> m_p, std::span<RigidVector<Dim>> J_b) {
+    put_in_order();
+    for (RigidVector<Dim>& J : J_b) J.setZero();
+    for (const auto& [p, b, r, lost] : stops_) {
+      const Vec<Dim> impulse = m_p[p] * lost;
       J_b[b] += rigid_vector<Dim>(impulse, moment_of(r, impulse));
     }
   }
 
  private:
+  /// Of particles: the same sums on any number of threads.
+  void put_in_order() {
+    std::stable_sort(stops_.begin(), stops_.end(),
+                     [](const auto& a, const auto& b) { return a.particle < b.particle; });
+  }
+
   const BodySet<Dim>& set_;
   std::span<const Mat<Dim>> R_b_;
   std::span<const Vec<Dim>> c_b_;
