@@ -91,7 +91,7 @@ def _is_there(scene: Path, folder: Path) -> bool:
     if not (folder / "scene.json").is_file():
         return False
     run = Run(folder)
-    return run.status == "done" and _contains(run.scene, json.loads(scene.read_text()))
+    return run.summary.get("complete", False) and _contains(run.scene, json.loads(scene.read_text()))
 
 
 def _contains(whole: Any, part: Any) -> bool:
