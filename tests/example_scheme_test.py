@@ -51,8 +51,7 @@ class Run:
 
     def __init__(self, scene: Scene, steps: int = 20, **transfer: Any):
         folder = Path(FOLDER) / "run"
-        folder.mkdir(exist_ok=True)
-        file = folder / "scene.json"
+        file = folder.with_suffix(".json")  # beside the results, among which there is a scene.json
         file.write_text(json.dumps({**scene, "transfer": transfer}))
         subprocess.run([PROGRAM, "run", file, "--out", folder, "--steps", str(steps), "--quiet"], check=True)
         self.conserved = json.loads((folder / "summary.json").read_text())["conservation"]
