@@ -190,17 +190,20 @@ template <int Dim>
 void check_repeats(const BodySet<Dim>& set, World& world, SeedProblems& problems) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
   const double reach = reach_over_ends<Dim>(grid, world.resource<Splines<Dim>>());
-  const auto ends = first_that_ends<Dim>(set, PlacedBodies<Dim>::at_start(set), grid, reach);
-  if (!ends) return;
-  const Bounds<Dim> bounds = set.bodies[ends->body].shape->bounds();
-  const auto axis = static_cast<Eigen::Index>(ends->axis);
-  const char name = "xyz"[ends->axis];
-  problems.note(fmt::format("/bodies/{}/shape", ends->body),
-                fmt::format("not the same at both ends of periodic {}", name),
-                fmt::format("a body {0:.4g} m or more from both ends, or one that reaches as far over one as over the "
-                            "other, {0:.4g} m or more",
-                            reach),
-                fmt::format("{} = {:.4g} ... {:.4g} m", name, bounds.low[axis], bounds.high[axis]));
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    const auto& body = set.bodies[b];
+    const auto ends = axis_where_it_ends<Dim>(*body.shape, {body.pivot, body.pivot, Mat<Dim>::Identity()}, grid, reach);
+    if (!ends) continue;
+    const Bounds<Dim> bounds = body.shape->bounds();
+    const auto axis = static_cast<Eigen::Index>(*ends);
+    const char name = "xyz"[*ends];
+    problems.note(
+        fmt::format("/bodies/{}/shape", b), fmt::format("not the same at both ends of periodic {}", name),
+        fmt::format("a body {0:.4g} m or more from both ends, or one that reaches as far over one as over the "
+                    "other, {0:.4g} m or more",
+                    reach),
+        fmt::format("{} = {:.4g} ... {:.4g} m", name, bounds.low[axis], bounds.high[axis]));
+  }
 }
 
 template <int Dim>
@@ -232,7 +235,8 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   const bool rubs = finds_friction(bodies, scene);
   recipe.add("configure", "place_bodies", When::step);
   const auto& periodic = scene.grid.periodic;
-  if (std::find(periodic.begin(), periodic.end(), true) != periodic.end())
+  const bool any_moves = bodies.in_plane.any_moves() || bodies.in_space.any_moves();
+  if (any_moves && std::find(periodic.begin(), periodic.end(), true) != periodic.end())
     recipe.add("configure", "require_repeats", When::step);
   recipe.add("sort", "place_bodies", When::standing);
   recipe.add("sort", "cut_faces");

@@ -2,6 +2,8 @@
 
 #include "systems/bodies/cut.hpp"
 
+#include <algorithm>
+
 namespace minamo {
 
 namespace {
@@ -32,9 +34,10 @@ void CountClosedFaces<Dim>::operator()(
     Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
     Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Update<body::Force<Dim>> F_b,
     Update<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
+  if (std::none_of(set->bodies.begin(), set->bodies.end(), counts<Dim>)) return;
   const SitePlaces<Dim> places(*grid, *splines);
   std::vector<RigidVector<Dim>> impulse(set->bodies.size(), RigidVector<Dim>::Zero());
-  /// Particles got momentum at a face; what moves with the body (E94) is part of its force already.
+  // Particles got momentum at a face; what moves with the body (E94) is part of its force already.
   const auto give = [&](std::size_t i, std::size_t d, double momentum) {
     const int beside = body_beside<Dim>(attached_to[i], closer[i], d);
     if (beside < 0 || !counts<Dim>(set->bodies[static_cast<std::size_t>(beside)])) return;

@@ -14,9 +14,9 @@
 
 namespace minamo {
 
-/// (E126)  Force, torque and work of
-/// the momentum that the particles get by the faces beside a body, less that of their balances and of the liquid that
-/// is attached. Not of free bodies, nor of separating ones, at which liquid that leaves would pull.
+/// (E126)  Force, torque and work of the momentum that particles get by the faces beside a body, less that of the
+/// balances and of the liquid that is attached. Not of free bodies, nor of separating ones, at which liquid that leaves
+/// would pull.
 template <int Dim>
 struct CountClosedFaces {
   static constexpr std::string_view doc = "(E126) what faces beside bodies give to particles, no pressure to the faces";

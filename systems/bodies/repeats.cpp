@@ -40,17 +40,12 @@ bool repeats(const Grid<Dim>& grid, std::size_t axis, double reach, const Distan
 }  // namespace
 
 template <int Dim>
-std::optional<EndsAt> first_that_ends(const BodySet<Dim>& set, const PlacedBodies<Dim>& placed, const Grid<Dim>& grid,
-                                      double reach) {
-  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
-    const Shape<Dim>& shape = *set.bodies[b].shape;
-    const Placement<Dim>& placement = placed.placement(b);
-    for (std::size_t axis = 0; axis < Dim; ++axis) {
-      if (!grid.periodic[axis]) continue;
-      if (is_clear<Dim>(placement.bounds(shape.bounds()), grid, static_cast<Eigen::Index>(axis), reach)) continue;
-      if (!repeats<Dim>(grid, axis, reach, [&](const Vec<Dim>& x) { return placement.distance(shape, x); }))
-        return EndsAt{b, axis};
-    }
+std::optional<std::size_t> axis_where_it_ends(const Shape<Dim>& shape, const Placement<Dim>& placement,
+                                              const Grid<Dim>& grid, double reach) {
+  for (std::size_t axis = 0; axis < Dim; ++axis) {
+    if (!grid.periodic[axis]) continue;
+    if (is_clear<Dim>(placement.bounds(shape.bounds()), grid, static_cast<Eigen::Index>(axis), reach)) continue;
+    if (!repeats<Dim>(grid, axis, reach, [&](const Vec<Dim>& x) { return placement.distance(shape, x); })) return axis;
   }
   return {};
 }
@@ -60,16 +55,21 @@ void RequireRepeats<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
                                      Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b,
                                      Read<body::MiddleRotation<Dim>> R_b) const {
   const double reach = reach_over_ends<Dim>(*grid, *splines);
-  const auto ends = first_that_ends<Dim>(*set, {*set, c_b.span(), R_b.span()}, *grid, reach);
-  if (!ends) return;
-  throw std::runtime_error(fmt::format(
-      "body \"{}\" comes nearer than {:.4g} m to an end of the periodic axis {} at t = {:.6g} s, and is not "
-      "the same at the other end",
-      set->bodies[ends->body].name, reach, "xyz"[ends->axis], clock -> time));
+  const double time = clock->time;
+  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+    const auto& body = set->bodies[b];
+    if (!body.moves()) continue;
+    const auto axis = axis_where_it_ends<Dim>(*body.shape, {body.pivot, c_b[b], R_b[b]}, *grid, reach);
+    if (!axis) continue;
+    throw std::runtime_error(
+        fmt::format("body \"{}\" comes nearer than {:.4g} m to an end of the periodic axis {} at t = {:.6g} s, and is "
+                    "not the same at the other end",
+                    body.name, reach, "xyz"[*axis], time));
+  }
 }
 
-template std::optional<EndsAt> first_that_ends<2>(const BodySet<2>&, const PlacedBodies<2>&, const Grid<2>&, double);
-template std::optional<EndsAt> first_that_ends<3>(const BodySet<3>&, const PlacedBodies<3>&, const Grid<3>&, double);
+template std::optional<std::size_t> axis_where_it_ends<2>(const Shape<2>&, const Placement<2>&, const Grid<2>&, double);
+template std::optional<std::size_t> axis_where_it_ends<3>(const Shape<3>&, const Placement<3>&, const Grid<3>&, double);
 template struct RequireRepeats<2>;
 template struct RequireRepeats<3>;
 

@@ -13,22 +13,16 @@
 
 namespace minamo {
 
-/// A body that is not the same at both ends of a periodic axis.
-struct EndsAt {
-  std::size_t body;
-  std::size_t axis;
-};
-
 /// How near to an end a body may not come without being the same at the other one. [m]
 template <int Dim>
 double reach_over_ends(const Grid<Dim>& grid, const Splines<Dim>& splines) {
   return splines.degree * grid.spacing;
 }
 
-/// \return the first of them, if there is one
+/// \return a periodic axis at whose ends a body is not the same, if there is one
 template <int Dim>
-std::optional<EndsAt> first_that_ends(const BodySet<Dim>& set, const PlacedBodies<Dim>& placed, const Grid<Dim>& grid,
-                                      double reach);
+std::optional<std::size_t> axis_where_it_ends(const Shape<Dim>& shape, const Placement<Dim>& placement,
+                                              const Grid<Dim>& grid, double reach);
 
 /// \throws std::runtime_error naming the body that has come to the end of a periodic axis
 template <int Dim>
