@@ -4,6 +4,7 @@
 #include "engine/communicator.hpp"
 #include "engine/memory_reserve.hpp"
 #include "engine/text_file.hpp"
+#include "engine/warnings.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/ranks/fit_for_ranks.hpp"
@@ -109,9 +110,10 @@ void warn_of_rejection(const Clock& clock, const std::string& why) {
 void warn_of_energy(const Json& summary, World& world) {
   const double rise = summary["conservation"]["energy_rise"];
   if (rise <= 0.01) return;
-  spdlog::warn("energy rose by {:.3g} % that no work accounts for, most of all until t = {:.6g} s; a shorter step or "
-               "another method may keep it",
-               100 * rise, totals_of_all_rows(world).energy.time);
+  world.resource<Warnings>().add(
+      "energy", fmt::format("energy rose by {:.3g} % that no work accounts for, most of all until t = {:.6g} s; a "
+                            "shorter step or another method may keep it",
+                            100 * rise, totals_of_all_rows(world).energy.time));
 }
 
 /// Sound runs stay below: a step turns over now and then, alone; after an impact 48 and more do with gamma = 0.5, 26
@@ -120,9 +122,11 @@ void warn_of_turns(World& world) {
   if (!world.has<Turns>()) return;
   const std::int64_t longest = world.resource<Turns>().longest;
   if (longest <= 30) return;
-  spdlog::warn("pressure turned over from step to step, {} times in a row: newmark with gamma = 0.5 damps no such "
-               "oscillation; gamma = 0.6 or the midpoint rule has none that lasts",
-               longest);
+  world.resource<Warnings>().add(
+      "pressure turns", fmt::format("pressure turned over from step to step, {} times in a row: newmark with gamma = "
+                                    "0.5 damps no such oscillation; gamma = 0.6 or the midpoint rule has none that "
+                                    "lasts",
+                                    longest));
 }
 
 /// The rows that count, and nothing after them, whatever became of the last.
@@ -198,9 +202,10 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
   if (writes_for_all()) close_history(plan.folder, world);
   result.clock = world.resource<Clock>();
   result.summary = make_summary(plan.scene, result.outcome, plan.threads, times.end, stopwatch, profiler, world);
-  if (writes_for_all()) write_summary(plan.folder, result);
   warn_of_energy(result.summary, world);
   warn_of_turns(world);
+  result.summary["warnings"] = world.resource<Warnings>().texts();
+  if (writes_for_all()) write_summary(plan.folder, result);
   if (plan.at_end && result.outcome.ending == Ending::done) plan.at_end(world);
   return result;
 }
