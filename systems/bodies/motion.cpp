@@ -1,5 +1,6 @@
 #include "systems/bodies/motion.hpp"
 
+#include "components/grid.hpp"
 #include "systems/shapes/rotation.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -61,6 +62,21 @@ Twist<Dim> mean_twist(const BodyScene<Dim>& body, double time, double length) {
       fmt::format("body \"{}\" has a velocity that is not finite in the step from t = {:.6g} s", body.name, time));
 }
 
+/// From a point to the farthest corner of a box. [m]
+template <int Dim>
+double farthest(const Vec<Dim>& from, const Vec<Dim>& low, const Vec<Dim>& high) {
+  return (high - from).cwiseAbs().cwiseMax((from - low).cwiseAbs()).norm();
+}
+
+/// Of a body's points in the grid from the point that it turns about. A turn keeps distances, so that the shape's
+/// bounds at the start tell. [m]
+template <int Dim>
+double reach(const BodyScene<Dim>& body, const Vec<Dim>& c_b, const Grid<Dim>& grid) {
+  const double in_grid = farthest<Dim>(c_b, grid.low, grid.high);
+  const Bounds<Dim> bounds = body.shape->bounds();
+  return bounds.finite() ? std::min(in_grid, farthest<Dim>(body.pivot, bounds.low, bounds.high)) : in_grid;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -75,6 +91,30 @@ std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body,
     twist = mean_twist<Dim>(body, time, moment);
   }
   return {twist.velocity, twist.spin};
+}
+
+template <int Dim>
+double largest_speed_of_bodies(World& world, double ahead) {
+  const double now = world.resource<Clock>().time;
+  const auto& set = world.resource<BodySet<Dim>>();
+  double largest = 0;
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    const BodyScene<Dim>& body = set.bodies[b];
+    if (!body.moves()) continue;
+    const double r = reach<Dim>(body, world.column<body::Position<Dim>>()[b], world.resource<Grid<Dim>>());
+    const auto look = [&](const Vec<Dim>& V, const Vec<rotations<Dim>>& omega) {
+      largest = std::max(largest, V.norm() + r * omega.norm());
+    };
+    if (body.free() != nullptr) {
+      look(world.column<body::Velocity<Dim>>()[b], world.column<body::Spin<Dim>>()[b]);
+      continue;
+    }
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const auto [V, omega] = velocity_at<Dim>(body, now + share * ahead);
+      look(V, omega);
+    }
+  }
+  return largest;
 }
 
 template <int Dim>
@@ -119,6 +159,8 @@ void MoveBodies<Dim>::operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read
 
 template std::pair<Vec<2>, Vec<1>> velocity_at<2>(const BodyScene<2>&, double);
 template std::pair<Vec<3>, Vec<3>> velocity_at<3>(const BodyScene<3>&, double);
+template double largest_speed_of_bodies<2>(World&, double);
+template double largest_speed_of_bodies<3>(World&, double);
 template struct PlaceBodies<2>;
 template struct PlaceBodies<3>;
 template struct MoveBodies<2>;

@@ -13,6 +13,12 @@ namespace minamo {
 template <int Dim>
 std::pair<Vec<Dim>, Vec<rotations<Dim>>> velocity_at(const BodyScene<Dim>& body, double time);
 
+/// (E34)  Of the points of moving bodies that may lie in the grid the largest |V_b| + |omega_b| r_b, now and over the
+/// time ahead; free bodies keep their velocities. [m/s]
+/// \param ahead  [s]
+template <int Dim>
+double largest_speed_of_bodies(World& world, double ahead);
+
 /// (E88)  c_b and R_b in the middle of the step, and the mean of V_b and omega_b over it, by Simpson's rule; free
 /// bodies as if they kept their velocities. \throws std::runtime_error if a velocity is not finite: no shorter step
 /// gets past it

@@ -1,10 +1,31 @@
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/measure/conservation.hpp"
 #include "systems/measure/volume.hpp"
+#include "systems/measure/watch_lid.hpp"
+#include "systems/measure/watch_move.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 
+#include <algorithm>
+
 namespace minamo {
+
+namespace {
+
+/// A lid is above: where there is a weight.
+void watch_lid(const Scene& scene, Recipe& recipe) {
+  const auto& force = scene.facts.get<BodyForce>().of_place_and_time;
+  const bool is_constant = std::all_of(force.begin(), force.end(), [](const auto& b) { return b.is_constant(); });
+  if (!is_constant || scene.facts.get<BodyForce>().is_zero()) return;
+  recipe.add("boundaries", "watch_lid", When::step);
+  recipe.seed([force](const Scene& of, World& world, SeedProblems&) {
+    with_dimension(of.dimension, [&](auto dim) {
+      world.resource<Lids<dim()>>() = lids_of<dim()>(vector_at<dim()>(force, {}), world);
+    });
+  });
+}
+
+}  // namespace
 
 void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureEnergy>("measure_energy");
@@ -12,6 +33,8 @@ void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureMaxSpeed>("measure_max_speed");
   registry.add<MeasureDivergence>("measure_divergence");
   registry.add<MeasureOverlap>("measure_overlap");
+  registry.add<WatchMove>("watch_move");
+  registry.add<WatchLid>("watch_lid");
   registry.add(
       Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
              return [](const Scene& of, Recipe& recipe) {
@@ -21,6 +44,8 @@ void add_conservation(SystemRegistry& registry) {
                for (const char* system : {"measure_energy", "measure_momentum", "measure_max_speed"}) {
                  recipe.add("measure", system);
                }
+               if (of.time.step) recipe.add("measure", "watch_move", When::step);
+               watch_lid(of, recipe);
                // Beside bodies it is measured in the slot of the solve, before velocities are extended to closed faces.
                if (!of.facts.find<BodiesOfScene>())
                  add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});

@@ -17,7 +17,7 @@ void read_step(Input& input, TimeScene& time) {
 }
 
 void read_cfl(Input& input, TimeScene& time) {
-  time.cfl = input.number("cfl", {.doc = "cells that the fastest particle crosses in a step (instead of step)",
+  time.cfl = input.number("cfl", {.doc = "cells that the fastest particle or body crosses in a step (instead of step)",
                                   .fallback = recommended_cfl,
                                   .above = 0});
   time.max_step = input.optional_number("max_step", {.unit = "s", .doc = "longest step (with cfl)", .above = 0});

@@ -4,6 +4,8 @@
 #include "components/instant.hpp"
 #include "components/particle.hpp"
 #include "engine/communicator.hpp"
+#include "systems/bodies/bodies_part.hpp"
+#include "systems/bodies/motion.hpp"
 #include "systems/pipeline.hpp"
 #include "systems/surface_tension/capillary_step.hpp"
 
@@ -50,6 +52,16 @@ double crossing_time(double v, double b, double distance) {
   return 2 * distance / (v + std::sqrt(v * v + 4 * b * distance));
 }
 
+/// The step in which the fastest moving body crosses `cfl` cells, if that is shorter than dt. A velocity that is not
+/// finite ends the run where bodies are placed, with its name.
+double step_of_bodies(const Scene& scene, World& world, double dt) {
+  const auto* bodies = scene.facts.find<BodiesOfScene>();
+  if (!bodies || !(bodies->in_plane.any_moves() || bodies->in_space.any_moves())) return dt;
+  const double w = scene.dimension == 2 ? largest_speed_of_bodies<2>(world, dt) : largest_speed_of_bodies<3>(world, dt);
+  return std::isfinite(w) && w * dt > scene.time.cfl * scene.grid.spacing ? scene.time.cfl * scene.grid.spacing / w
+                                                                          : dt;
+}
+
 }  // namespace
 
 double step_of_cfl(const Scene& scene, double largest_speed, double largest_force) {
@@ -80,7 +92,7 @@ TimePlan make_time_plan(const Scene& scene) {
     const double v = scene.dimension == 2 ? largest_speed<2>(world) : largest_speed<3>(world);
     const auto& force = scene.facts.get<BodyForce>();
     const double b = scene.dimension == 2 ? largest_force<2>(force, world) : largest_force<3>(force, world);
-    return step_of_cfl(scene, largest_over_ranks(v), largest_over_ranks(b));
+    return step_of_bodies(scene, world, step_of_cfl(scene, largest_over_ranks(v), largest_over_ranks(b)));
   };
   return plan;
 }

@@ -15,6 +15,7 @@ double step_of_cfl(const Scene& scene, double largest_speed, double largest_forc
 /// The longest step that a run can take: where the CFL number chooses it, one from rest. [s]
 double longest_step(const Scene& scene);
 
+/// Moving bodies cross `cfl` cells in a step at most, too, (E34).
 TimePlan make_time_plan(const Scene& scene);
 
 }  // namespace minamo
