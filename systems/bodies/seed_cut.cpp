@@ -99,8 +99,10 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
   }
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     if (pieces[p].share <= 0 || pieces[p].share >= least_share) continue;
+    // As near as the nearest, whatever rounding says: each has its part.
+    const double rounding = 1e-9 * regions[seeds.region[p]].size;
     double nearest = std::numeric_limits<double>::infinity();
-    std::size_t heir = 0;
+    std::vector<std::size_t> heirs;
     for (std::size_t k = 0; k < power(3, Dim); ++k) {
       Index<Dim> aside;
       std::size_t rest = k;
@@ -112,14 +114,15 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
       if (found == in_cell.end()) continue;
       for (const std::size_t q : found->second) {
         const double distance = (kept.position[q] - pieces[p].middle).norm();
-        if (kept.region[q] == seeds.region[p] && distance < nearest) {
-          nearest = distance;
-          heir = q;
-        }
+        if (kept.region[q] != seeds.region[p] || distance > nearest + rounding) continue;
+        if (distance < nearest - rounding) heirs.clear();
+        heirs.push_back(q);
+        nearest = std::min(nearest, distance);
       }
     }
-    if (std::isfinite(nearest)) {
-      kept.share[heir] += seeds.share[p] * pieces[p].share;
+    if (!heirs.empty()) {
+      for (const std::size_t heir : heirs)
+        kept.share[heir] += seeds.share[p] * pieces[p].share / static_cast<double>(heirs.size());
     } else {
       cut.volume += pieces[p].share * volume_of(p);
     }

@@ -10,14 +10,52 @@ namespace minamo {
 
 namespace {
 
+/// Where a point lies, whatever rounding says of one on the surface.
+enum class PlaceIn { outside, surface, inside };
+
+/// \param start  what expressions see of time and ode variables
+/// \param part   edge of what the point stands for [m]
+template <int Dim>
+PlaceIn place_in(const ParticleScene& region, const Instant& start, const Vec<Dim>& x, double part) {
+  const double rounding = 1e-9 * part;
+  const auto* shape = std::get_if<SharedShape<Dim>>(&region.shape);
+  if (shape && (*shape)->is_bounded_by_distance()) {
+    const double distance = (*shape)->distance(x);
+    if (std::abs(distance) <= rounding) return PlaceIn::surface;
+    return distance < 0 ? PlaceIn::inside : PlaceIn::outside;
+  }
+  const auto is_in = [&](const Vec<Dim>& at) {
+    if (shape) return (*shape)->contains(at);
+    Arguments arguments(start);
+    const double value = std::get<Where>(region.shape).inside(arguments.at<Dim>(at));
+    return std::isfinite(value) && value != 0;
+  };
+  const bool own = is_in(x);
+  if (region.jitter) return own ? PlaceIn::inside : PlaceIn::outside;
+  // Along no side of what a user writes down: one of the two lies inside if the surface passes through x.
+  Vec<Dim> aside;
+  for (int d = 0; d < Dim; ++d) aside[d] = rounding * std::array{1.0, 0.7129, 0.3917}[static_cast<std::size_t>(d)];
+  const bool above = is_in(x + aside);
+  const bool below = is_in(x - aside);
+  if (own && above && below) return PlaceIn::inside;
+  return own || above || below ? PlaceIn::surface : PlaceIn::outside;
+}
+
 /// Keeps, of the points that are tried one after the other, those inside a region; the many at a time that threads
 /// share, for the nearest triangle of a mesh takes a microsecond or more.
 template <int Dim>
 class Inside {
  public:
-  /// \param part  edge of what a point stands for [m]
-  Inside(const ParticleScene& region, const Instant& start, PartsTaken taken, double part)
-      : region_(region), start_(start), taken_(taken), reach_(0.5 * part * std::sqrt(static_cast<double>(Dim))) {
+  /// \param earlier  regions that have points on a surface in common with this one
+  /// \param part     edge of what a point stands for [m]
+  Inside(const ParticleScene& region, std::span<const ParticleScene> earlier, const Instant& start, PartsTaken taken,
+         double part)
+      : region_(region),
+        earlier_(earlier),
+        start_(start),
+        taken_(taken),
+        part_(part),
+        reach_(0.5 * part * std::sqrt(static_cast<double>(Dim))) {
     tried_.reserve(batch);
   }
 
@@ -34,30 +72,36 @@ class Inside {
   static constexpr std::size_t batch = 1 << 16;
 
   void sift() {
-    std::vector<std::uint8_t> is_inside(tried_.size());
-    if (const auto* shape = std::get_if<SharedShape<Dim>>(&region_.shape)) {
-      for_each_row(tried_.size(), [&](std::size_t k) { is_inside[k] = is_in(**shape, tried_[k]); });
-    } else {
-      for (std::size_t k = 0; k < tried_.size(); ++k) is_inside[k] = is_where(tried_[k]);
+    std::vector<PlaceIn> place(tried_.size());
+    const auto* shape = std::get_if<SharedShape<Dim>>(&region_.shape);
+    if (shape) {
+      for_each_row(tried_.size(), [&](std::size_t k) { place[k] = place_of(**shape, tried_[k]); });
+    } else {  // in turn: expressions are not for several threads
+      for (std::size_t k = 0; k < tried_.size(); ++k) place[k] = place_in<Dim>(region_, start_, tried_[k], part_);
     }
     for (std::size_t k = 0; k < tried_.size(); ++k) {
-      if (is_inside[k] != 0) found_.push_back(tried_[k]);
+      if (place[k] == PlaceIn::inside || (place[k] == PlaceIn::surface && !is_taken(tried_[k])))
+        found_.push_back(tried_[k]);
     }
     tried_.clear();
   }
-  bool is_in(const Shape<Dim>& shape, const Vec<Dim>& x) const {
-    if (taken_ == PartsTaken::middle_inside) return shape.contains(x);
-    return !shape.is_bounded_by_distance() || shape.distance(x) < reach_;
+  PlaceIn place_of(const Shape<Dim>& shape, const Vec<Dim>& x) const {
+    if (taken_ == PartsTaken::middle_inside) return place_in<Dim>(region_, start_, x, part_);
+    return !shape.is_bounded_by_distance() || shape.distance(x) < reach_ ? PlaceIn::inside : PlaceIn::outside;
   }
-  bool is_where(const Vec<Dim>& x) const {
-    Arguments arguments(start_);
-    const double value = std::get<Where>(region_.shape).inside(arguments.at<Dim>(x));
-    return std::isfinite(value) && value != 0;
+  /// A point on the surface of two regions is the first one's.
+  bool is_taken(const Vec<Dim>& x) const {
+    return std::any_of(earlier_.begin(), earlier_.end(), [&](const ParticleScene& other) {
+      return other.per_cell == region_.per_cell && !other.jitter &&
+             place_in<Dim>(other, start_, x, part_) != PlaceIn::outside;
+    });
   }
 
   const ParticleScene& region_;
+  std::span<const ParticleScene> earlier_;
   const Instant& start_;
   PartsTaken taken_;
+  double part_;
   double reach_;
   std::vector<Vec<Dim>> tried_;
   std::vector<Vec<Dim>> found_;
@@ -118,13 +162,13 @@ Layers layers_of(const ParticleScene& region, const Grid<Dim>& grid) {
 
 template <int Dim>
 std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start,
-                              PartsTaken taken, const Layers& layers) {
+                              PartsTaken taken, const Layers& layers, std::span<const ParticleScene> earlier) {
   auto range = parts_to_try<Dim>(region, grid);
   const std::uint64_t parts_before = narrow<Dim>(range, layers, grid, region.per_cell);
   const double part = grid.spacing / region.per_cell;
   std::mt19937_64 random(region.jitter.value_or(0));
   if (region.jitter) random.discard(Dim * parts_before);
-  Inside<Dim> inside(region, start, taken, part);
+  Inside<Dim> inside(region, earlier, start, taken, part);
   Index<Dim> at;
   for (std::size_t d = 0; d < Dim; ++d) at[d] = range[d][0];
   while (at[Dim - 1] < range[Dim - 1][1]) {
@@ -183,9 +227,9 @@ template Vec<2> exact_for_splines<2>(const Grid<2>&, int, Vec<2>);
 template Vec<3> exact_for_splines<3>(const Grid<3>&, int, Vec<3>);
 template Vec<2> nearer_to_walls<2>(const Grid<2>&, int, Vec<2>);
 template Vec<3> nearer_to_walls<3>(const Grid<3>&, int, Vec<3>);
-template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&, const Instant&, PartsTaken,
-                                        const Layers&);
-template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&, const Instant&, PartsTaken,
-                                        const Layers&);
+template std::vector<Vec<2>> lattice<2>(const ParticleScene&, const Grid<2>&, const Instant&, PartsTaken, const Layers&,
+                                        std::span<const ParticleScene>);
+template std::vector<Vec<3>> lattice<3>(const ParticleScene&, const Grid<3>&, const Instant&, PartsTaken, const Layers&,
+                                        std::span<const ParticleScene>);
 
 }  // namespace minamo

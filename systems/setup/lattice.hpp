@@ -8,6 +8,8 @@
 
 #include <array>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace minamo {
 
@@ -31,12 +33,15 @@ Layers layers_of(const ParticleScene& region, const Grid<Dim>& grid);
 
 /// The particles of a region: per_cell^d in every cell, at the middles of equal parts, or anywhere in these parts if
 /// jittered; those inside the shape, or, of a shape with a distance, all that may reach into it. Cells and parts come
-/// in the order of the grid, x fastest. `start` is what the expression of a shape sees of time and ode variables.
-/// \param layers  no others are looked at; what they have is the same as without
+/// in the order of the grid, x fastest. `start` is what the expression of a shape sees of time and ode variables. A
+/// middle on the surface is inside, whatever rounding says, so that a mirrored shape has the mirrored particles. \param
+/// layers   no others are looked at; what they have is the same as without \param earlier  regions that have had the
+/// particles on surfaces in common
 template <int Dim>
 std::vector<Vec<Dim>> lattice(const ParticleScene& region, const Grid<Dim>& grid, const Instant& start = {},
                               PartsTaken taken = PartsTaken::middle_inside,
-                              const Layers& layers = {0, std::numeric_limits<int>::max()});
+                              const Layers& layers = {0, std::numeric_limits<int>::max()},
+                              std::span<const ParticleScene> earlier = {});
 
 /// (E70)  x of a lattice of n per cell and direction; in the cells at walls moved so that the sums of the quadratic
 /// splines are their integrals. One particle per cell and direction moves nearer to the wall alone.

@@ -178,7 +178,8 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
     const ParticleScene& region = scene.particles[r];
     const bool is_cut = scene.facts.get<CutRegions>().is_cut[r];
     const auto positions =
-        lattice<Dim>(region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside, layers);
+        lattice<Dim>(region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside, layers,
+                     std::span(scene.particles).first(r));
     const std::string pointer = fmt::format("/particles/{}", r);
     if (sum_over_ranks(static_cast<std::int64_t>(positions.size())) == 0) {
       problems.note(pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
