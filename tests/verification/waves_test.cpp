@@ -26,7 +26,7 @@ constexpr std::array<double, 8> gauges{2.0, 2.25, 2.5, 2.75, 3.0, 3.25, 3.5, 3.7
 using Amplitudes = Eigen::Matrix<Complex, gauges.size(), 1>;
 
 /// The wave number of w^2 = g k tanh(k d).
-double wave_number(double w) {
+double wave_number_of(double w) {
   double k = w * w / 9.81;
   for (int i = 0; i < 2000; ++i) k = 0.5 * (k + w * w / (9.81 * std::tanh(k * depth_of_tank)));
   return k;
@@ -95,7 +95,7 @@ Eigen::VectorXcd waves_of(const Amplitudes& z, const std::vector<double>& number
 
 TEST_CASE("a paddle makes waves of the height of first-order theory", "[verification][long]") {
   constexpr double stroke = 0.025;
-  const double k = wave_number(omega);
+  const double k = wave_number_of(omega);
   const Eigen::VectorXcd both = waves_of(amplitudes(0.025, {stroke, 0}, 2000)[0], {k, -k});
   const double exact = 2 * stroke * height_of_way(k * depth_of_tank);
   CHECK(2 * std::abs(both[0]) == Approx(exact).epsilon(0.045));  // 3 % too high
@@ -105,13 +105,13 @@ TEST_CASE("a paddle makes waves of the height of first-order theory", "[verifica
 TEST_CASE("a paddle that moves by second-order theory makes half of the short waves that run beside its own",
           "[verification][long]") {
   constexpr double stroke = 0.04;
-  const double k = wave_number(omega);
+  const double k = wave_number_of(omega);
   const double kd = k * depth_of_tank;
   const double height = 2 * stroke * height_of_way(kd);
   const double second =
       height * height / (32 * depth_of_tank) * (3 * std::cosh(kd) / std::pow(std::sinh(kd), 3) - 2 / height_of_way(kd));
   // Bound to the wave; free, away from the paddle and back from the beach.
-  const std::vector<double> numbers{2 * k, wave_number(2 * omega), -wave_number(2 * omega)};
+  const std::vector<double> numbers{2 * k, wave_number_of(2 * omega), -wave_number_of(2 * omega)};
   const Eigen::VectorXcd sine = waves_of(amplitudes(1. / 32, {stroke, 0}, 2400)[1], numbers);
   const Eigen::VectorXcd both = waves_of(amplitudes(1. / 32, {stroke, second}, 2400)[1], numbers);
   CAPTURE(std::abs(sine[1]), std::abs(both[1]));
