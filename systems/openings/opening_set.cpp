@@ -114,26 +114,55 @@ double inflow_rate(const Opening<Dim>& opening, double time) {
 }  // namespace
 
 template <int Dim>
+int OpeningSet<Dim>::at(const Grid<Dim>& grid, const Splines<Dim>& splines, std::size_t side, const Vec<Dim>& x) const {
+  if (!opens(side)) return no_opening;
+  const Side<Dim> of(grid, splines, side);
+  const auto nearest = of.nearest(of.within(x));
+  int first = of_face[side][nearest.index[0]];
+  for (std::size_t k = 1; k < nearest.count; ++k)  // no_opening is less than any
+    first = std::min(first, static_cast<int>(of_face[side][nearest.index[k]]));
+  return first;
+}
+
+template <int Dim>
 int OpeningSet<Dim>::left_through(const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) const {
+  const double rounding = 1e-9 * grid.spacing;
   int opening = no_opening;
   double farthest = 0;
   for (std::size_t side = 0; side < 2 * Dim; ++side) {
     const double distance = grid.periodic[side / 2] ? 0 : beyond<Dim>(grid, side, x);
-    if (distance <= farthest) continue;
+    if (distance == 0 || distance < farthest - rounding) continue;
     const int through = at(grid, splines, side, x);
-    if (through == no_opening) continue;
+    // As far beyond two sides: through the first opening of the scene.
+    const bool is_as_far = opening != no_opening && distance <= farthest + rounding;
+    if (through == no_opening || (is_as_far && through > opening)) continue;
     opening = through;
     farthest = distance;
   }
   return opening;
 }
 
+namespace {
+
+/// Which of two openings that a face lies in says more about it, the higher first. [1]
+enum class Rank { none, along_free, across_unknown, at_rest, along_prescribed, across_prescribed };
+
+template <int Dim>
+Rank rank_of(const Opening<Dim>& opening, bool across) {
+  if (opening.is_prescribed()) return across ? Rank::across_prescribed : Rank::along_prescribed;
+  if (across) return Rank::across_unknown;
+  return opening.has_pressure() ? Rank::at_rest : Rank::along_free;
+}
+
+}  // namespace
+
 template <int Dim>
 FaceCondition condition_at(const OpeningSet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines,
                            const Walls<Dim>& walls, const Index<Dim>& site, std::size_t d) {
   if (!splines.has_face(site, d)) return {true};
   const unsigned bit = 1U << d;
-  FaceCondition condition;
+  Rank highest = Rank::none;
+  int first = no_opening;
   for (std::size_t side = 0; side < 2 * Dim; ++side) {
     const std::size_t e = side / 2;
     if (splines.axis[e].periodic()) continue;
@@ -144,17 +173,13 @@ FaceCondition condition_at(const OpeningSet<Dim>& set, const Grid<Dim>& grid, co
       if ((walls.held[e][side % 2] & bit) != 0) return {true};
       continue;
     }
-    const Opening<Dim>& of_side = set.openings[static_cast<std::size_t>(opening)];
-    // What is prescribed across a side goes before what is prescribed along another one.
-    if (of_side.is_prescribed()) {
-      if (!condition.is_held || e == d) condition = {true, opening};
-    } else if (of_side.has_pressure() && e != d) {
-      if (!condition.is_held) condition = {true, no_opening};
-    } else if (!condition.is_held && (e == d || condition.opening == no_opening)) {
-      condition.opening = opening;
-    }
+    const Rank rank = rank_of<Dim>(set.openings[static_cast<std::size_t>(opening)], e == d);
+    if (rank < highest || (rank == highest && opening > first)) continue;
+    highest = rank;
+    first = opening;
   }
-  return condition;
+  if (highest == Rank::at_rest) return {true, no_opening};
+  return {highest >= Rank::along_prescribed, first};
 }
 
 template <int Dim>
@@ -173,10 +198,11 @@ opening::SideVelocity<Dim> prescribed_velocity(const Opening<Dim>& opening, cons
     return velocity;
   }
   Arguments arguments({.time = time, .ode = {}, .ode_count = 0});
+  const auto number = static_cast<int>(&opening - set.openings.data());
   for (std::size_t d = 0; d < Dim; ++d) {
     for (std::size_t k = 0; k < velocity.of[d].size(); ++k) {
       const Vec<Dim> x = side.place(side.site(k, d), d);
-      const double of_face = share[d == side.axis() ? k : side.nearest(x)];
+      const double of_face = d == side.axis() ? share[k] : set.at(grid, splines, opening.side, x) == number ? 1 : 0;
       if (of_face == 0) continue;
       const double value = opening.velocity[d](arguments.at<Dim>(x));
       require_finite_opening(opening.name, "inflow", value, time);

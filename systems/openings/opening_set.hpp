@@ -54,12 +54,10 @@ struct OpeningSet {
   static constexpr ComponentInfo info{"openings", "", "", Lifetime::constant};
 
   bool opens(std::size_t side) const { return !of_face[side].empty(); }
-  /// The opening at a point of a side, by the nearest face.
-  int at(const Grid<Dim>& grid, const Splines<Dim>& splines, std::size_t side, const Vec<Dim>& x) const {
-    if (!opens(side)) return no_opening;
-    const Side<Dim> of(grid, splines, side);
-    return of_face[side][of.nearest(of.within(x))];
-  }
+  /// The opening at a point of a side, by the nearest face. Half way between a face of it and one that is none's the
+  /// opening ends; half way between two openings the first of the scene has the point: neither end of a side goes
+  /// first.
+  int at(const Grid<Dim>& grid, const Splines<Dim>& splines, std::size_t side, const Vec<Dim>& x) const;
   /// The opening through which a point beyond a side has left the box.
   int left_through(const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) const;
 };

@@ -8,6 +8,10 @@ namespace minamo {
 
 namespace {
 
+/// How far inside a particle has to be at the end of a step that lets it in: where a column moves by whole spacings,
+/// rounding does not choose. [a]
+constexpr double well_in = 1e-9;
+
 /// What the potential energy is of; zero where there is none.
 template <int Dim>
 Vec<Dim> constant_force(const Grid<Dim>& grid, const BodyForce& b) {
@@ -72,28 +76,34 @@ class Columns {
     return x;
   }
   /// Whether a particle comes in at a point of the side, and not beyond its ends. Of one that comes over an edge
-  /// between two openings, the side with the lower number has it, whatever rounding says.
-  bool is_on_side(const Vec<Dim>& x, const OpeningSet<Dim>& set) const {
+  /// between two with inflow the first of the scene has it, whatever rounding says; of one that comes at the very edge
+  /// of another side, as it does when the columns move away from that.
+  /// \param number  of the opening
+  /// \param along   way of the columns along the side
+  bool is_on_side(const Vec<Dim>& x, const OpeningSet<Dim>& set, const Splines<Dim>& splines, std::size_t number,
+                  const Vec<Dim>& along) const {
     constexpr double rounding = 1e-8;
     for (std::size_t e = 0; e < Dim; ++e) {
       if (e == axis_ || grid_.periodic[e]) continue;
-      const auto margin = [&](std::size_t beside) {
-        if (!set.opens(beside)) return 0.0;
-        return (e > axis_ ? rounding : -rounding) * spacing_;
-      };
-      const double at = x[static_cast<Eigen::Index>(e)];
-      const double low = grid_.low[static_cast<Eigen::Index>(e)] - margin(2 * e);
-      const double high = grid_.high[static_cast<Eigen::Index>(e)] + margin(2 * e + 1);
-      if (at < low || at >= high) return false;
+      const auto d = static_cast<Eigen::Index>(e);
+      for (const std::size_t end : {0, 1}) {
+        const double inside = end == 0 ? x[d] - grid_.low[d] : grid_.high[d] - x[d];
+        if (inside > rounding * spacing_) continue;
+        const int beside = set.at(grid_, splines, 2 * e + end, x);
+        const bool is_own = beside != no_opening && set.openings[static_cast<std::size_t>(beside)].is_inflow()
+                                ? static_cast<int>(number) < beside
+                                : inward_of(2 * e + end) * along[d] > 0;
+        if (!is_own || inside < -rounding * spacing_) return false;
+      }
     }
     return true;
   }
-  /// Takes whole spacings from the drift, so that columns change their numbers.
+  /// Takes whole spacings from the drift, so that columns change their numbers: it is at most half of one.
   void renumber(Vec<Dim>& drift, std::span<double> values) const {
     for (std::size_t e = 0; e < Dim; ++e) {
       double& along = drift[static_cast<Eigen::Index>(e)];
-      for (; along >= spacing_; along -= spacing_) shift(e, -1, values);
-      for (; along < 0; along += spacing_) shift(e, 1, values);
+      for (; along > 0.5 * spacing_; along -= spacing_) shift(e, -1, values);
+      for (; along < -0.5 * spacing_; along += spacing_) shift(e, 1, values);
     }
   }
 
@@ -174,8 +184,8 @@ class Emission {
     };
     columns.for_each_that_may_come(drift, along, side.plane(), [&](std::size_t k, const Vec<Dim>& x) {
       const double across = moved(x);
-      for (double depth = front[k]; depth + across > 0; depth -= a) {
-        if (!columns.is_on_side(x + (-depth / across) * along, set_)) continue;
+      for (double depth = front[k]; depth + across > well_in * a; depth -= a) {
+        if (!columns.is_on_side(x + (-depth / across) * along, set_, splines_, o, along)) continue;
         Arrival<Dim> arrival{o, x, a, side.at(w_start, side.within(x))};
         arrival.x[axis] += side.inward() * depth;
         arrivals_.push_back(arrival);
@@ -183,8 +193,8 @@ class Emission {
     });
     for (std::size_t k = 0; k < front.size(); ++k) {
       front[k] += moved(columns.place(k, drift, side.plane()));
-      while (front[k] > 0) front[k] -= a;
-      while (front[k] <= -a) front[k] += a;
+      while (front[k] > well_in * a) front[k] -= a;
+      while (front[k] <= (well_in - 1) * a) front[k] += a;
     }
     drift += along;
     columns.renumber(drift, front);
@@ -198,9 +208,12 @@ class Emission {
     for (std::size_t k = 0; k < front.size(); ++k) {
       if (speed[k] <= 0) continue;
       const Vec<Dim> x = columns.place(k, Vec<Dim>::Zero(), side.plane());
-      if (!columns.is_on_side(x, set_) || pressure_outside<Dim>(opening, set_, density_, x, clock_.time) <= 0) continue;
-      for (double depth = front[k]; depth + clock_.step * speed[k] > 0; depth -= columns.spacing()) {
-        Arrival<Dim> arrival{o, x, columns.spacing(), {Vec<Dim>::Zero(), Mat<Dim>::Zero()}};
+      if (!columns.is_on_side(x, set_, splines_, o, Vec<Dim>::Zero()) ||
+          pressure_outside<Dim>(opening, set_, density_, x, clock_.time) <= 0)
+        continue;
+      const double a = columns.spacing();
+      for (double depth = front[k]; depth + clock_.step * speed[k] > well_in * a; depth -= a) {
+        Arrival<Dim> arrival{o, x, a, {Vec<Dim>::Zero(), Mat<Dim>::Zero()}};
         arrival.x[axis] += side.inward() * depth;
         arrival.velocity.value[axis] = side.inward() * speed[k];
         arrivals_.push_back(arrival);
@@ -233,8 +246,8 @@ void for_each_opening(const OpeningSet<Dim>& set, const Grid<Dim>& grid, const U
 
 template <int Dim>
 std::size_t columns_along(const Opening<Dim>& opening, const Grid<Dim>& grid, std::size_t axis) {
-  // Where there are walls one more: the columns that drift in from one end.
-  return static_cast<std::size_t>(opening.per_cell * grid.cells[axis]) + (grid.periodic[axis] ? 0 : 1);
+  // Where there are walls two more: those that drift in, from whichever end.
+  return static_cast<std::size_t>(opening.per_cell * grid.cells[axis]) + (grid.periodic[axis] ? 0 : 2);
 }
 
 template <int Dim>
@@ -303,15 +316,15 @@ void MoveColumns<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
     const double a = columns.spacing();
     for (std::size_t k = first; k < first + count; ++k) {
       const Vec<Dim> x = columns.place(k - first, Vec<Dim>::Zero(), side.plane());
-      const bool is_wet =
-          columns.is_on_side(x, *set) && pressure_outside<Dim>(opening, *set, fluid->density, x, clock->time) > 0;
+      const bool is_wet = columns.is_on_side(x, *set, *splines, o, Vec<Dim>::Zero()) &&
+                          pressure_outside<Dim>(opening, *set, fluid->density, x, clock->time) > 0;
       const double now = is_wet ? side.inward() * side.at(velocities->in_balances[o], side.within(x)).value[axis] : 0;
       const double moved = clock->step * now;
       // What was foreseen has come in as far as the column has moved.
       double depth = front[k];
-      while (speed[k] > 0 && depth + std::min(clock->step * speed[k], moved) > 0) depth -= a;
+      while (speed[k] > 0 && depth + std::min(clock->step * speed[k], moved) > well_in * a) depth -= a;
       front[k] = depth + moved;
-      while (front[k] <= -a) front[k] += a;
+      while (front[k] <= (well_in - 1) * a) front[k] += a;
       speed[k] = now;
     }
   });

@@ -12,6 +12,10 @@ namespace {
 template <int Dim>
 constexpr int parts = Dim == 2 ? 32 : 8;
 
+/// How far beside a middle it is tried, on both sides, as a share of a part: of edges that lie on middles either side
+/// of the box has the half, whatever rounding says.
+constexpr double beside = 1e-6;
+
 /// Shares of a face that `where` and bodies leave.
 struct Tried {
   double where = 0;
@@ -37,14 +41,15 @@ Tried try_face(const Vec<Dim>& x, std::size_t axis, const std::optional<Expressi
     return std::any_of(sides.bodies->bodies.begin(), sides.bodies->bodies.end(),
                        [&](const auto& body) { return !body.moves() && body.shape->distance(at) < 0; });
   };
-  Index<Dim> part{};
+  Index<Dim> tries{};
   double count = 0;
   for (;;) {
     Vec<Dim> at = low;
     for (std::size_t e = 0; e < Dim; ++e) {
       const auto d = static_cast<Eigen::Index>(e);
       if (e == axis) continue;
-      at[d] += width[d] * (part[e] + 0.5) / parts<Dim>;
+      const double place = 0.5 + (tries[e] % 2 == 0 ? -beside : beside);
+      at[d] += width[d] * (tries[e] / 2 + place) / parts<Dim>;
       const double length = grid.high[d] - grid.low[d];
       if (grid.periodic[e]) at[d] -= length * std::floor((at[d] - grid.low[d]) / length);
     }
@@ -54,7 +59,7 @@ Tried try_face(const Vec<Dim>& x, std::size_t axis, const std::optional<Expressi
       if (!is_in_body(at)) ++tried.open;
     }
     std::size_t e = 0;
-    while (e < Dim && (e == axis || ++part[e] == parts<Dim>)) part[e++] = 0;
+    while (e < Dim && (e == axis || ++tries[e] == 2 * parts<Dim>)) tries[e++] = 0;
     if (e == Dim) break;
   }
   return {tried.where / count, tried.open / count};

@@ -1,6 +1,7 @@
 #include "systems/openings/side.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace minamo {
 
@@ -69,23 +70,37 @@ double Side<Dim>::area(const Index<Dim>& site) const {
 }
 
 template <int Dim>
-std::size_t Side<Dim>::nearest(const Vec<Dim>& x) const {
-  Index<Dim> site;
-  site[axis_] = outermost(axis_);
+typename Side<Dim>::Nearest Side<Dim>::nearest(const Vec<Dim>& x) const {
+  // Lattices with a particle in the middle of a cell have it as near to both of its faces as rounding tells.
+  constexpr double rounding = 1e-9;  // [h]
+  std::array<Index<Dim>, power(2, Dim - 1)> site;
+  site[0][axis_] = outermost(axis_);
+  std::size_t count = 1;
   for (std::size_t e = 0; e < Dim; ++e) {
     if (e == axis_) continue;
     const auto axis = static_cast<Eigen::Index>(e);
-    const double r = (x[axis] - grid_->low[axis]) / grid_->spacing;
-    const AxisPlace at = axis_place(splines_->axis[e], r);
+    const AxisPlace at = axis_place(splines_->axis[e], (x[axis] - grid_->low[axis]) / grid_->spacing);
     const CellSplines& of = splines_->axis[e].of_cell(at.cell);
+    const auto distance = [&](int a) { return std::abs(of.across_place[static_cast<std::size_t>(a)] - at.xi); };
     int best = 0;
     for (int a = 1; a < splines_->degree; ++a) {
-      const auto distance = [&](int k) { return std::abs(of.across_place[static_cast<std::size_t>(k)] - at.xi); };
-      if (distance(a) <= distance(best)) best = a;
+      if (distance(a) < distance(best)) best = a;
     }
-    site[e] = splines_->axis[e].wrapped(at.cell + best);
+    std::optional<int> as_near;
+    for (int a = 0; a < splines_->degree; ++a) {
+      if (a != best && distance(a) <= distance(best) + rounding) as_near = a;
+    }
+    for (std::size_t k = 0; k < count; ++k) site[k][e] = splines_->axis[e].wrapped(at.cell + best);
+    if (!as_near) continue;
+    for (std::size_t k = 0; k < count; ++k) {
+      site[count + k] = site[k];
+      site[count + k][e] = splines_->axis[e].wrapped(at.cell + *as_near);
+    }
+    count *= 2;
   }
-  return index(site, axis_);
+  Nearest nearest{{}, count};
+  for (std::size_t k = 0; k < count; ++k) nearest.index[k] = index(site[k], axis_);
+  return nearest;
 }
 
 template <int Dim>

@@ -50,8 +50,12 @@ class Side {
   Vec<Dim> place(const Index<Dim>& site, std::size_t d) const;
   /// What its spline integrates to over the side, of a face across. [m^2; m in 2-D]
   double area(const Index<Dim>& site) const;
-  /// The face across whose Greville point is nearest to a point.
-  std::size_t nearest(const Vec<Dim>& x) const;
+  /// The faces across whose Greville points are nearest to a point: half way between two, whatever rounding says, both.
+  struct Nearest {
+    std::array<std::size_t, power(2, Dim - 1)> index;
+    std::size_t count;
+  };
+  Nearest nearest(const Vec<Dim>& x) const;
 
   /// Velocity at a point of the side, and its derivatives along the side; that across follows from the divergence, the
   /// others are zero.
