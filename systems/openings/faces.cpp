@@ -279,7 +279,7 @@ void PushAtOpenings<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Re
       if (l == staggered::none) return;
       const double filled = phi[static_cast<std::size_t>(l)] * side.area(site[i]);
       const double share = std::min(1.0, filled / (full_from * outside.wet[k]));
-      const double inwards = std::max(0.0, side.inward() * v_f[i][axis]);
+      const double inwards = opening.is_static ? 0 : std::max(0.0, side.inward() * v_f[i][axis]);
       const double head = 0.5 * fluid->density * inwards * inwards * outside.wet[k];
       F_f[i][axis] = side.inward() * share * (outside.pressure[k] - head);
       predictor[i][axis] += tau * mobility[i][axis] * F_f[i][axis];

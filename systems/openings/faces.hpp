@@ -63,8 +63,8 @@ struct FillAtOpenings {
 };
 
 /// (E99)  v*_f gets tau F_f/m_f of the pressure outside, F_f = -n int N_f p dA; of what comes in p is less by
-/// rho |v^n|^2/2, so that p is that of liquid at rest. Where the grid is emptier than what is under the level outside,
-/// in proportion.
+/// rho |v^n|^2/2 where it is that of liquid at rest, not where it is static. Where the grid is emptier than what is
+/// under the level outside, in proportion.
 template <int Dim>
 struct PushAtOpenings {
   static constexpr std::string_view doc = "(E99) pressure outside openings";

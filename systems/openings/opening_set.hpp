@@ -26,6 +26,7 @@ struct Opening {
   Expression rate;                   ///< into the box, in t [m^3/s; m^2/s in 2-D]
   std::optional<Expression> level;   ///< coordinate of the surface outside, in t [m]
   Expression pressure;               ///< outside, in x, y, z, t [Pa]
+  bool is_static = false;            ///< the pressure is that on the side, else that of liquid at rest outside
   int per_cell = 2;                  ///< particles that come in, per direction
   std::vector<double> share = {};    ///< of every face across that belongs to the opening, by Side::index() [1]
   std::vector<double> held = {};     ///< the same of faces that a wall beside the opening holds [1]

@@ -26,6 +26,7 @@ struct Flow {
   Expression rate;
   std::optional<Expression> level;
   Expression pressure;
+  bool is_static = false;
   int per_cell = 2;
 };
 
@@ -129,6 +130,11 @@ Flow read_pressure_outside(Input& input, const FlowRules& rules) {
                    flow.pressure = in.expression("pressure", of_place_and_time(rules.constants),
                                                  {.unit = "Pa", .doc = "outside, in place and t"});
                    if (!in.describing()) check_coordinates(in, "pressure", flow.pressure, rules.dimension);
+                   const std::vector<std::string> kinds{"static", "total"};
+                   flow.is_static = in.choice("kind", kinds,
+                                              "total: of a reservoir at rest, less rho v^2/2 where liquid comes in; "
+                                              "static: on the side itself",
+                                              "total") == "static";
                  }}});
   flow.per_cell = static_cast<int>(input.integer(
       "per_cell",
@@ -145,8 +151,11 @@ Json outflow_schema() {
   read_pressure_outside(description.root(), rules);
   Json schema = description.schema();
   schema.erase("$schema");
-  return {{"description", R"("free", or the pressure outside: {"level": m} or {"pressure": Pa})"},
-          {"oneOf", {{{"enum", {"free"}}}, schema}}};
+  return {
+      {"description",
+       R"("free", or the pressure outside: {"level": m} or {"pressure": Pa}, which is that of a reservoir at rest, )"
+       R"(the total pressure; with {"kind": "static"} that on the side itself)"},
+      {"oneOf", {{{"enum", {"free"}}}, schema}}};
 }
 
 /// "free", or an object. The problems of an object of its own are those of the scene at a place.
@@ -235,6 +244,7 @@ void read_opening(Input& input, Scene& scene, const FlowRules& rules, OpeningSet
   opening.rate = flow.rate;
   opening.level = flow.level;
   opening.pressure = flow.pressure;
+  opening.is_static = flow.is_static;
   opening.per_cell = flow.per_cell;
   check_inflow<Dim>(input, opening, side);
   set.openings.push_back(std::move(opening));
