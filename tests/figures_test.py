@@ -232,11 +232,20 @@ class Figures(unittest.TestCase):
         empty.mkdir()
         shutil.copy(WORK / "dam_break_tpic/scene.json", empty)
         self.expect_error("empty: no frames to draw; expected: at least one in fields.h5", "empty")
+        cut = WORK / "cut"
+        shutil.copytree(WORK / "dam_break_tpic", cut)
+        whole = (cut / "fields.h5").read_bytes()
+        for size in (0, 100, len(whole) // 2, len(whole) - 1):
+            (cut / "fields.h5").write_bytes(whole[:size])
+            done = figures("cut", "--no-movie")
+            self.assertEqual((done.returncode, done.stdout), (2, ""), size)
+            self.assertRegex(done.stderr, r"^cut: fields\.h5 cannot be read \(.*\)\n$")
         known = ("speed, pressure, velocity_x, velocity_y, vorticity, velocity_gradient_xx, velocity_gradient_xy, "
                  "velocity_gradient_yx, velocity_gradient_yy, id, mass, volume")
         self.expect_error(f"dam_break_tpic: unknown field \"presure\"; expected one of: {known}; nearest: pressure",
                           "dam_break_tpic", "--field", "presure")
-        self.expect_error("dam_break_tpic: t = 3 s is outside the run; expected: between 0 and 0.1 s",
+        self.expect_error("dam_break_tpic: t = 3 s is outside the run; expected: between 0 and 0.1 s; "
+                          "nearest: 0.1 s",
                           "dam_break_tpic", "--times", "0.1,3")
         self.expect_error("dam_break_tpic: no frame at t = 0.056 s; nearest: 0.05 and 0.06 s",
                           "dam_break_tpic", "--times", "0.056")

@@ -29,6 +29,7 @@ try:
     import h5py
     import numpy as np
 
+    from reporting.closed_pipes import readers_may_go
     from reporting.overlays import fits
     from reporting.runs import NoResults, Run
 except ModuleNotFoundError as missing:
@@ -175,6 +176,8 @@ def main() -> None:
     parser.add_argument("--from", dest="other", metavar="DIR", help="another run, to compare with in place of interFoam")
     options = parser.parse_args()
     runs = [Run(folder) for folder in options.folders]
+    for run in runs:
+        run.require_whole()
     folder, *others = {reference_of(run) for run in runs}
     if others:
         raise NoResults("runs with the obstacle and without are not compared with one reference; name them apart")
@@ -194,7 +197,8 @@ def main() -> None:
 
 if __name__ == "__main__":
     try:
-        main()
+        with readers_may_go():
+            main()
     except NoResults as problem:
         print(problem, file=sys.stderr)
         sys.exit(2)

@@ -25,6 +25,7 @@ sys.dont_write_bytecode = True
 try:
     import numpy as np
 
+    from reporting.closed_pipes import readers_may_go
     from reporting.runs import NoResults, Run
 except ModuleNotFoundError as missing:
     sys.exit(f"tools/standing_wave.py needs the python module {missing.name}. Type this line, then call it again:\n"
@@ -107,7 +108,8 @@ def main() -> None:
 
 if __name__ == "__main__":
     try:
-        main()
+        with readers_may_go():
+            main()
     except NoResults as problem:
         print(problem, file=sys.stderr)
         sys.exit(2)

@@ -314,8 +314,13 @@ class WithoutResults(PageTest):
 
     def test_a_broken_fields_h5_is_named(self) -> None:
         folder = RESULTS.run("paper/dam_break_tpic", "broken", "/time/end=0.01")
-        (folder / "fields.h5").write_bytes(b"not HDF5")
-        self.open(RESULTS.page(folder))
+        whole = (folder / "fields.h5").read_bytes()
+        for broken in (b"not HDF5", whole[:-1]):
+            (folder / "fields.h5").write_bytes(broken)
+            ended = RESULTS.report(folder)
+            self.assertEqual(2, ended.returncode)
+            self.assertRegex(ended.stderr, r"^\S*/broken: fields\.h5 cannot be read \(.*\)\n$")
+        self.open(folder / "report.html")
         self.assertIn("fields.h5 cannot be read", self.text("p.failed:not(#problem)"))
         self.assertGreater(self.js("document.querySelectorAll('#plots canvas').length"), 5)
 

@@ -27,6 +27,7 @@ from figuring.plots import draw_history, draw_systems
 from figuring.rendering import Rendering, render
 from figuring.strips import Strip, draw_strip
 from figuring.views import Slice, check_slice, read_slice
+from reporting.closed_pipes import readers_may_go
 from reporting.references import read_references
 from reporting.runs import NoResults, Run, telling_times
 
@@ -117,6 +118,7 @@ def document_arguments(name: str) -> argparse.Namespace:
 def read_run(folder: str) -> Run:
     """A run that has at least one frame."""
     run = Run(folder)
+    run.require_whole()
     if len(run.times) == 0:
         raise NoResults(f"{folder}: no frames to draw; expected: at least one in fields.h5")
     return run
@@ -170,10 +172,11 @@ def document(name: str) -> None:
 if __name__ == "__main__":
     np.seterr(all="ignore")  # runs that went beyond all numbers are drawn as well
     try:
-        if len(sys.argv) > 1 and sys.argv[1] in DOCUMENTS:
-            document(sys.argv[1])
-        else:
-            figures(arguments())
+        with readers_may_go():
+            if len(sys.argv) > 1 and sys.argv[1] in DOCUMENTS:
+                document(sys.argv[1])
+            else:
+                figures(arguments())
     except NoResults as problem:
         print(problem, file=sys.stderr)
         sys.exit(2)

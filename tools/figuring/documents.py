@@ -77,21 +77,24 @@ def _write_figure(figure: Figure, scenes: Path, results: Path, out: Path) -> Pat
 def _run(scene: Path, folder: Path) -> Run:
     if not scene.is_file():
         raise NoResults(f"{scene}: no such scene")
-    if not _is_there(scene, folder):
+    there = _is_there(scene, folder)
+    if there is None or not there.summary.get("complete", False):
         program = os.environ.get("MINAMO")
         command = [program, "run"] if program else [str(ROOT / "tools/run")]
-        status = subprocess.run([*command, str(scene), "--out", str(folder)], check=False).returncode
+        # What was begun and is this very scene goes on; what else is unfinished there minamo does not replace.
+        more = ["--resume"] if there and (folder / "checkpoint.h5").is_file() else []
+        status = subprocess.run([*command, str(scene), "--out", str(folder), *more], check=False).returncode
         if status != 0:
             sys.exit(status)  # minamo has said why
     return Run(folder)
 
 
-def _is_there(scene: Path, folder: Path) -> bool:
-    """Whether the folder has all results of this very scene."""
+def _is_there(scene: Path, folder: Path) -> Run | None:
+    """The run of this very scene in the folder, finished or not, if there is one."""
     if not (folder / "scene.json").is_file():
-        return False
+        return None
     run = Run(folder)
-    return run.summary.get("complete", False) and _contains(run.scene, json.loads(scene.read_text()))
+    return run if _contains(run.scene, json.loads(scene.read_text())) else None
 
 
 def _contains(whole: Any, part: Any) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.animation import FFMpegWriter
 
 from figuring.fields import Field
-from figuring.layout import Margins, colour_bar, label_outer, lay_out
+from figuring.layout import Margins, Sheet
 from figuring.panels import Look, draw_panel
 from figuring.strips import scale
 from figuring.views import Slice, View, plane_of, view_of
@@ -41,22 +41,27 @@ def write_movie(path: Path, runs: list[Run], field: Field, cut: Slice | None, pe
                for index in np.unique(np.linspace(0, len(run.times) - 1, SAMPLES).round())]
     norm, extend = scale(field, samples, cut)
     views = [[_view(run, samples, cut) for run in row] for row in rows]
-    figure, panels = lay_out(views, _margins(runs, cut))
-    colour_bar(figure, field, norm, extend)
-    title = figure.text(0.5, 1 - 0.16 / figure.get_figheight(), "", fontsize=10, ha="center", va="center")
-    names = dict(zip(map(id, runs), labels(runs)))
-    cells = [cell for row in zip(panels, rows, views) for cell in zip(*row)]
+    sheet = Sheet(views, _margins(runs, cut))
+    sheet.add_colour_bar(field, norm, extend)
+    if len(runs) > 1:
+        for k, name in enumerate(labels(runs)):
+            sheet.name_panel(k // MOST_IN_A_ROW, k % MOST_IN_A_ROW, name)
+    cells = [cell for row in zip(sheet.panels, rows, views) for cell in zip(*row)]
+
+    def draw(time: float) -> None:
+        sheet.head.set_text((f"{cut.name},  " if cut else "") + f"$t$ = {_written(time, times)} s")
+        for panel, run, view in cells:
+            panel.clear()
+            draw_panel(panel, Look(field, norm, cut), run, _last_until(run, time), time, view)
+        sheet.dress()
+
+    draw(times[-1])
+    sheet.settle()
     writer = FFMpegWriter(fps=per_second or frames_per_second(len(times)), codec="h264",
                           extra_args=["-crf", "20", "-movflags", "+faststart", "-threads", "1"])
-    with writer.saving(figure, str(path), DOTS_PER_INCH):
+    with writer.saving(sheet.figure, str(path), DOTS_PER_INCH):
         for time in times:
-            title.set_text((f"{cut.name},  " if cut else "") + f"$t$ = {_written(time, times)} s")
-            for panel, run, view in cells:
-                panel.clear()
-                draw_panel(panel, Look(field, norm, cut), run, _last_until(run, time), time, view)
-                if len(runs) > 1:
-                    panel.set_title(names[id(run)], fontsize=9, pad=4)
-            label_outer(panels)
+            draw(time)
             writer.grab_frame()
 
 

@@ -11,6 +11,7 @@ from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.colors import Normalize
 
 from figuring.fields import Field
+from figuring.labels import width_of
 from figuring.solids import draw_flat_bodies, draw_solid_bodies, has_bodies, hidden_by_bodies
 from figuring.views import AXES, Slice, View, place, plane_of
 from reporting.projection import project
@@ -42,8 +43,8 @@ def draw_panel(panel, look: Look, run: Run, index: int | None, time: float, view
     _draw_axes(panel, run, look.cut, view)
     _draw_box(panel, run, look.cut)
     if index is None:
-        panel.text(0.5, 0.5, _absence(run, time), transform=panel.transAxes, ha="center", va="center", color="0.4",
-                   fontsize=8)
+        absent = panel.text(0.5, 0.5, "", transform=panel.transAxes, ha="center", va="center", color="0.4", fontsize=8)
+        absent.whole = _absence(run, time)  # the sheet breaks it into lines
         return
     _draw_frame(panel, look, run, index)
     if run.dimension == 2 and has_surface(run, index):
@@ -156,9 +157,12 @@ def _name_edges(panel, corners: np.ndarray, places: np.ndarray, outline: list[tu
         angle = (angle + 89) % 180 - 89  # to be read from below, or from the right
         outward = np.array([-direction[1], direction[0]]) / np.linalg.norm(direction)
         outward *= np.sign(outward @ (ends.mean(axis=0) - middle))
-        panel.annotate(f"${AXES[axis]}$: {np.linalg.norm(corners[a] - corners[b]):.4g} m", ends.mean(axis=0),
-                       8 * outward, textcoords="offset points", rotation=angle, rotation_mode="anchor", ha="center",
-                       va="center", fontsize=7, annotation_clip=False)
+        length = f"{np.linalg.norm(corners[a] - corners[b]):.4g} m"
+        inches = panel.get_position().width * panel.figure.get_figwidth() / np.ptp(panel.get_xlim())
+        longer = width_of(f"x: {length}", 7) - np.linalg.norm(direction) * inches  # than the edge: it stands farther off
+        panel.annotate(f"${AXES[axis]}$: {length}", ends.mean(axis=0), (8 + 72 * max(0.0, longer)) * outward,
+                       textcoords="offset points", rotation=angle, rotation_mode="anchor", ha="center", va="center",
+                       fontsize=7, annotation_clip=False)
 
 
 def _wall_style(run: Run, axis: int) -> str:

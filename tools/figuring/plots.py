@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter, ScalarFormatter
 
+from figuring.labels import box_of, fitting_legend, wrapped
 from reporting.histories import Plot, plots
 from reporting.runs import Run, labels
 
 COLOURS = 3 * ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")  # told apart by all eyes
+BESIDE_TITLE = 0.6  # of a column of panels: numbers of the axis, and the gap between columns [inch]
 STYLES = ("solid", (0, (4, 1.5)), (0, (1, 1)))
 
 
@@ -20,19 +23,35 @@ def draw_history(runs: list[Run], width: float = 10.0, across: int = 3) -> Figur
     if not shown:
         return None
     down = -(-len(shown) // across)
-    head = 0.3 if len(runs) > 1 else 0.0
-    height = 1.9 * down + 0.2 + head
-    figure = Figure(figsize=(width, height), constrained_layout={"rect": (0, 0, 1, 1 - head / height), "h_pad": 0.08})
+    titles = [_title(panel, width / across - BESIDE_TITLE) for panel in shown]
+    figure = _page(runs, width, 1.9 * down + 0.2 + sum(0.15 * max(title.count("\n") for title in titles[k:k + across])
+                                                       for k in range(0, len(titles), across)))
     axes = figure.subplots(down, across, squeeze=False).flatten()
-    for place, panel in zip(axes, shown):
+    for place, panel, title in zip(axes, shown, titles):
         _draw_panel(place, panel, runs)
+        place.set_title(title, fontsize=9.5, loc="left")
     for place in axes[len(shown):]:
         place.set_axis_off()
     for place in axes[across * (down - 1):]:
         place.set_xlabel("$t$ [s]", fontsize=9)
+    return figure
+
+
+def _title(panel: Plot, width: float) -> str:
+    """In lines within a column of panels. [inch]"""
+    return wrapped(panel.title + (f" [{panel.unit}]" if panel.unit else ""), width, 9.5)
+
+
+def _page(runs: list[Run], width: float, height: float) -> Figure:
+    """Empty, with a legend of several runs above, which the height is without. [inch]"""
+    figure = Figure(figsize=(width, height))
+    FigureCanvasAgg(figure)
+    head = 0.0
     if len(runs) > 1:
-        lines = [Line2D([], [], color=colour, linewidth=1.6) for colour in COLOURS]
-        figure.legend(lines, labels(runs), loc="upper center", ncol=len(runs), frameon=False, fontsize=10)
+        lines = [Line2D([], [], color=colour, linewidth=1.6) for colour in COLOURS[:len(runs)]]
+        head = box_of(fitting_legend(figure, lines, labels(runs), 10, loc="upper center")).height
+        figure.set_figheight(height + head)
+    figure.set_layout_engine("constrained", rect=(0, 0, 1, 1 - head / (height + head)), h_pad=0.08)
     return figure
 
 
@@ -43,7 +62,6 @@ def _draw_panel(axes, panel: Plot, runs: list[Run]) -> None:
             if values is not None:
                 axes.plot(run.history["time"], values, linestyle=STYLES[j], label=name, linewidth=0.8,
                           color=COLOURS[k if len(runs) > 1 else j])
-    axes.set_title(panel.title + (f" [{panel.unit}]" if panel.unit else ""), fontsize=9.5, loc="left")
     _quiet(axes)
     _logarithmic(axes) if panel.logarithmic else _linear(axes)
     if any(panel.columns.values()):
@@ -91,12 +109,13 @@ def draw_systems(runs: list[Run], width: float = 10.0, count: int = 12) -> Figur
 
 
 def _bars(runs: list[Run], bars: list[list[float]], captions: list[str], width: float) -> Figure:
-    figure = Figure(figsize=(width, 0.4 + len(captions) * (0.12 + 0.14 * len(runs))), constrained_layout=True)
+    captions = [wrapped(caption, 0.4 * width, 8.5, 2) for caption in captions]
+    figure = _page(runs, width, 0.4 + len(captions) * (0.12 + 0.14 * len(runs)))
     axes = figure.subplots()
     thick = 0.8 / len(runs)
-    for k, (run, row, label) in enumerate(zip(runs, bars, labels(runs))):
+    for k, (run, row) in enumerate(zip(runs, bars)):
         places = np.arange(len(row)) + (k - 0.5 * (len(runs) - 1)) * thick
-        drawn = axes.barh(places, row, 0.92 * thick, color=COLOURS[k], label=label)
+        drawn = axes.barh(places, row, 0.92 * thick, color=COLOURS[k])
         wall = run.summary["wall_s"]
         texts = [f"{value:.3g} s   {100 * value / wall:.1f} %" if value else "" for value in row]
         axes.bar_label(drawn, texts, padding=4, fontsize=8)
@@ -106,6 +125,4 @@ def _bars(runs: list[Run], bars: list[list[float]], captions: list[str], width: 
     _quiet(axes)
     axes.grid(axis="y", visible=False)
     axes.margins(x=0.16, y=0.01)
-    if len(runs) > 1:
-        axes.legend(loc="lower right", frameon=False, fontsize=10)
     return figure

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from figuring.smoothing import smooth
-from figuring.strips import index_at
+from figuring.strips import check_time, index_at
 from reporting.bodies import bodies_of
 from reporting.runs import NoResults, Run
 from reporting.surfaces import surface_file, surface_of
@@ -74,6 +74,5 @@ def _upright(run: Run, points: np.ndarray) -> np.ndarray:
 def _frame_at(run: Run, time: float) -> int:
     frame = index_at(run, time)
     if frame is None:
-        raise NoResults(f"{run.folder}: no frame at t = {time:g} s; expected one of: "
-                        + ", ".join(f"{t:.4g}" for t in run.times))
+        check_time([run], time)
     return frame

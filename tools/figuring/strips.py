@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from figuring.fields import SIGNED, Field
-from figuring.layout import Margins, colour_bar, label_outer, lay_out
+from figuring.layout import Margins, Sheet
 from figuring.panels import REFERENCE_COLOURS, Look, draw_panel, reference_colours
 from figuring.views import Slice, place, plane_of, view_of
 from reporting.references import Curves, corners_at
@@ -51,15 +51,17 @@ def draw_strip(strip: Strip) -> Figure:
     norm, extend = scale(strip.field, [(cell.run, cell.index) for cell in cells if cell.index is not None], strip.cut)
     look = Look(strip.field, norm, strip.cut, strip.references, strip.corners)
     views = {id(run): view_of(run, _in_the_box_of(run, strip, cells), strip.cut) for run in strip.runs}
-    figure, panels = lay_out([[views[id(cell.run)] for cell in row] for row in rows], _margins(strip, rows))
-    for row, axes in zip(rows, panels):
+    sheet = Sheet([[views[id(cell.run)] for cell in row] for row in rows], _margins(strip, rows))
+    for row, axes in zip(rows, sheet.panels):
         for cell, panel in zip(row, axes):
             draw_panel(panel, look, cell.run, cell.index, cell.time, views[id(cell.run)])
-    label_outer(panels)
-    _name_rows_and_columns(strip, panels)
-    colour_bar(figure, strip.field, norm, extend)
-    _legend(figure, strip)
-    return figure
+    _name_columns(strip, sheet.panels)
+    if len(strip.runs) > 1:
+        sheet.name_rows(labels(strip.runs))
+    sheet.add_colour_bar(strip.field, norm, extend)
+    sheet.add_legend(_lines(strip))
+    sheet.settle()
+    return sheet.figure
 
 
 def index_at(run: Run, time: float) -> int | None:
@@ -75,7 +77,8 @@ def check_time(runs: list[Run], time: float) -> None:
     run = max(runs, key=lambda run: run.times[-1])
     first, last = run.times[0], run.times[-1]
     if not first <= time <= last:
-        raise NoResults(f"{run.folder}: t = {time:g} s is outside the run; expected: between {first:g} and {last:g} s")
+        raise NoResults(f"{run.folder}: t = {time:g} s is outside the run; expected: between {first:g} and {last:g} s; "
+                        f"nearest: {first if time < first else last:.6g} s")
     near = sorted(run.times[np.argsort(np.abs(run.times - time))[:2]])
     raise NoResults(f"{run.folder}: no frame at t = {time:g} s; nearest: {' and '.join(f'{t:.6g}' for t in near)} s")
 
@@ -125,33 +128,24 @@ def _values(shown: Field, run: Run, columns: dict[str, np.ndarray], cut: Slice |
 
 
 def _margins(strip: Strip, rows: list[list[Cell]]) -> Margins:
-    named = len(strip.runs) > 1
     in_space = all(plane_of(run, strip.cut) is None for run in strip.runs)
-    legend = 0.26 if strip.references or strip.corners else 0.0
-    return Margins(left=(0.15 if in_space else 0.5) + (0.28 if named else 0.0),
-                   bottom=legend + (0.12 if in_space else 0.42), down=0.1 if named or len(rows) == 1 else 0.3)
+    return Margins(left=0.15 if in_space else 0.5, bottom=0.12 if in_space else 0.42,
+                   down=0.1 if len(strip.runs) > 1 or len(rows) == 1 else 0.3)
 
 
-def _name_rows_and_columns(strip: Strip, panels: list[list]) -> None:
+def _name_columns(strip: Strip, panels: list[list]) -> None:
     decimals = max(len(f"{time:.4g}".partition(".")[2]) for time in strip.times)
     named = [panels[0]] if len(strip.runs) > 1 else panels
     cut = f"${strip.cut.name[0]}$ {strip.cut.name[2:]}, " if strip.cut else ""
     for panel, time in zip([panel for row in named for panel in row], strip.times):
         panel.set_title(f"{cut}$t$ = {time:.{decimals}f} s", fontsize=9, pad=4)
-    if len(strip.runs) == 1:
-        return
-    for row, label in zip(panels, labels(strip.runs)):
-        row[0].annotate(label, (0, 0.5), (-34 if row[0].axison else -12, 0), xycoords="axes fraction",
-                        textcoords="offset points", rotation=90, ha="right", va="center", fontsize=10,
-                        fontweight="bold")
 
 
-def _legend(figure: Figure, strip: Strip) -> None:
+def _lines(strip: Strip) -> list[Line2D]:
+    """What the legend explains."""
     lines = [Line2D([], [], color=colour, linewidth=1.2, label=name)
              for name, colour in reference_colours(strip.references, strip.times).items()]
     if strip.corners:
         lines.append(Line2D([], [], color=REFERENCE_COLOURS[0], marker="x", linewidth=0.8, markersize=5,
                             label="path of the corners, exact"))
-    if lines:
-        figure.legend(handles=lines, loc="lower center", ncol=len(lines), frameon=False, fontsize=8.5,
-                      bbox_to_anchor=(0.5, 0.0), borderaxespad=0.2)
+    return lines

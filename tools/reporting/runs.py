@@ -51,6 +51,11 @@ class Run:
         self.history = self._history()
         self.times = self._times()
 
+    def require_whole(self) -> None:
+        """NoResults if a file is there that cannot be read."""
+        if self.problems:
+            raise NoResults("\n".join(self.problems))
+
     def _json(self, name: str) -> dict[str, Any]:
         path = self.folder / name
         try:
@@ -61,12 +66,12 @@ class Run:
 
     def _history(self) -> dict[str, np.ndarray]:
         path = self.folder / "history.csv"
-        lines = path.read_text().splitlines() if path.is_file() else []
+        # The last row may be half written while the run goes on, within a number, too.
+        lines = path.read_text().rpartition("\n")[0].splitlines() if path.is_file() else []
         if not lines:
             return {}
         header, *rows = lines
         names = header.split(",")
-        # The last row may be half written while the run goes on.
         cells = [row.split(",") for row in rows if row.count(",") == len(names) - 1]
         values = np.array([[float(cell or "nan") for cell in row] for row in cells]).reshape(-1, len(names))
         return dict(zip(names, values.T))

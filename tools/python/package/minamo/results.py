@@ -53,7 +53,10 @@ class Run:
         path = self.folder / "fields.h5"
         if not path.is_file():
             raise _missing(path, "the fields of a run")
-        return h5py.File(path, "r")
+        try:
+            return h5py.File(path, "r")
+        except OSError as error:  # HDF5 does not say which file
+            raise OSError(f"{path}: cannot be read: {error}") from error
 
     @property
     def times(self) -> np.ndarray:
