@@ -64,7 +64,6 @@ def unknown_name(name: str) -> str:
 
 
 def list_cases() -> None:
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # into `head`, which reads no further
     for section in SECTIONS:
         print(section)
         for case in CASES:
@@ -131,6 +130,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # into `head`, which reads no further
     try:
         main()
     except BenchmarkFailed as problem:

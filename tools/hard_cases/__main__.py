@@ -66,7 +66,6 @@ def arguments() -> argparse.Namespace:
 
 
 def list_cases() -> None:
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # into `head`, which reads no further
     for section in SECTIONS:
         print(section)
         for case in CASES:
@@ -160,6 +159,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # into `head`, which reads no further
     try:
         main()
     except SuiteFailed as problem:

@@ -11,6 +11,7 @@ import argparse
 import csv
 import difflib
 import json
+import signal
 import sys
 from pathlib import Path
 from typing import Any
@@ -148,4 +149,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # into `head`, which reads no further
     main()
