@@ -1,5 +1,6 @@
 #include "tools/commands.hpp"
 #include "tools/minamo.hpp"
+#include "tools/terminal.hpp"
 #include "tools/version.hpp"
 
 #include "engine/communicator.hpp"
@@ -110,7 +111,10 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->allow_extra_args(false)
       ->option_text("/pointer=JSON");
   app.add_option("--steps", options.steps, "stop after so many steps of the whole run")->check(whole_number(0));
-  app.add_flag("--resume", options.resume, "go on from the checkpoint in the folder for the results");
+  CLI::Option* resume =
+      app.add_flag("--resume", options.resume, "go on from the checkpoint in the folder for the results");
+  app.add_flag("--overwrite", options.overwrite, "replace the results of an unfinished run in that folder")
+      ->excludes(resume);
   app.add_option("--profile", options.trace,
                  "print time per system and write a Chrome trace; by default OUT/trace.json")
       ->expected(0, 1)
@@ -203,6 +207,14 @@ int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) 
   return show_schema(show.as_table, registry);
 }
 
+/// The log on stderr, for which the line at the foot of a terminal makes way.
+class LogAboveFoot final : public spdlog::sinks::stderr_color_sink_mt {
+  void log(const spdlog::details::log_msg& message) override {
+    clear_foot();
+    spdlog::sinks::stderr_color_sink_mt::log(message);
+  }
+};
+
 /// Copies of this program that know nothing of each other would overwrite each other's results.
 void require_one_process() {
   const char* processes = std::getenv("OMPI_COMM_WORLD_SIZE");
@@ -226,7 +238,8 @@ int run_command(int argc, const char* const* argv, const std::function<void(Syst
     if (add) add(registry);
     require_one_process();
     const int code = dispatch(argc, argv, registry);
-    if (!std::cout.flush()) throw std::runtime_error("stdout: cannot be written");
+    // Who reads a part, as `| head` does, has what it wants.
+    if (!std::cout.flush() && !reader_has_gone()) throw std::runtime_error("stdout: cannot be written");
     return code;
   } catch (const InputError& error) {
     say(error.what());
@@ -248,11 +261,11 @@ int run_command(int argc, const char* const* argv, const std::function<void(Syst
 }  // namespace
 
 int run(int argc, const char* const* argv, const std::function<void(SystemRegistry&)>& add) {
-  const auto logger = spdlog::stderr_color_mt("minamo");
+  const auto logger = std::make_shared<spdlog::logger>("minamo", std::make_shared<LogAboveFoot>());
   logger->set_pattern("%v");
   spdlog::set_default_logger(logger);
-  // A reader that goes away, as in `| head`, and a file that may not grow are errors like a full disk, not the end of
-  // the program.
+  // A reader that goes away, as in `| head`, and a file that may not grow are not the end of the program: a run goes on
+  // without the one, and reports the other as it does a full disk.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   // What all ranks would say, one says.

@@ -21,8 +21,8 @@ namespace minamo {
 
 namespace {
 
-const std::vector<std::string> names{"overlap", "pressure", "velocity"};
-constexpr std::string_view doc = "what the variants are compared by";
+const std::vector<std::string> errors_of_summary{"overlap", "pressure", "velocity"};
+constexpr std::string_view doc_of_error = "what the variants are compared by";
 
 ErrorOfHistory read_history(Input& in) {
   ErrorOfHistory error;
@@ -144,18 +144,20 @@ double relative(double value, double exact) { return std::abs(value - exact) / s
 }  // namespace
 
 ErrorMeasure read_error_measure(Input& input) {
-  if (input.names("error").empty() && !input.describing()) return ErrorOfSummary{input.choice("error", names, doc)};
+  if (input.names("error").empty() && !input.describing())
+    return ErrorOfSummary{input.choice("error", errors_of_summary, doc_of_error)};
   ErrorMeasure measure;
-  input.object("error", doc, Input::Presence::required, [&](Input& error) {
-    error.one_of(doc, {{"history", [&](Input& in) { measure = read_history(in); }},
-                       {"farthest",
-                        [&](Input& in) {
-                          measure = ErrorOfFarthest{in.number(
-                              "farthest", {.unit = "m",
-                                           .doc = "largest distance of a particle from the centre of mass at the end",
-                                           .above = 0})};
-                        }},
-                       {"program", [&](Input& in) { measure = read_program(in); }}});
+  input.object("error", doc_of_error, Input::Presence::required, [&](Input& error) {
+    error.one_of(
+        doc_of_error,
+        {{"history", [&](Input& in) { measure = read_history(in); }},
+         {"farthest",
+          [&](Input& in) {
+            measure = ErrorOfFarthest{in.number(
+                "farthest",
+                {.unit = "m", .doc = "largest distance of a particle from the centre of mass at the end", .above = 0})};
+          }},
+         {"program", [&](Input& in) { measure = read_program(in); }}});
   });
   return measure;
 }

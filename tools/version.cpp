@@ -40,9 +40,9 @@ Json package_versions() {
 
 Json build_facts() {
   Json facts;
-  for (const auto& [name, fact] :
-       {std::pair("commit", build::commit), std::pair("compiler", build::compiler), std::pair("type", build::type),
-        std::pair("flags", build::flags), std::pair("processor", build::processor)}) {
+  for (const auto& [name, fact] : {std::pair("commit", build::commit), std::pair("compiler", build::compiler),
+                                   std::pair("type", build::type), std::pair("flags", build::flags),
+                                   std::pair("options", build::options), std::pair("processor", build::processor)}) {
     if (!fact.empty()) facts[name] = fact;
   }
   facts["packages"] = package_versions();
@@ -57,6 +57,7 @@ std::string version_text() {
     }
   };
   const Json facts = build_facts();
+  if (!facts.contains("commit")) text += fmt::format("\n{:12} {}", "commit", "unknown: not built in a checkout of git");
   add_lines(facts);
   add_lines(facts["packages"]);
   return text;

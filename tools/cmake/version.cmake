@@ -11,6 +11,13 @@ if(MINAMO_SANITIZE)
   string(APPEND minamo_flags " sanitizer: ${MINAMO_SANITIZE}")
 endif()
 
+# As they are given to CMake.
+set(minamo_options "")
+foreach(option NATIVE MPI PYTHON OPENVDB SANITIZE DEVELOPER)
+  list(APPEND minamo_options "MINAMO_${option}=${MINAMO_${option}}")
+endforeach()
+string(JOIN " " minamo_options ${minamo_options})
+
 # What -march=native means here; other compilers than GCC do not tell.
 set(minamo_processor "")
 execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${minamo_public_options} -Q --help=target

@@ -1,6 +1,7 @@
 #include "problems.hpp"
 
 #include "engine/schedule.hpp"
+#include "tools/terminal.hpp"
 
 #include <spdlog/details/null_mutex.h>
 #include <spdlog/sinks/base_sink.h>
@@ -34,6 +35,7 @@ void translate(std::exception_ptr thrown) {
 /// The interpreter's lock is the sink's: a second one could be waited for by who holds the first.
 class PythonLog final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
   void sink_it_(const spdlog::details::log_msg& message) override {
+    clear_foot();
     const py::gil_scoped_acquire lock;
     const py::object logger = py::module_::import("logging").attr("getLogger")("minamo");
     const bool is_warning = message.level >= spdlog::level::warn;
