@@ -34,6 +34,7 @@ int report(const RunResult& result, const Scene& scene, const fs::path& folder, 
     return exit_failed;
   }
   if (result.was_over) {
+    if (quiet) return exit_done;
     spdlog::info("{} is complete: t = {:.6g} s after {} steps; nothing to do", folder.string(), result.clock.time,
                  result.clock.index);
     return exit_done;
@@ -63,11 +64,12 @@ int run_scene(const RunOptions& options, const SystemRegistry& registry) {
                      .threads = threads,
                      .steps = options.steps,
                      .beginning = options.resume ? Beginning::continuation : Beginning::start,
+                     .replaced = options.overwrite ? Replaced::all_runs : Replaced::finished_runs,
                      .quiet = options.quiet,
                      .at_end = {}};
   const RunResult result = run_into_folder(file, plan, profiler, stop_on_signal());
   if (options.profile && writes_for_all()) {
-    std::cout << profiler.table(result.loop_seconds);
+    if (!options.quiet) std::cout << profiler.table(result.loop_seconds);
     profiler.write_trace(options.trace.empty() ? (folder / "trace.json").string() : options.trace);
   }
   return report(result, file.scene, folder, options.quiet);

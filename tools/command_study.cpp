@@ -196,6 +196,7 @@ int run_study(const StudyOptions& options, const SystemRegistry& registry) {
                      .inputs = inputs,
                      .threads = threads,
                      .steps = {},
+                     .replaced = Replaced::own_runs,
                      .quiet = options.quiet,
                      .at_end = {}};
   const std::atomic<bool>& stop = stop_on_signal();

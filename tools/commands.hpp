@@ -22,6 +22,7 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< /pointer=JSON
   std::optional<std::int64_t> steps;
   bool resume = false;
+  bool overwrite = false;
   bool profile = false;
   std::string trace;  ///< empty: OUT/trace.json
   bool quiet = false;

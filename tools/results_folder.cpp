@@ -3,7 +3,6 @@
 #include "systems/surface/surface_folder.hpp"
 
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -56,14 +55,6 @@ void refuse_inputs(const std::vector<fs::path>& inputs, const fs::path& folder,
                         {}});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-}
-
-/// The scene of the results in a folder; empty if nobody knows.
-std::string scene_of_results(const fs::path& folder) {
-  std::ifstream file(folder / "summary.json");
-  const Json summary = Json::parse(file, nullptr, false);
-  const bool says = summary.is_object() && summary.contains("scene") && summary["scene"].is_string();
-  return says ? summary["scene"].get<std::string>() : std::string();
 }
 
 }  // namespace
@@ -137,14 +128,6 @@ void require_kept(const std::vector<fs::path>& inputs, const fs::path& folder) {
 
 void require_kept(const std::vector<fs::path>& inputs, const fs::path& folder, std::span<const char* const> names) {
   refuse_inputs(inputs, folder, [&](const fs::path& input) { return is_one_of(names, input, folder); });
-}
-
-void warn_of_other_scene(const fs::path& folder, const std::string& scene) {
-  const std::string before = scene_of_results(folder);
-  const bool is_same = fs::path(before).lexically_normal() == fs::path(scene).lexically_normal();
-  const bool is_its_own = is_same_file(folder / scene_as_run, scene);
-  if (before.empty() || is_same || is_its_own || is_same_file(before, scene)) return;
-  spdlog::warn("{}: results of {} are replaced", folder.string(), before);
 }
 
 }  // namespace minamo

@@ -50,7 +50,4 @@ void require_kept(const std::vector<std::filesystem::path>& inputs, const std::f
 void require_kept(const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& folder,
                   std::span<const char* const> names);
 
-/// Says whose results a run replaces, if they are those of another scene file.
-void warn_of_other_scene(const std::filesystem::path& folder, const std::string& scene);
-
 }  // namespace minamo

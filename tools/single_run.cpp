@@ -12,6 +12,7 @@
 #include "systems/setup/time_plan.hpp"
 #include "systems/time/turns.hpp"
 #include "tools/continuation.hpp"
+#include "tools/earlier_run.hpp"
 #include "tools/progress.hpp"
 #include "tools/results_folder.hpp"
 #include "tools/summary.hpp"
@@ -37,6 +38,14 @@ void open_output(const fs::path& folder, World& world) {
   world.resource<FieldsFile>().folder = folder.string();
 }
 
+/// Finds out whether what an earlier run has left may go, and says that it goes.
+void make_way(const RunPlan& plan) {
+  const auto earlier = earlier_run(plan.folder);
+  if (!earlier) return;
+  if (earlier->is_worth_keeping() && plan.replaced == Replaced::finished_runs) refuse_to_replace(*earlier, plan.folder);
+  tell_of_replaced(*earlier, plan.folder, plan.scene, plan.quiet || plan.replaced == Replaced::own_runs);
+}
+
 /// Makes the folder this run's own, and finds out whether its files may be written there.
 FolderClaim claim_folder(const RunPlan& plan, const std::string& scene_text, const SceneFile& file) {
   const bool is_start = plan.beginning == Beginning::start;
@@ -47,7 +56,7 @@ FolderClaim claim_folder(const RunPlan& plan, const std::string& scene_text, con
   // The scene as run may be run again where it is: what is written is what was read, or goes on from it.
   if (is_start && !holds(plan.folder / scene_as_run, scene_text)) inputs.emplace_back(plan.scene);
   require_kept(inputs, plan.folder);
-  if (is_start) warn_of_other_scene(plan.folder, plan.scene);
+  if (is_start) make_way(plan);
   return claim;
 }
 
@@ -69,6 +78,7 @@ bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& ti
     if (!writes_for_all()) return;
     if (fields) {
       continue_output(plan.folder, std::move(*fields), world);
+      fs::remove(plan.folder / "summary.json");  // of the part before, which a kill from now on would leave to stand
     } else {
       open_output(plan.folder, world);
     }
@@ -178,10 +188,14 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
     return result;
   }
   warn_of_idle_ranks(world);
-  Progress progress(times, world.resource<Clock>(), world.rows<Particles>(), plan.quiet || !writes_for_all());
+  Progress progress(times, world.resource<Clock>(), plan.quiet || !writes_for_all());
+  const std::int64_t all_at_start = sum_over_ranks(static_cast<std::int64_t>(world.rows<Particles>()));
+  const auto particles = [&] {  // of ranks the first cannot ask the others in passing
+    return all_ranks() != nullptr ? static_cast<std::size_t>(all_at_start) : world.rows<Particles>();
+  };
   MemoryReserve reserve;
   const Observers observers{
-      .after_step = [&](const Clock& clock) { progress.show(clock, world.resource<SolveReport>()); },
+      .after_step = [&](const Clock& clock) { progress.show(clock, particles(), world.resource<SolveReport>()); },
       .after_rejection =
           [&](const Clock& clock, const std::string& why) {
             warn_of_rejection(clock, why);

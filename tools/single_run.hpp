@@ -15,6 +15,13 @@
 
 namespace minamo {
 
+/// Which results of earlier runs may go.
+enum class Replaced {
+  finished_runs,
+  all_runs,
+  own_runs,  ///< all, and of those of the same scene nothing is said: they are the caller's
+};
+
 struct RunPlan {
   std::string scene;                               ///< the scene file, as the messages and summary.json call it
   std::filesystem::path folder;                    ///< for the results
@@ -22,6 +29,7 @@ struct RunPlan {
   int threads = 1;                                 ///< that the caller has set, for summary.json
   std::optional<std::int64_t> steps;               ///< of the whole run
   Beginning beginning = Beginning::start;
+  Replaced replaced = Replaced::finished_runs;
   bool quiet = false;
   std::function<void(World&)> at_end;  ///< called where the run is done; may be empty
 };
@@ -37,7 +45,8 @@ struct RunResult {
 
 /// Runs the scene and writes all that a run leaves but the trace.
 /// \throws InputError if the scene cannot be seeded, the folder cannot be used, another run writes into it, an input
-/// lies where a result would, or its checkpoint does not fit; nothing is run then.
+/// lies where a result would, an unfinished run is there and may not be replaced, or its checkpoint does not fit;
+/// nothing is run then.
 RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& profiler,
                           const std::atomic<bool>& stop);
 

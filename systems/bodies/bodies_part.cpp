@@ -185,6 +185,15 @@ void check_distances(const BodySet<Dim>& set, const Grid<Dim>& grid, SeedProblem
   }
 }
 
+/// From where to where a body reaches along an axis; what holds a cavity, like a pipe, or a half space may have no end.
+std::string reach_text(char axis, double low, double high) {
+  if (std::isfinite(low) && std::isfinite(high)) return fmt::format("{} = {:.4g} ... {:.4g} m", axis, low, high);
+  const std::string hole = "not alike at both ends: a hole in it, as in a pipe, must go on beyond both";
+  if (std::isfinite(low)) return fmt::format("from {} = {:.4g} m on without end, {}", axis, low, hole);
+  if (std::isfinite(high)) return fmt::format("without end up to {} = {:.4g} m, {}", axis, high, hole);
+  return fmt::format("without end along {}, {}", axis, hole);
+}
+
 /// Liquid flows over the ends of a periodic axis, a body does not.
 template <int Dim>
 void check_repeats(const BodySet<Dim>& set, World& world, SeedProblems& problems) {
@@ -202,7 +211,7 @@ void check_repeats(const BodySet<Dim>& set, World& world, SeedProblems& problems
         fmt::format("a body {0:.4g} m or more from both ends, or one that reaches as far over one as over the "
                     "other, {0:.4g} m or more",
                     reach),
-        fmt::format("{} = {:.4g} ... {:.4g} m", name, bounds.low[axis], bounds.high[axis]));
+        reach_text(name, bounds.low[axis], bounds.high[axis]));
   }
 }
 

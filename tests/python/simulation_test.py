@@ -91,6 +91,11 @@ class SameBits(unittest.TestCase):
         for name in ("history.csv", "scene.json", "fields.xdmf"):
             self.assertEqual((out / "python" / name).read_bytes(), (out / "program" / name).read_bytes(), name)
         self.assertEqual(run.summary["steps"], 6)
+        with self.assertRaisesRegex(minamo.InputError, "an unfinished run would be replaced"):
+            minamo.run(out / "in.json", out / "python", threads=1, steps=6)
+        minamo.run(out / "in.json", out / "python", threads=1, steps=6, overwrite=True)
+        with self.assertRaisesRegex(ValueError, "overwrite"):
+            minamo.run(out / "in.json", out / "python", threads=1, resume=True, overwrite=True)
         self.assertEqual(minamo.run(out / "in.json", out / "python", threads=1, resume=True).summary["steps"], 50)
 
 

@@ -132,7 +132,7 @@ TEST_CASE("a scheme can be overridden alone: keys of the one in the file go with
 TEST_CASE("a CFL number can be overridden alone: the step in the file goes, and the other way round", "[scene]") {
   const Folder folder;
   const auto time_with = [&](const std::string& scene, const CommandLine& overrides) {
-    CommandLine line{"run", scene_path(scene), "--out", folder / "out", "--steps", "1", "--quiet"};
+    CommandLine line{"run", scene_path(scene), "--out", folder / "out", "--steps", "1", "--quiet", "--overwrite"};
     for (const std::string& assignment : overrides) line.insert(line.end(), {"--set", assignment});
     REQUIRE(run_program(line).code == 0);
     return json_of(folder / "out/scene.json")["time"];
@@ -287,10 +287,10 @@ TEST_CASE("a run whose pressure turns over from step to step says so at its end"
   const Folder folder;
   // Water that falls flat on the floor of a shaft, and rests there.
   const auto fall = [&](const std::string& integrator) {
-    const ProgramEnd end = run_program(
-        dam_break(folder / "out", {"--set", R"(/grid={"low": [0, 0], "high": [0.1, 1], "cells": [4, 40]})", "--set",
-                                   R"(/particles/0/shape={"box": {"low": [0, 0.1], "high": [0.1, 0.6]}})", "--set",
-                                   "/integrator=" + integrator, "--set", "/time/step=0.004", "--steps", "100"}));
+    const ProgramEnd end = run_program(dam_break(
+        folder / "out", {"--set", R"(/grid={"low": [0, 0], "high": [0.1, 1], "cells": [4, 40]})", "--set",
+                         R"(/particles/0/shape={"box": {"low": [0, 0.1], "high": [0.1, 0.6]}})", "--set",
+                         "/integrator=" + integrator, "--set", "/time/step=0.004", "--steps", "100", "--overwrite"}));
     CHECK(end.code == 0);
     return std::pair(json_of(folder / "out/summary.json"), end.output);
   };

@@ -148,7 +148,7 @@ TEST_CASE("two runs do not write into one folder, and a killed one does not keep
   CHECK(second.err == "out: another run is writing here\n  expected  a folder of its own for every run (--out)\n");
   first.send(SIGKILL);
   first.wait();
-  CHECK(folder.run("pool.json", {"--out", "out"}).code == 0);
+  CHECK(folder.run("pool.json", {"--out", "out", "--overwrite"}).code == 0);
 }
 
 TEST_CASE("a run says when it replaces the results of another scene", "[scene]") {
@@ -175,7 +175,7 @@ TEST_CASE("a trace may replace a trace, and nothing else", "[scene]") {
   REQUIRE(folder.run("pool.json", {"--steps", "1", "--profile", "trace.json"}).code == 0);
   const std::string trace = text_of(folder / "trace.json");
   CHECK(trace.size() > 100);
-  CHECK(folder.run("pool.json", {"--steps", "2", "--profile", "trace.json"}).code == 0);
+  CHECK(folder.run("pool.json", {"--steps", "2", "--overwrite", "--profile", "trace.json"}).code == 0);
   CHECK(text_of(folder / "trace.json").size() > trace.size());
   folder.write("victim.json", pool);
   CHECK(output_of_program(folder / "", {"run", "--profile", "victim.json", "pool.json"}).code == 2);

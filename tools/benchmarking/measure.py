@@ -39,7 +39,7 @@ def call(command: list[str]) -> str:
 def run_once(program: Path, run: Run, folder: Path) -> Measured:
     """One call of `minamo run`."""
     command = [str(program), "run", f"scenes/{run.scene}.json", "--threads", str(run.threads), "--quiet", "--profile",
-               "--out", str(folder)]
+               "--overwrite", "--out", str(folder)]
     if run.steps:
         command += ["--steps", str(run.steps)]
     for pointer, value in run.overrides.items():

@@ -120,7 +120,7 @@ def run(program: Path, scene: dict[str, Any], method: Method, folder: Path, seco
     scene = method.of(scene)
     file = folder / "case.json"
     file.write_text(json.dumps(scene, indent=1))
-    command = [str(program), "run", str(file), "--threads", "1", "--quiet", "--out", str(folder)]
+    command = [str(program), "run", str(file), "--threads", "1", "--quiet", "--overwrite", "--out", str(folder)]
     done = subprocess.run(command, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, text=True, cwd=ROOT,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1)))

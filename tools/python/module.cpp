@@ -21,8 +21,8 @@ PYBIND11_MODULE(_minamo, module) {
   module.def("schema", &schema);
   module.def("run", [](const std::optional<std::string>& text, const std::string& name, const py::iterable& systems,
                        const py::iterable& parts, const std::string& folder, int threads,
-                       std::optional<std::int64_t> steps, bool resume, bool quiet) {
-    run_into(prepare_scene(text, name, systems, parts), folder, threads, steps, resume, quiet);
+                       std::optional<std::int64_t> steps, bool resume, bool overwrite, bool quiet) {
+    run_into(prepare_scene(text, name, systems, parts), folder, threads, steps, resume, overwrite, quiet);
   });
   py::class_<Simulation>(module, "Simulation")
       .def(py::init([](const std::optional<std::string>& text, const std::string& name, const py::iterable& systems,

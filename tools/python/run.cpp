@@ -40,12 +40,13 @@ class StopOnSignal {
 }  // namespace
 
 void run_into(PreparedScene scene, const std::string& folder, int threads, std::optional<std::int64_t> steps,
-              bool resume, bool quiet) {
+              bool resume, bool overwrite, bool quiet) {
   const RunPlan plan{.scene = scene.name,
                      .folder = folder,
                      .threads = allow_threads(threads),
                      .steps = steps,
                      .beginning = resume ? Beginning::continuation : Beginning::start,
+                     .replaced = overwrite ? Replaced::all_runs : Replaced::finished_runs,
                      .quiet = quiet,
                      .at_end = {}};
   RunResult result;

@@ -15,6 +15,6 @@ int allow_threads(int wanted);
 /// What `minamo run` does, with Ctrl-C as a request to stop after the step.
 /// \throws InputError, ScheduleError, RunFailed, KeyboardInterrupt
 void run_into(PreparedScene scene, const std::string& folder, int threads, std::optional<std::int64_t> steps,
-              bool resume, bool quiet);
+              bool resume, bool overwrite, bool quiet);
 
 }  // namespace minamo::python

@@ -225,14 +225,15 @@ def _all(made: Iterable, kind: type) -> builtins.list:
 
 
 def run(scene: Scene, out: str | os.PathLike[str] | None = None, *, threads: int | None = None,
-        steps: int | None = None, resume: bool = False, quiet: bool = True, systems: Iterable[System] = (),
-        parts: Iterable[Part] = ()):
+        steps: int | None = None, resume: bool = False, overwrite: bool = False, quiet: bool = True,
+        systems: Iterable[System] = (), parts: Iterable[Part] = ()):
     """Runs a scene into a folder, as `minamo run` does, and returns its :class:`minamo.Run`.
 
     :param out: the folder; by default out/NAME, out/scene for a dict
     :param steps: stop after so many steps of the whole run
     :param resume: go on from the checkpoint in the folder
-    :raises InputError: with every problem of the scene
+    :param overwrite: replace the results of an unfinished run in the folder
+    :raises InputError: with every problem of the scene, or if an unfinished run is in the folder
     :raises RunError: if a step fails; the last accepted state is in checkpoint.h5
     :raises KeyboardInterrupt: on Ctrl-C, after the step, with a checkpoint
     """
@@ -241,8 +242,10 @@ def run(scene: Scene, out: str | os.PathLike[str] | None = None, *, threads: int
     text, name = _text(scene)
     folder = Path("out") / Path(name).stem if out is None else Path(out)
     count = None if steps is None else _whole("steps", steps, 0)
+    if resume and overwrite:
+        raise ValueError("resume goes on with what overwrite replaces; expected one of them")
     _minamo.run(text, name, _all(systems, System), _all(parts, Part), str(folder), _threads(threads), count, resume,
-                quiet)
+                overwrite, quiet)
     return Run(folder)
 
 
