@@ -6,7 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
+#include <cstdlib>
 #include <functional>
 
 #include <pty.h>
@@ -81,7 +83,7 @@ class ProgramOnTerminal {
 };
 
 /// What a terminal of so many columns shows at the end: lines, with all that has scrolled out of sight.
-std::vector<std::string> shown(const std::string& printed, std::size_t columns) {
+std::vector<std::string> shown_at_end(const std::string& printed, std::size_t columns) {
   std::vector<std::string> lines{""};
   std::size_t at = 0;
   const std::string erase = "\033[K";
@@ -117,14 +119,14 @@ std::vector<std::string> progress_lines(const std::string& printed) {
   return lines;
 }
 
-std::size_t longest(const std::vector<std::string>& lines) {
+std::size_t longest_line(const std::vector<std::string>& lines) {
   std::size_t length = 0;
   for (const std::string& line : lines) length = std::max(length, line.size());
   return length;
 }
 
 /// Some seconds of a dam break.
-CommandLine dam_break(const std::string& out, const CommandLine& more) {
+CommandLine seconds_of_dam_break(const std::string& out, const CommandLine& more) {
   CommandLine arguments{
       "run", scene_path("paper/dam_break_tpic.json"), "--out", out, "--threads", "1", "--set", "/grid/cells=[20, 20]"};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -136,22 +138,22 @@ CommandLine dam_break(const std::string& out, const CommandLine& more) {
 TEST_CASE("progress is a line within the width of the terminal, and gone at the end", "[scene]") {
   const Folder folder;
   const unsigned short columns = GENERATE(30, 200);
-  ProgramOnTerminal program(dam_break(folder / "out", {"--set", "/time/end=0.3"}), columns);
+  ProgramOnTerminal program(seconds_of_dam_break(folder / "out", {"--set", "/time/end=0.3"}), columns);
   const std::string printed = program.rest();
   CHECK(program.code() == 0);
   const auto progress = progress_lines(printed);
   CAPTURE(printed);
   REQUIRE(progress.size() > 2);
-  CHECK(longest(progress) < columns);
-  CHECK((columns < 200 || longest(progress) > 80));
-  const auto lines = shown(printed, 1000);
+  CHECK(longest_line(progress) < columns);
+  CHECK((columns < 200 || longest_line(progress) > 80));
+  const auto lines = shown_at_end(printed, 1000);
   CHECK(lines.size() == 2);
   CHECK_THAT(lines.front(), Catch::StartsWith("results in "));
 }
 
 TEST_CASE("progress follows the size of the terminal", "[scene]") {
   const Folder folder;
-  ProgramOnTerminal program(dam_break(folder / "out", {}), 160);
+  ProgramOnTerminal program(seconds_of_dam_break(folder / "out", {}), 160);
   const auto lines_from = [&](std::size_t begin, std::size_t count) {
     std::vector<std::string> lines;
     program.read([&](const std::string& printed) {
@@ -161,25 +163,25 @@ TEST_CASE("progress follows the size of the terminal", "[scene]") {
     return lines;
   };
   const auto wide = lines_from(0, 2);
-  CHECK(longest(wide) > 80);
+  CHECK(longest_line(wide) > 80);
   program.resize(40);
   const auto both = lines_from(0, wide.size() + 4);  // one may be under way with the old width
   const std::vector<std::string> narrow(both.end() - 3, both.end());
-  CHECK(longest(narrow) < 40);
-  CHECK(longest(narrow) > 15);
+  CHECK(longest_line(narrow) < 40);
+  CHECK(longest_line(narrow) > 15);
 }
 
 TEST_CASE("progress makes way for warnings and leaves nothing between them", "[scene]") {
   const Folder folder;
   // Steps that are too long are taken back, each with a warning.
   ProgramOnTerminal program(
-      dam_break(folder / "out", {"--set", "/time/step=0.1", "--set", R"(/integrator={"scheme": "midpoint"})", "--set",
-                                 "/time/end=2", "--set", "/grid/cells=[40, 40]"}),
+      seconds_of_dam_break(folder / "out", {"--set", "/time/step=0.1", "--set", R"(/integrator={"scheme": "midpoint"})",
+                                            "--set", "/time/end=2", "--set", "/grid/cells=[40, 40]"}),
       300);
   const std::string printed = program.rest();
   CHECK(program.code() == 0);
   REQUIRE(progress_lines(printed).size() > 2);
-  const auto lines = shown(printed, 1000);
+  const auto lines = shown_at_end(printed, 1000);
   CHECK(std::count_if(lines.begin(), lines.end(), [](const auto& line) { return line.starts_with("step "); }) > 2);
   const auto is_progress = [](const auto& line) { return line.find(" left") != std::string::npos; };
   CHECK(std::none_of(lines.begin(), lines.end(), is_progress));
@@ -187,7 +189,7 @@ TEST_CASE("progress makes way for warnings and leaves nothing between them", "[s
 
 TEST_CASE("a quiet run shows no progress", "[scene]") {
   const Folder folder;
-  ProgramOnTerminal program(dam_break(folder / "out", {"--set", "/time/end=0.3", "--quiet"}), 80);
+  ProgramOnTerminal program(seconds_of_dam_break(folder / "out", {"--set", "/time/end=0.3", "--quiet"}), 80);
   CHECK(program.rest().empty());
   CHECK(program.code() == 0);
 }

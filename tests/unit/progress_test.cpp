@@ -6,29 +6,30 @@ using namespace minamo;
 
 namespace {
 
-const ProgressFacts facts{.share = 0.42,
-                          .clock = {.time = 2.1, .step = 0.001, .end_of_step = 2.101, .index = 2100},
-                          .end = 5,
-                          .particles = 28800,
-                          .solve = {.unknowns = 8000, .active = 8000, .iterations = 12, .residual = 1e-9},
-                          .remaining = 3725};
+const ProgressFacts halfway{.share = 0.42,
+                            .clock = {.time = 2.1, .step = 0.001, .end_of_step = 2.101, .index = 2100},
+                            .end = 5,
+                            .particles = 28800,
+                            .solve = {.unknowns = 8000, .active = 8000, .iterations = 12, .residual = 1e-9},
+                            .remaining = 3725};
 
 }  // namespace
 
 TEST_CASE("a line of progress tells everything where there is room", "[unit]") {
-  CHECK(progress_text(facts, 200) == " 42 %  t = 2.1 of 5 s  step 2100  dt = 0.001 s  28800 particles  8000 unknowns  "
-                                     "12 iterations  1:02:05 left");
+  CHECK(progress_text(halfway, 200) ==
+        " 42 %  t = 2.1 of 5 s  step 2100  dt = 0.001 s  28800 particles  8000 unknowns  "
+        "12 iterations  1:02:05 left");
 }
 
 TEST_CASE("a line of progress fits into any width, with what matters most", "[unit]") {
   const auto columns = GENERATE(range(std::size_t{0}, std::size_t{130}));
-  const std::string line = progress_text(facts, columns);
+  const std::string line = progress_text(halfway, columns);
   CAPTURE(columns, line);
   CHECK(line.size() <= columns);
   CHECK((columns < 5 || line.starts_with(" 42 %")));
   CHECK((columns < 20 || line.ends_with("1:02:05 left")));
   // Nothing is left out for which there is room: the next part in the order of weight would be too long.
-  CHECK((columns < 107 || line == progress_text(facts, 200)));
+  CHECK((columns < 107 || line == progress_text(halfway, 200)));
 }
 
 TEST_CASE("a log gets a line every tenth of a run that takes long", "[unit]") {
