@@ -178,7 +178,7 @@ def draw(parameters, rows, title, error, out, cost, others):
     machine = f"{rows[0].get('cpu_model', '')}, threads: {rows[0].get('threads', '?')}"
     axes.set_xlabel(f"{COSTS[cost]}\n({machine})")
     axes.set_ylabel(textwrap.fill(f"{error} [1]", 60))
-    axes.set_title(title)
+    axes.set_title(textwrap.fill(title, 50))
     axes.grid(which="major", color="0.85")
     axes.grid(which="minor", color="0.93", linewidth=0.5)
     axes.set_axisbelow(True)
