@@ -137,7 +137,7 @@ CommandLine seconds_of_dam_break(const std::string& out, const CommandLine& more
 
 TEST_CASE("progress is a line within the width of the terminal, and gone at the end", "[scene]") {
   const Folder folder;
-  const unsigned short columns = GENERATE(30, 200);
+  const auto columns = static_cast<unsigned short>(GENERATE(30, 200));
   ProgramOnTerminal program(seconds_of_dam_break(folder / "out", {"--set", "/time/end=0.3"}), columns);
   const std::string printed = program.rest();
   CHECK(program.code() == 0);
