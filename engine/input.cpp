@@ -89,7 +89,8 @@ std::optional<Expression> parsed(InputPlace& place, const std::string& at, const
     return Expression(value.get<std::string>(), scope);
   } catch (const ExpressionError& error) {
     const auto names = known_names(scope);
-    const std::string closest = error.token.empty() ? "" : closest_name(error.token, names);
+    std::string closest = meant_in_expression(place.record->words, value.get_ref<const std::string&>(), names);
+    if (closest.empty() && !error.token.empty()) closest = closest_name(error.token, names);
     place.note(at, std::string("not an expression: ") + error.what(), phrase(rule, scope).one, value, closest);
     return {};
   }
@@ -193,6 +194,21 @@ std::optional<Expression> constant(const std::optional<double>& value) {
 
 }  // namespace
 
+void Input::use_words(std::span<const OtherWord> words) { place_->record->words = words; }
+
+namespace {
+
+std::string meant_or_closest(const InputPlace& place, std::string_view name, std::span<const std::string> known) {
+  std::string meant = meant_name(place.record->words, name, known);
+  return meant.empty() ? closest_name(name, known) : meant;
+}
+
+}  // namespace
+
+std::string Input::closest(std::string_view name, std::span<const std::string> known) const {
+  return meant_or_closest(*place_, name, known);
+}
+
 void Input::use_constants(const std::map<std::string, double>& constants) {
   place_->record->of_numbers = ExpressionScope{{}, constants};
 }
@@ -251,7 +267,7 @@ std::optional<std::string> read_name(InputPlace& place, std::string_view key, st
     if (!value.is_string())
       place.note(at, "wrong type", expected, value);
     else if (std::find(names.begin(), names.end(), name) == names.end())
-      place.note(at, "unknown name", expected, value, closest_name(name, names));
+      place.note(at, "unknown name", expected, value, meant_or_closest(place, name, names));
     else
       return name;
     return {};

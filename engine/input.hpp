@@ -7,6 +7,7 @@
 #include "engine/expression.hpp"
 #include "engine/input_rule.hpp"
 #include "engine/input_text.hpp"
+#include "engine/other_words.hpp"
 #include "engine/problem.hpp"
 
 #include <cstddef>
@@ -39,6 +40,8 @@ class Input {
   /// From here on a string in the place of a number, or of a whole number, is an expression in these constants. What it
   /// comes to is what is echoed.
   void use_constants(const std::map<std::string, double>& constants);
+  /// From here on messages know these words of other programs. \pre they outlive the document
+  void use_words(std::span<const OtherWord> words);
 
   double number(std::string_view key, const Number& rule);
   /// Like number(), for a key that may be absent without a default.
@@ -105,6 +108,8 @@ class Input {
                std::string closest = {});
   /// Notes what is no problem, but may not be meant: a sentence about the value of a key (as in problem()).
   void remark(std::string_view key, const std::string& sentence);
+  /// Which of the known names could be meant, by meaning or by letters; empty if none.
+  std::string closest(std::string_view name, std::span<const std::string> known) const;
   /// Whether nothing wrong is known of a key (as in problem()), so that its value is the user's.
   bool sound(std::string_view key) const;
   /// How many elements the list at a key (as in problem()) has, read or not; none if there is no list.

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,7 @@ struct InputRecord {
   std::vector<std::string> remarks;
   std::set<std::string> unsound;              ///< pointers of the problems
   std::optional<ExpressionScope> of_numbers;  ///< what a string in the place of a number may use, once that is known
+  std::span<const OtherWord> words = {};      ///< of other programs
 };
 
 /// An object of the document, or the lack of one.

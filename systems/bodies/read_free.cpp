@@ -36,7 +36,7 @@ void read_locked(Input& input, Free<Dim>& free) {
     const auto known = std::find(names.begin(), names.end(), name);
     if (known == names.end()) {
       input.problem("locked", "not a motion", "a list of some of " + listed(names), shown(element),
-                    closest_name(name, names));
+                    input.closest(name, names));
       return;
     }
     const auto c = static_cast<std::size_t>(known - names.begin());

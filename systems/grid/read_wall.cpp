@@ -91,7 +91,7 @@ WallOfScene read_wall(Input& input, const std::string& at, const Json& value, co
                   shown(value));
   } else {
     input.problem(at, value.is_string() ? "unknown name" : "wrong type", expected_wall(words, names), shown(value),
-                  closest_name(name, names));
+                  input.closest(name, names));
   }
   return {names.front()};
 }

@@ -109,7 +109,7 @@ SidesOfScene read_sides(Input& input, std::span<const int> cells, const WallWord
     if (axis == axes.end()) {
       std::vector<std::string> known(axes.begin(), axes.end());
       known.insert(known.end(), words.lengths.begin(), words.lengths.end());
-      input.problem(at, "unknown key", one_of_text(axes), shown(value), closest_name(key, known));
+      input.problem(at, "unknown key", one_of_text(axes), shown(value), input.closest(key, known));
     } else {
       const auto d = static_cast<std::size_t>(axis - axes.begin());
       all[d] = read_axis(input, at, value, words);

@@ -1,6 +1,7 @@
 #include "systems/setup/scene.hpp"
 
 #include "systems/setup/scene_checks.hpp"
+#include "systems/setup/scene_words.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -32,6 +33,7 @@ void read_systems(Input& input, const SystemRegistry& registry, Scene& scene) {
 
 /// \param described  the dimension in description mode, where the document does not tell.
 Scene read_scene(Input& input, const SystemRegistry& registry, std::optional<int> described) {
+  input.use_words(scene_words());
   input.optional_text("$schema", "JSON Schema of scenes, for editors; a run takes no notice");
   const std::string title = input.text("title", {.doc = "shown in pictures and reports", .fallback = ""});
   const int dimension = read_dimension(input);
