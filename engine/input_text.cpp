@@ -1,5 +1,7 @@
 #include "engine/input_text.hpp"
 
+#include "engine/text_mistakes.hpp"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -75,6 +77,13 @@ class TextCheck : public nlohmann::json_sax<Json> {
     const bool is_nul = position > 0 && position <= text_.size() && text_[position - 1] == '\0';
     if (is_nul) reason = "unexpected NUL byte";  // the parser takes it for the end
     const bool legible = reason.find("UTF-8") == std::string::npos;
+    if (!legible) expected = "text in UTF-8: save it as such, or `iconv -f LATIN1 -t UTF-8 FILE`";
+    const bool is_a_slip = reason.starts_with("invalid literal") || reason.starts_with("invalid number") ||
+                           reason.starts_with("unexpected '");
+    if (const auto mistake = is_a_slip ? mistake_at(text_, position - 1) : std::nullopt) {
+      reason = mistake->what;
+      expected = mistake->expected;
+    }
     const std::string got = legible ? trimmed_line(text_, position) : std::string();
     problems_.push_back({file_, {}, line_and_column(text_, position) + ": " + reason, expected, got, {}});
     return false;
@@ -231,9 +240,8 @@ Json read_json(const std::string& path) {
 }
 
 Json parse_json(const std::string& text, const std::string& file) {
-  const std::string_view byte_order_mark = "\xef\xbb\xbf";
-  const std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-  if (text.find_first_not_of(" \t\r\n", begin) == std::string::npos)
+  if (const auto mistake = mistake_of_encoding(text)) fail({file, {}, mistake->what, mistake->expected, {}, {}});
+  if (without_byte_order_mark(text).find_first_not_of(" \t\r\n") == std::string::npos)
     fail({file, {}, "empty", "a JSON document", {}, {}});
   TextCheck check(text, file);
   Json::sax_parse(text, &check);

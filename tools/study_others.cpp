@@ -1,6 +1,7 @@
 #include "tools/study_others.hpp"
 
 #include "engine/input.hpp"
+#include "engine/text_mistakes.hpp"
 #include "tools/text_table.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -92,7 +93,8 @@ std::vector<OtherPoint> read_others(const std::string& path) {
   std::vector<Problem> problems;
   std::string line;
   std::getline(file, line);
-  const std::array<std::size_t, 4> places = places_of(fields_of(line), path, problems);
+  const std::array<std::size_t, 4> places =
+      places_of(fields_of(std::string(without_byte_order_mark(line))), path, problems);
   if (!problems.empty()) throw InputError(problems);
   std::vector<OtherPoint> others;
   for (std::size_t number = 2; std::getline(file, line); ++number) {

@@ -1,5 +1,7 @@
 #include "systems/bodies/motion_table.hpp"
 
+#include "engine/text_mistakes.hpp"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
@@ -38,7 +40,8 @@ Tabulated<Dim> read_motion_table(const std::filesystem::path& file) {
   Tabulated<Dim> table;
   int count = 0;
   for (std::string line; std::getline(text, line);) {
-    ++count;
+    if (++count == 1)
+      line = std::string(without_byte_order_mark(line));  // that of a spreadsheet; it would hide the first row
     if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
     const auto row = numbers_of(line);
     if (!row && table.time.empty() && count == 1) continue;  // a header

@@ -130,7 +130,8 @@ TEST_CASE("a number that no double holds is refused", "[error]") {
 TEST_CASE("a text in the wrong encoding is refused, and shown as a terminal can show it", "[error]") {
   const std::string nul(1, '\0');
   const auto [text, message] = GENERATE_COPY(table<std::string, std::string>({
-      {"{\"title\": \"\xff\"}", "a.json: line 1, column 12: invalid string: ill-formed UTF-8 byte\n"},
+      {"{\"title\": \"\xff\"}", "a.json: line 1, column 12: invalid string: ill-formed UTF-8 byte\n"
+                                "  expected  text in UTF-8: save it as such, or `iconv -f LATIN1 -t UTF-8 FILE`\n"},
       {"{\"dimension\": 2 \xff}", "a.json: line 1, column 17: invalid literal\n"
                                   "  expected  '}'\n"
                                   "  got       {\"dimension\": 2 \xef\xbf\xbd}\n"},
@@ -147,7 +148,7 @@ TEST_CASE("a text in the wrong encoding is refused, and shown as a terminal can 
       {"", "a.json: empty\n  expected  a JSON document\n"},
       {"\r\n\r\n", "a.json: empty\n  expected  a JSON document\n"},
       {"{\r\n\"dimension\": 2,\r\n}",
-       "a.json: line 3, column 1: unexpected '}'\n  expected  string literal\n  got       }\n"},
+       "a.json: line 3, column 1: a comma before '}'\n  expected  none after the last key, in line 2\n  got       }\n"},
   }));
   CAPTURE(text);
   const ProgramOutput check = check_text(text);
@@ -159,6 +160,6 @@ TEST_CASE("a scene with a byte order mark or with line ends of Windows is read",
   const std::string text = GENERATE("\xef\xbb\xbf" + small_scene, with(small_scene, ",\n", ",\r\n"));
   const ProgramOutput check = check_text(text);
   CHECK(check.err.empty());
-  CHECK(check.out == "a.json: valid, 144 particles\n");
+  CHECK_THAT(check.out, Catch::StartsWith("a.json: valid, 144 particles\n"));
   CHECK(check.code == 0);
 }

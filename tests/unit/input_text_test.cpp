@@ -62,6 +62,51 @@ TEST_CASE("what JSON does not know is reported with its place", "[error]") {
   CHECK_THAT(parse_message(text), Catch::StartsWith("a.json: " + place + ": "));
 }
 
+TEST_CASE("the usual slips of a hand are called by their name, with what to write", "[error]") {
+  using Case = std::tuple<std::string, std::string, std::string>;
+  const auto [text, what, expected] = GENERATE(values<Case>({
+      {R"({"a": 1 // one})", "a comment, which JSON does not have", "the text without it"},
+      {R"(/* a */ {"a": 1})", "a comment, which JSON does not have", "the text without it"},
+      {"# a\n{}", "a comment, which JSON does not have", "the text without it"},
+      {"{\"a\": 1,\n}", "a comma before '}'", "none after the last key, in line 1"},
+      {"{\"a\": [1,\n 2,\n ]}", "a comma before ']'", "none after the last element, in line 2"},
+      {R"({"a": NaN})", "NaN, which is no number of JSON", "a finite number"},
+      {R"({"a": nan})", "NaN, which is no number of JSON", "a finite number"},
+      {R"({"a": -Infinity})", "Infinity, which is no number of JSON", "a finite number"},
+      {R"({"a": inf})", "inf, which is no number of JSON", "a finite number"},
+      {R"({"a": True})", "True in another spelling", "true"},
+      {R"({"a": None})", "None", "no key at all, or \"none\" in quotes"},
+      {R"({'a': 1})", "a single quote", "double quotes around keys and texts"},
+      {R"({a: 1})", "a key without quotes", "\"a\""},
+      {R"({"a": slip})", "a word without quotes", "\"slip\""},
+      {R"({"a": .5})", "a number that begins with its point", "a digit before it: 0.5"},
+      {R"({"a": +5})", "a number with a plus sign", "none: 0.5"},
+      {R"({"a": 2*pi})", "an expression without quotes", "one in quotes, like \"2*pi/3\""},
+      {R"({"a": 1/3})", "an expression without quotes", "one in quotes, like \"2*pi/3\""},
+      {R"({"a": 5 mm})", "letters after a number", "the number alone, or an expression in quotes"},
+      {R"({"a": 5mm})", "letters after a number", "the number alone, or an expression in quotes"},
+  }));
+  CAPTURE(text);
+  CHECK_THAT(parse_message(text), Catch::Contains(": " + what + "\n  expected  " + expected));
+}
+
+TEST_CASE("a text that is not in UTF-8 is refused with what to do", "[error]") {
+  using namespace std::string_literals;
+  const auto [text, encoding] = GENERATE(table<std::string, std::string>({{"\xff\xfe{\0}\0"s, "UTF-16"},
+                                                                          {"\xfe\xff\0{\0}"s, "UTF-16"},
+                                                                          {"{\0}\0"s, "UTF-16"},
+                                                                          {"\0{\0}"s, "UTF-16"},
+                                                                          {"\xff\xfe\0\0{\0\0\0"s, "UTF-32"},
+                                                                          {"\0\0\xfe\xff\0\0\0{"s, "UTF-32"}}));
+  CHECK(parse_message(text) == "a.json: is a text in " + encoding +
+                                   "\n  expected  one in UTF-8: save it as such, or `iconv -f " + encoding +
+                                   " -t UTF-8 FILE`");
+}
+
+TEST_CASE("the mark that editors put before UTF-8 is passed over", "[unit]") {
+  CHECK(parse_json("\xef\xbb\xbf{\"a\": 1}", "a.json") == Json{{"a", 1}});
+}
+
 TEST_CASE("an empty text is reported as such", "[error]") {
   const std::string text = GENERATE("", " \n");
   CHECK(parse_message(text) == "a.json: empty\n  expected  a JSON document");

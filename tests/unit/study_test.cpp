@@ -212,8 +212,9 @@ TEST_CASE("beside a point of others stands the cheapest variant that is at least
 }
 
 TEST_CASE("points of others are read by the names of their columns", "[unit]") {
+  const std::string mark = GENERATE("", "\xef\xbb\xbf");  // of a spreadsheet
   const Folder folder;
-  std::ofstream(folder / "others.csv") << "error,particles,code,setting,cost\n0.1,800,Abc,40 x 40,2.5\n\n";
+  std::ofstream(folder / "others.csv") << mark << "error,particles,code,setting,cost\n0.1,800,Abc,40 x 40,2.5\n\n";
   const std::vector<OtherPoint> others = read_others(folder / "others.csv");
   REQUIRE(others.size() == 1);
   CHECK(others[0].code == "Abc");
