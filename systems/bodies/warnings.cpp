@@ -181,7 +181,7 @@ class Warnings {
   void look_at_side(std::size_t a, std::size_t side) {
     const auto opposite = as_opposite<Dim>(grid_, side);
     note_gap(around_.gap(a, opposite), quoted(a), name_of_side(side));
-    if (set_.bodies[a].free()) note_overlap(around_.overlap(a, opposite), quoted(a), name_of_side(side));
+    if (set_.bodies[a].free()) note_overlap(around_.overlap(a, opposite), a, name_of_side(side));
   }
 
   void look_at_pair(std::size_t a, std::size_t b) {
@@ -194,9 +194,9 @@ class Warnings {
       return;
     }
     note_gap(narrower<Dim>(around_.gap(a, of_b), around_.gap(b, of_a)), quoted(a), quoted(b));
-    if (!set_.bodies[a].free() && !set_.bodies[b].free()) return;
-    const bool is_b_the_free_one = !set_.bodies[a].free();
-    note_overlap(narrower<Dim>(around_.overlap(a, of_b), around_.overlap(b, of_a)), quoted(is_b_the_free_one ? b : a),
+    const bool is_b_the_free_one = !set_.bodies[a].free() && set_.bodies[b].free();
+    const std::size_t first = is_b_the_free_one ? b : a;
+    note_overlap(narrower<Dim>(around_.overlap(a, of_b), around_.overlap(b, of_a)), first,
                  quoted(is_b_the_free_one ? a : b));
   }
 
@@ -208,9 +208,10 @@ class Warnings {
                     gap->width, a, b, place_text<Dim>(gap->at(0.5)), thinnest_gap * grid_.spacing));
   }
 
-  void note_overlap(const std::optional<Narrow<Dim>>& overlap, const std::string& a, const std::string& b) {
+  void note_overlap(const std::optional<Narrow<Dim>>& overlap, std::size_t a, const std::string& b) {
     if (!overlap) return;
-    found_.push_back(fmt::format("free body {} overlaps {} by {:.3g} m at the start, at {}", a, b, -overlap->width,
+    found_.push_back(fmt::format("{}body {} overlaps {} by {:.3g} m at the start, at {}",
+                                 set_.bodies[a].free() ? "free " : "", quoted(a), b, -overlap->width,
                                  place_text<Dim>(overlap->from)));
   }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a scene with bodies may not mean: gaps too thin for the grid, free bodies that overlap others at the start,
+/// What a scene with bodies may not mean: gaps too thin for the grid, bodies that overlap others at the start,
 /// liquid that bodies take the place of.
 
 #include "engine/world.hpp"

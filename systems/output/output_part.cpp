@@ -6,6 +6,7 @@
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/memory.hpp"
+#include "systems/setup/time_counts.hpp"
 #include "systems/surface/level_set.hpp"
 #include "systems/surface/write_surfaces.hpp"
 
@@ -55,8 +56,10 @@ void add_surfaces(const Scene& scene, Recipe& recipe) {
 }
 
 Contribution read_output(Input& input, Scene& scene) {
-  input.object("output", "what is written when", Input::Presence::optional,
-               [&](Input& in) { scene.output = read_times(in, scene.dimension, scene.time.end); });
+  input.object("output", "what is written when", Input::Presence::optional, [&](Input& in) {
+    scene.output = read_times(in, scene.dimension, scene.time.end);
+    check_output_times(in, scene.output, scene.time);
+  });
   return [](const Scene& of, Recipe& recipe) {
     add_systems(of, recipe, "accept", {{"accept_step"}, {"accept_step_on_faces"}}, When::step);
     recipe.add("accept", "note_step");

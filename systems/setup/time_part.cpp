@@ -1,6 +1,7 @@
 #include "components/step.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/scene.hpp"
+#include "systems/setup/time_counts.hpp"
 
 #include <algorithm>
 
@@ -37,8 +38,10 @@ TimeScene read_time(Input& input) {
 }
 
 Contribution read_time_part(Input& input, Scene& scene) {
-  input.object("time", "how far and how fast", Input::Presence::required,
-               [&](Input& time) { scene.time = read_time(time); });
+  input.object("time", "how far and how fast", Input::Presence::required, [&](Input& time) {
+    scene.time = read_time(time);
+    check_steps(time, scene.time);
+  });
   return [](const Scene& of, Recipe& recipe) {
     // A step that was chosen by its CFL number may come out faster than the particles were before it.
     LargestMove largest;

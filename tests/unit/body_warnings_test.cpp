@@ -124,6 +124,29 @@ TEST_CASE("a free body that overlaps a side or another body is told how deep", "
   CHECK_THAT(found[1], Contains("free body \"log\" overlaps \"step\" by 0.03 m at the start"));
 }
 
+TEST_CASE("bodies at rest that overlap are told which, how deep and where; those that touch are not", "[unit]") {
+  const auto bodies = [](double x) {
+    return fmt::format(R"([{{"name": "a", "shape": {{"box": {{"low": [0.3, 0.3], "high": [0.5, 0.5]}}}}}},
+                           {{"name": "b", "shape": {{"box": {{"low": [{}, 0.2], "high": [0.8, 0.7]}}}}}}])",
+                       x);
+  };
+  const auto found = sentences_of(beside_bodies(bodies(0.47)));
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], Contains("body \"a\" overlaps \"b\" by 0.03 m at the start, at x = 0."));
+  CHECK(sentences_of(beside_bodies(bodies(0.5))).empty());
+}
+
+TEST_CASE("bodies in space that overlap are told", "[unit]") {
+  const auto found = sentences_of(
+      around_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.1, 0.1, 0.25], "high": [0.3, 0.3, 0.4]}}},
+                        {"name": "b", "shape": {"ball": {"center": [0.35, 0.2, 0.3], "radius": 0.1}}}])"));
+  const auto tells = [](const std::string& sentence) {
+    return sentence.find("overlaps") != std::string::npos &&
+           sentence.find(" m at the start, at x = 0.") != std::string::npos;
+  };
+  CHECK(std::count_if(found.begin(), found.end(), tells) == 1);  // and of a gap
+}
+
 TEST_CASE("liquid that bodies take the place of is told by its volume", "[unit]") {
   const std::string bodies = R"([{"name": "a", "shape": {"box": {"low": [0.3, -0.1], "high": [0.5, 0.04]}}}])";
   CHECK(sentences_of(beside_bodies(bodies)) ==
