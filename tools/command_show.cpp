@@ -17,7 +17,8 @@ int check_scenes(const std::vector<std::string>& scenes, const SystemRegistry& r
     try {
       const SceneFile file = load_scene(path, {}, registry);
       const Rehearsal rehearsal = rehearse(file.scene, path);
-      std::cout << path << ": valid, " << rehearsal.particles << " particles\n" << std::flush;
+      std::cout << path << ": valid, " << rehearsal.particles << " particles\n"
+                << text_of(rehearsal.outlook, file.scene) << std::flush;
       for (const std::string& warning : rehearsal.warnings) spdlog::warn("{}: {}", path, warning);
     } catch (const InputError& error) {
       std::cerr << error.what() << '\n';

@@ -5,6 +5,7 @@
 #include "engine/schedule.hpp"
 #include "systems/bodies/warnings.hpp"
 #include "systems/setup/memory.hpp"
+#include "systems/setup/scene_doubts.hpp"
 #include "systems/setup/scene_systems.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/setup/seed.hpp"
@@ -19,18 +20,6 @@
 namespace minamo {
 
 namespace {
-
-/// In the unit in which it is a short number.
-std::string bytes_text(double bytes) {
-  const char* unit = "MB";
-  double value = bytes / 1e6;
-  for (const char* larger : {"GB", "TB"}) {
-    if (value < 1e3) break;
-    value /= 1e3;
-    unit = larger;
-  }
-  return fmt::format("{:.3g} {}", value, unit);
-}
 
 /// What this machine has of all that ranks share.
 double share_of_machine() {
@@ -147,16 +136,18 @@ void seed(const Scene& scene, const std::string& file, World& world) {
 
 std::vector<std::string> warnings_of(const Scene& scene, World& world) {
   std::vector<std::string> warnings = scene.remarks;
-  for (const auto& more : {warnings_of_bodies(scene, world), warnings_of_surface_tension(scene)})
+  for (const auto& more : {warnings_of_lengths(scene), warnings_of_speeds(scene, world),
+                           warnings_of_bodies(scene, world), warnings_of_surface_tension(scene)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   return warnings;
 }
 
 Rehearsal rehearse(const Scene& scene, const std::string& file) {
   World world;
+  const AvailableMemory available = available_memory();
   seed(scene, file, world);
   const Schedule step(make_pipeline(scene).step, world);
-  return {world.rows<Particles>(), warnings_of(scene, world)};
+  return {world.rows<Particles>(), warnings_of(scene, world), outlook_of(scene, world, available)};
 }
 
 }  // namespace minamo

@@ -4,6 +4,7 @@
 
 #include "systems/pipeline.hpp"
 #include "systems/setup/scene.hpp"
+#include "tools/outlook.hpp"
 
 #include <set>
 #include <string>
@@ -37,6 +38,7 @@ void seed(const Scene& scene, const std::string& file, World& world);
 struct Rehearsal {
   std::size_t particles = 0;
   std::vector<std::string> warnings;  ///< what the scene may not mean, a sentence each
+  Outlook outlook;
 };
 
 /// What a scene may not mean, a sentence each. \pre the world was seeded with it

@@ -184,6 +184,8 @@ TEST_CASE("check accepts every scene", "[scene]") {
   const ProgramEnd end = run_program(arguments);
   CHECK(end.code == 0);
   CHECK_THAT(end.output, Catch::Contains("dam_break.json: valid, 1800 particles"));
+  for (const char* doubt : {"overlaps", "faster than sound", "lengths are in metres", "/time/", "/output/"})
+    CHECK_THAT(end.output, !Catch::Contains(doubt));
 }
 
 TEST_CASE("an exact solution that ends in the course of the run fails it", "[scene]") {
