@@ -153,8 +153,7 @@ void check_solver(bool any_is_free, bool any_moves, const Scene& scene, SeedProb
   if (any_is_free && scene.facts.find<Rheology>() != nullptr) {
     problems.note("/fluid/rheology", "not with free bodies", "a constant viscosity", "a rheology");
   } else if (any_is_free && friction_of(scene) == Friction::in_balances) {
-    problems.note("/fluid/viscosity", "too large for free bodies",
-                  "nu dt/h^2 up to 0.01, and no slip length shorter than h",
+    problems.note("/fluid/viscosity", "too large for free bodies", least_friction_text(scene),
                   fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
   }
   // The acceleration that it carries along a wall that moves grows without bound in four of ten hard cases.

@@ -9,6 +9,7 @@
 #include "systems/setup/time_plan.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace minamo {
 
@@ -25,17 +26,26 @@ inline double largest_diffusivity(const Scene& scene) {
 }
 
 /// Up to nu dt/h^2 = 1e-2 friction at the start of the step is exact enough, and costs next to nothing. A wall with
-/// slip length b is as stiff as nu dt/(b h). A viscosity that depends on the flow has no bound that is known before.
+/// slip length b is as stiff as nu dt/(b h).
+inline constexpr double largest_friction_at_start = 1e-2;
+
+/// h^2, or b h of the shortest slip length b where that is less. [m^2]
+inline double friction_area(const Scene& scene) {
+  const double h = scene.grid.spacing;
+  const auto* walls = scene.facts.find<WallFriction>();
+  return walls == nullptr ? h * h : h * h / std::max(1.0, h * walls->largest_per_length);
+}
+
+/// A viscosity that depends on the flow has no bound that is known before.
 inline Friction friction_of(const Scene& scene) {
-  constexpr double largest_at_start = 1e-2;
   if (!is_conforming(scene)) return Friction::none;
   if (scene.facts.find<Rheology>() != nullptr) return Friction::in_balances;
   if (scene.facts.get<Fluid>().viscosity == 0) return Friction::none;
-  const double h = scene.grid.spacing;
-  const double diffusion = largest_diffusivity(scene) * longest_step(scene) / (h * h);
-  const auto* walls = scene.facts.find<WallFriction>();
-  const double number = walls == nullptr ? diffusion : diffusion * std::max(1.0, h * walls->largest_per_length);
-  return number <= largest_at_start ? Friction::at_start : Friction::in_balances;
+  const double number = largest_diffusivity(scene) * longest_step(scene) / friction_area(scene);
+  return number <= largest_friction_at_start ? Friction::at_start : Friction::in_balances;
 }
+
+/// For the message where friction in the balances is not possible: the largest viscosity, and the longest step.
+std::string least_friction_text(const Scene& scene);
 
 }  // namespace minamo

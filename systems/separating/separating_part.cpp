@@ -82,7 +82,7 @@ void check_scene(const Scene& scene, SeedProblems& problems) {
   if (scene.facts.find<Rheology>() != nullptr) {
     note("/fluid/rheology", "not with separating walls", "a constant viscosity", "a rheology");
   } else if (friction_of(scene) == Friction::in_balances) {
-    note("/fluid/viscosity", "too large for separating walls", "nu dt/h^2 up to 0.01, and no slip length",
+    note("/fluid/viscosity", "too large for separating walls", least_friction_text(scene),
          fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
   }
   if (scene.schemes.at("integrator") == "newmark")
