@@ -33,14 +33,14 @@ struct Carreau {
 struct Bingham {
   double yield_stress = 0;  ///< [Pa]
   double viscosity = 0;     ///< above the yield stress [Pa s]
-  double regularization = 1e3;
+  double regularization = 1e5;
 };
 /// W. H. Herschel, R. Bulkley, Kolloid-Z. 39 (1926) 291, regularized in the same way.
 struct HerschelBulkley {
   double yield_stress = 0;  ///< [Pa]
   double consistency = 0;   ///< [Pa s^index]
   double index = 1;
-  double regularization = 1e3;
+  double regularization = 1e5;
 };
 
 /// Dry grains. P. Jop, Y. Forterre, O. Pouliquen, Nature 441 (2006) 727, regularized in the same way.

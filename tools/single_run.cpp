@@ -9,6 +9,7 @@
 #include "systems/output/history.hpp"
 #include "systems/ranks/fit_for_ranks.hpp"
 #include "systems/ranks/migrate.hpp"
+#include "systems/rheology/creep.hpp"
 #include "systems/setup/time_plan.hpp"
 #include "systems/time/turns.hpp"
 #include "tools/continuation.hpp"
@@ -102,6 +103,10 @@ void warn_of_scene(const Scene& scene, const std::string& path, World& world) {
   for (const std::string& warning : warnings_of(scene, world)) spdlog::warn("{}: {}", path, warning);
 }
 
+void tell_of_creep(const Scene& scene, const std::string& path, World& world) {
+  for (const std::string& remark : remarks_on_creep(scene, world)) spdlog::info("{}: {}", path, remark);
+}
+
 /// Blocks of cells are not shared.
 void warn_of_idle_ranks(World& world) {
   if (all_ranks() == nullptr) return;
@@ -172,6 +177,7 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
   Pipeline pipeline = make_pipeline(scene);
   if (all_ranks() != nullptr) require_fit_for_ranks(pipeline, plan.scene);
   // One thread has nobody to share a graph with.
+  if (plan.beginning == Beginning::start && !plan.quiet) tell_of_creep(scene, plan.scene, world);
   const Execution execution = all_ranks() != nullptr ? Execution::ranks
                               : plan.threads == 1    ? Execution::list
                                                      : Execution::graph;

@@ -1,6 +1,7 @@
 /// \file
-/// Laws of flow: values, limits at rest and at high rates.
+/// Laws of flow: values, limits at rest and at high rates, and how fast they creep below a yield stress.
 
+#include "systems/rheology/creep.hpp"
 #include "systems/rheology/law.hpp"
 
 #include <catch2/catch.hpp>
@@ -62,4 +63,51 @@ TEST_CASE("grains rub by mu(I) times their pressure, and not at all without", "[
   CHECK(viscosity_at(law, 5, 0) == 0);
   CHECK(viscosity_at(law, 5, -100) == 0);
   CHECK(viscosity_at(law, 0) == 0);
+}
+
+TEST_CASE("a film that should rest creeps by its regularization", "[unit]") {
+  const double regularization = GENERATE(1e3, 1e5);
+  const Law bingham = Bingham{.yield_stress = 650, .viscosity = 20, .regularization = regularization};
+  // At 90 % of the yield stress the viscous stress is 1e-3 of it; 200 slices leave 1e-4.
+  const double s = 0.9;
+  const auto creep = creep_of(bingham, {.depth = 0.1, .density = 1000, .force = s * 6.5});
+  REQUIRE(creep);
+  const double m = regularization * 20 / 650;
+  const double expected = 0.1 / m * ((1 - s) * std::log(1 - s) + s) / s;
+  CHECK(creep->speed == Approx(expected).epsilon(10 / regularization + 1e-4));
+  CHECK(*creep->unyielding == Approx(s * 650 * 0.1 / 40).epsilon(1e-14));
+  CHECK(creep->depth == 0.1);
+}
+
+TEST_CASE("a film that flows creeps where it is as deep as rests", "[unit]") {
+  const Law law = HerschelBulkley{.yield_stress = 650, .consistency = 20.6, .index = 0.605, .regularization = 1e3};
+  const auto deep = creep_of(law, {.depth = 5, .density = 910, .force = 7});
+  const double rests = 650 / (910 * 7.0);
+  REQUIRE(deep);
+  CHECK(deep->depth == Approx(rests).epsilon(1e-14));
+  // H/m at the yield stress, less what k g^n takes.
+  const double per_m = std::pow(650 / 20.6, 1 / 0.605) / 1e3;
+  CHECK(deep->speed < rests * per_m);
+  CHECK(deep->speed > 0.9 * rests * per_m);
+}
+
+TEST_CASE("grains on a slope of their angle of rest creep by their regularization", "[unit]") {
+  const auto speed = [](double regularization) {
+    const Law law = MuI{
+        .least = 0.38, .most = 0.64, .I0 = 0.279, .diameter = 5e-4, .density = 2500, .regularization = regularization};
+    const auto creep = creep_of(law, {.depth = 0.04, .density = 1500, .force = 9.81});
+    REQUIRE(creep);
+    CHECK_FALSE(creep->unyielding);
+    return creep->speed;
+  };
+  // In proportion, but for a logarithm.
+  CHECK(speed(1e4) / speed(1e5) > 8);
+  CHECK(speed(1e4) / speed(1e5) < 10);
+}
+
+TEST_CASE("liquids without yield stress do not creep, nor does what nothing pulls at", "[unit]") {
+  const Film film{.depth = 0.1, .density = 1000, .force = 9.81};
+  CHECK_FALSE(creep_of(PowerLaw{.consistency = 3, .index = 0.5, .least = 0.1, .most = 20}, film));
+  CHECK_FALSE(creep_of(Carreau{.zero = 10, .infinite = 1, .time = 2, .index = 0.5}, film));
+  CHECK_FALSE(creep_of(Bingham{.yield_stress = 5, .viscosity = 2}, {.depth = 0.1, .density = 1000, .force = 0}));
 }

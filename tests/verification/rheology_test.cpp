@@ -7,6 +7,7 @@
 
 #include "components/measure.hpp"
 #include "components/rheology.hpp"
+#include "systems/rheology/creep.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -62,6 +63,30 @@ TEST_CASE("shear-thinning and -thickening liquids flow through a channel by thei
 TEST_CASE("a liquid that yields and thins flows through a channel", "[verification]") {
   const std::string law = R"({"herschel_bulkley": {"yield_stress": 0.2, "consistency": 1, "index": 0.5}})";
   CHECK(channel_error(law, "(0.3^3 - max(abs(y - 0.5) - 0.2, 0)^3)/3", 16, 200) < 2e-2);  // 1.7e-2 measured
+}
+
+TEST_CASE("grease at 97 % of its yield stress creeps as its regularization lets it, next to nothing by default",
+          "[verification]") {
+  Json scene = Json::parse(R"({"dimension": 2, "grid": {"low": [0, 0], "high": [0.04, 0.11], "cells": [8, 22]},
+    "walls": {"x": "periodic", "y": ["no_slip", "slip"]},
+    "fluid": {"density": 910, "rheology": {"herschel_bulkley": {"yield_stress": 650, "consistency": 20.6, "index": 0.605}}},
+    "body_force": [6.9367, -6.9367], "particles": [{"shape": {"box": {"low": [0, 0], "high": [0.04, 0.1]}}}],
+    "transfer": {"scheme": "tpic"}, "time": {"end": 3, "step": 0.015}})");
+  const auto speed = [&] {
+    SceneRun run(scene);
+    run.step(150);
+    double largest = 0;
+    for (const Vec<2>& v : by_id<particle::Velocity<2>>(run.world())) largest = largest_of(largest, v.norm());
+    return largest;
+  };
+  // The speed of the Newtonian liquid is rho b H^2/2k = 1.53 m/s.
+  CHECK(speed() < 1e-3 * 1.53);  // 0.27 mm/s measured
+  scene["fluid"]["rheology"]["herschel_bulkley"]["regularization"] = 1e3;
+  const auto law =
+      rheology::HerschelBulkley{.yield_stress = 650, .consistency = 20.6, .index = 0.605, .regularization = 1e3};
+  const auto creep = creep_of(law, {.depth = 0.1, .density = 910, .force = 6.9367});
+  REQUIRE(creep);
+  CHECK(speed() == Approx(creep->speed).epsilon(0.05));  // by 2 % measured
 }
 
 TEMPLATE_TEST_CASE_SIG("a power law with index 1 is a Newtonian liquid", "[verification]", ((int Dim), Dim), 2, 3) {
