@@ -3,6 +3,7 @@
 #include "engine/step_control.hpp"
 #include "systems/bodies/room.hpp"
 #include "systems/conforming/incidence.hpp"
+#include "systems/time/body_force.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -289,7 +290,7 @@ void PushAtOpenings<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Re
 
 template <int Dim>
 void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                            Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set,
+                                            Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set, Read<BodyForce> b,
                                             Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                             Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f,
                                             Read<face::Velocity<Dim>> v_old, Read<face::BalanceVelocity<Dim>> v_f,
@@ -307,6 +308,7 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
     velocities->at_end[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_new.span());
   }
   work->value = 0;
+  const Vec<Dim> force = force_with_potential<Dim>(*grid, *b).value_or(Vec<Dim>::Zero());
   // One after the other: the same sums on any number of threads.
   for (std::size_t i = 0; i < site.size(); ++i) {
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -319,8 +321,10 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
       if (condition.is_held) {
         impulse = m_f[i][axis] * (v_new[i][axis] - v_old[i][axis]) - clock->step * share * incidence.gradient(i, d, at);
       }
-      energy[o] += impulse * v_f[i][axis];
       work->value += impulse * v_f[i][axis];
+      // The body force does work on what an opening carries up or down, which counts with the potential of particles.
+      if (condition.is_held) impulse -= clock->step * m_f[i][axis] * force[axis];
+      energy[o] += impulse * v_f[i][axis];
     }
   }
 }

@@ -75,14 +75,15 @@ struct PushAtOpenings {
 };
 
 /// Velocities on the sides of openings whose faces are unknowns; (E100) the work done in all openings, dt sum_f F_f v_f
-/// of the pressure outside and, where faces are held, dt sum_f (m_f (v^{n+1} - v^n)/dt - a_f (B^T lambda)_f) w_f;
+/// of the pressure outside and, where faces are held, dt sum_f (m_f ((v^{n+1} - v^n)/dt - b) - a_f (B^T lambda)_f) w_f;
 /// beside bodies a_f F_f is the force outside.
 template <int Dim>
 struct TakeOpeningVelocities {
   static constexpr std::string_view doc = "(E100) velocities in openings, and the work done there";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
-                  Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f, Read<face::Velocity<Dim>> v_old,
+                  Read<OpeningSet<Dim>> set, Read<BodyForce> b, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
+                  Read<face::OutsideForce<Dim>> F_f, Read<face::Velocity<Dim>> v_old,
                   Read<face::BalanceVelocity<Dim>> v_f, Read<face::NewVelocity<Dim>> v_new,
                   Read<multiplier::Force> lambda, Optional<Read<face::Open<Dim>>> open,
                   Update<opening::Velocities<Dim>> velocities, Update<opening::EnergyIn> energy,
