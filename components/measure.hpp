@@ -17,8 +17,16 @@ struct Energy {
   double kinetic = 0;               ///< sum m_p |v_p|^2 / 2 [J]
   std::optional<double> potential;  ///< -sum m_p b . (x_p - low corner), for a constant body force [J]
   std::optional<double> surface;    ///< of surface tension, where there is one [J]
+  double unresolved = 0;            ///< what of the surface energy the grid cannot tell, (E59) [J]
   double total() const { return kinetic + potential.value_or(0) + surface.value_or(0); }
   static constexpr ComponentInfo info{"measure.energy", "E", "J", Lifetime::scratch};
+};
+
+/// What liquid and scene have exchanged since the start.
+struct EnergyBalance {
+  double value = 0;      ///< energy of the liquid, less what it was given [J]
+  double exchanged = 0;  ///< what it was given and what it gave, by absolute value [J]
+  static constexpr ComponentInfo info{"measure.energy_balance", "E - W", "J", Lifetime::scratch};
 };
 
 template <int Dim>

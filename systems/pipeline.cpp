@@ -1,5 +1,8 @@
 #include "systems/pipeline.hpp"
 
+#include "systems/measure/force_work.hpp"
+#include "systems/setup/discretization.hpp"
+
 #include <algorithm>
 #include <span>
 
@@ -24,6 +27,9 @@ std::vector<Slot>::const_iterator slot_named(std::string_view name) {
   return std::find_if(slots().begin(), slots().end(), [&](const Slot& slot) { return slot.name == name; });
 }
 
+/// The slot behind which all forces of a step and all that moves particles are known.
+constexpr std::string_view last_that_moves = "volume";
+
 /// Of slots one after the other.
 std::vector<System> make_step(const Scene& scene, std::span<const Slot> of) {
   std::vector<System> step;
@@ -32,6 +38,8 @@ std::vector<System> make_step(const Scene& scene, std::span<const Slot> of) {
     for (const ExtraSystem& extra : scene.systems) {
       if (extra.after == slot.name) step.push_back(extra.system);
     }
+    if (slot.name == last_that_moves && force_work_of(scene).is_by_force)
+      step.push_back(scene.recipe.make(is_conforming(scene) ? "count_face_force_work" : "count_force_work"));
   }
   return step;
 }
@@ -44,8 +52,10 @@ std::vector<System> standing_slots(const Recipe& recipe, std::string_view first,
   return systems;
 }
 
-std::vector<System> make_start(const Recipe& recipe) {
+std::vector<System> make_start(const Scene& scene) {
+  const Recipe& recipe = scene.recipe;
   std::vector<System> start = recipe.first();
+  if (force_work_of(scene).is_given) start.push_back(recipe.make("begin_energy_given"));
   const auto stand = [&](const System& configure, const std::vector<System>& after) {
     start.push_back(configure);
     append(start, standing_slots(recipe, "sort", "solve"));
@@ -62,7 +72,7 @@ std::vector<System> make_start(const Recipe& recipe) {
 Pipeline make_pipeline(const Scene& scene) {
   // No slot of a step without a row comes after one that it leaves out, so it has nothing to miss.
   const std::vector<System> always = make_step(scene, {slots().begin(), slot_named(record_slots)});
-  return {make_start(scene.recipe), make_step(scene, slots()), always.size(), scene.recipe.output()};
+  return {make_start(scene), make_step(scene, slots()), always.size(), scene.recipe.output()};
 }
 
 }  // namespace minamo

@@ -3,6 +3,7 @@
 /// minamo from outside: write systems, register them, run the program with them.
 
 #include "components/cells.hpp"
+#include "components/energy_given.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/matrix.hpp"

@@ -125,10 +125,13 @@ void warn_of_rejection(const Clock& clock, const std::string& why) {
 void warn_of_energy(const Json& summary, World& world) {
   const double rise = summary["conservation"]["energy_rise"];
   if (rise <= 0.01) return;
+  const EnergyWatch& energy = totals_of_all_rows(world).energy;
   world.resource<Warnings>().add(
-      "energy", fmt::format("energy rose by {:.3g} % that no work accounts for, most of all until t = {:.6g} s; a "
-                            "shorter step or another method may keep it",
-                            100 * rise, totals_of_all_rows(world).energy.time));
+      "energy",
+      fmt::format(
+          "energy rose by {:.3g} % of what was exchanged, {:.3g} J that no work accounts for, most of all until "
+          "t = {:.6g} s; a shorter step or another method may keep it",
+          100 * rise, energy.gain(), energy.time));
 }
 
 /// Sound runs stay below: a step turns over now and then, alone; after an impact 48 and more do with gamma = 0.5, 26
@@ -174,10 +177,10 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
   World world;
   seed(scene, plan.scene, world);
   if (plan.beginning == Beginning::start) warn_of_scene(scene, plan.scene, world);
+  if (plan.beginning == Beginning::start && !plan.quiet) tell_of_creep(scene, plan.scene, world);
   Pipeline pipeline = make_pipeline(scene);
   if (all_ranks() != nullptr) require_fit_for_ranks(pipeline, plan.scene);
   // One thread has nobody to share a graph with.
-  if (plan.beginning == Beginning::start && !plan.quiet) tell_of_creep(scene, plan.scene, world);
   const Execution execution = all_ranks() != nullptr ? Execution::ranks
                               : plan.threads == 1    ? Execution::list
                                                      : Execution::graph;

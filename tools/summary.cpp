@@ -1,5 +1,6 @@
 #include "tools/summary.hpp"
 
+#include "components/energy_given.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
@@ -13,6 +14,7 @@
 
 #include "minamo_version.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -73,16 +75,24 @@ double constant_force(const BodyForce& b) {
   return std::sqrt(squared);
 }
 
-/// (E59)
-double energy_rise(double mass, World& world) {
-  const bool in_plane = world.has<Grid<2>>();
-  const double h = in_plane ? world.resource<Grid<2>>().spacing : world.resource<Grid<3>>().spacing;
-  const double slow = 1e-6 * h / world.resource<Clock>().step;
-  const double fall = 0.01 * h * constant_force(world.resource<BodyForce>());
-  return totals_of_all_rows(world).energy.share(mass * (slow * slow + fall));
+/// Over all ranks. [kg]
+double total_mass(World& world) {
+  double mass = 0;
+  for (const double m : world.column<particle::Mass>()) mass += m;
+  return sum_over_ranks(mass);
 }
 
 }  // namespace
+
+double energy_rise(World& world) {
+  const double mass = total_mass(world);
+  const bool in_plane = world.has<Grid<2>>();
+  const double h = in_plane ? world.resource<Grid<2>>().spacing : world.resource<Grid<3>>().spacing;
+  const double slow = 1e-6 * h / world.resource<Clock>().step;
+  double weight = mass * constant_force(world.resource<BodyForce>());
+  if (world.has<EnergyGiven>()) weight = std::max(weight, world.resource<EnergyGiven>().weight);
+  return totals_of_all_rows(world).energy.share(mass * slow * slow + 0.01 * h * weight);
+}
 
 Json make_summary(const std::string& scene, const Outcome& outcome, int threads, double end, const Stopwatch& stopwatch,
                   const Profiler& profiler, World& world) {
@@ -90,9 +100,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   const RunTotals& totals = totals_of_all_rows(world);
   const StepTotals& steps = world.resource<StepTotals>();
   const double wall = stopwatch.wall_seconds();
-  double mass = 0;
-  for (const double m : world.column<particle::Mass>()) mass += m;
-  mass = sum_over_ranks(mass);
+  const double mass = total_mass(world);
   Json summary{{"scene", scene}, {"status", status(outcome.ending)}};
   if (!outcome.message.empty()) summary["message"] = outcome.message;
   summary.update({{"steps", clock.index},
@@ -125,7 +133,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   Json conservation{{"mass", mass}};
   conservation.update(conserved(totals.last, in_plane));
   conservation["overlap_max"] = steps.overlap_max;
-  conservation["energy_rise"] = energy_rise(mass, world);
+  conservation["energy_rise"] = energy_rise(world);
   conservation["initial"] = conserved(totals.first, in_plane);
   summary["conservation"] = conservation;
   summary["errors"] = last_errors(totals);

@@ -318,6 +318,7 @@ Contribution read_bodies(Input& input, Scene& scene) {
 /// take a force gradient from them.
 Contribution read_nothing(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
+    recipe.add("measure", "measure_energy_balance");
     const auto* bodies = scene.facts.find<BodiesOfScene>();
     if (!bodies) return;
     recipe.add("configure", "stop_at_plates", When::step);
@@ -326,7 +327,6 @@ Contribution read_nothing(Input&, Scene&) {
       recipe.add("solve", "renew_wall_flux", When::step);
     recipe.add("solve", "measure_face_divergence");
     recipe.add("solve", "extend_balance_velocity");
-    recipe.add("measure", "measure_energy_balance");
   };
 }
 
@@ -366,7 +366,6 @@ void add_behind_bodies(SystemRegistry& registry) {
   registry.add<RequireRoom>("require_room");
   registry.add<RenewWallFlux>("renew_wall_flux");
   registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
-  registry.add<MeasureEnergyBalance>("measure_energy_balance");
   registry.add(Part{"behind_bodies", "velocities of faces that bodies close, balance of energy; no key", read_nothing});
 }
 

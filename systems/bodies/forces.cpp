@@ -163,18 +163,8 @@ void MeasureBodiesAtStart<Dim>::operator()(Read<BodySet<Dim>> set, Read<body::Po
   }
 }
 
-template <int Dim>
-void MeasureEnergyBalance<Dim>::operator()(Read<measure::Energy> energy, Read<body::Work> W_b,
-                                           Update<measure::Columns> columns) const {
-  double balance = energy->total();
-  for (const double work : W_b) balance += work;
-  columns->set("energy_balance", balance);
-}
-
 template struct CountStops<2>;
 template struct CountStops<3>;
-template struct MeasureEnergyBalance<2>;
-template struct MeasureEnergyBalance<3>;
 template struct PushBodies<2>;
 template struct PushBodies<3>;
 template struct MeasureBodiesAtStart<2>;

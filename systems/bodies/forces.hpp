@@ -63,11 +63,4 @@ struct MeasureBodiesAtStart {
                   Update<measure::Columns> columns) const;
 };
 
-/// (E90)  Column energy_balance: energy of the liquid and the work that it has done on bodies, which no step raises.
-template <int Dim>
-struct MeasureEnergyBalance {
-  static constexpr std::string_view doc = "(E90) energy less what bodies have given";
-  void operator()(Read<measure::Energy> energy, Read<body::Work> W_b, Update<measure::Columns> columns) const;
-};
-
 }  // namespace minamo

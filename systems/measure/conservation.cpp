@@ -111,12 +111,32 @@ void MeasureEnergy<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Rea
   energy->kinetic = on_all(ranks, kinetic_energy<Dim>(m_p.span(), v_p.span()));
   energy->potential.reset();
   energy->surface.reset();
+  energy->unresolved = 0;
   const auto force = force_with_potential<Dim>(*grid, *b);
   if (!force) return;
   energy->potential =
       on_all(ranks, reduce_rows(
                         m_p.size(), 0.0, [&](std::size_t p) { return -m_p[p] * force->dot(x_p[p] - grid->low); },
                         std::plus<>()));
+}
+
+template <int Dim>
+void MeasureEnergyBalance<Dim>::operator()(Read<measure::Energy> energy, Optional<Read<body::Work>> W_b,
+                                           Optional<Read<opening::EnergyIn>> E_o, Optional<Read<EnergyGiven>> given,
+                                           Write<measure::EnergyBalance> balance,
+                                           Update<measure::Columns> columns) const {
+  *balance = {.value = energy->total(), .exchanged = 0};
+  const auto give = [&](double joule) {
+    balance->value -= joule;
+    balance->exchanged += std::abs(joule);
+  };
+  for (const double work : W_b.span()) give(-work);
+  for (const double came_in : E_o.span()) give(came_in);
+  if (given) {
+    give(given->value);
+    give(given->by_forces);
+  }
+  if (W_b || E_o || given || energy->surface) columns->set("energy_balance", balance->value);
 }
 
 template <int Dim>
@@ -155,6 +175,8 @@ template double kinetic_energy<2>(std::span<const double>, std::span<const Vec<2
 template double kinetic_energy<3>(std::span<const double>, std::span<const Vec<3>>);
 template struct MeasureEnergy<2>;
 template struct MeasureEnergy<3>;
+template struct MeasureEnergyBalance<2>;
+template struct MeasureEnergyBalance<3>;
 template struct MeasureMomentum<2>;
 template struct MeasureMomentum<3>;
 template struct MeasureMaxSpeed<2>;

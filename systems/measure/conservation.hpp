@@ -2,9 +2,12 @@
 /// \file
 /// Energy, momentum and largest speed of the particles.
 
+#include "components/body.hpp"
+#include "components/energy_given.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/measure.hpp"
+#include "components/openings.hpp"
 #include "components/particle.hpp"
 #include "engine/communicator.hpp"
 #include "engine/system.hpp"
@@ -24,6 +27,17 @@ struct MeasureEnergy {
   static constexpr std::string_view doc = "(E28) kinetic and potential energy";
   void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Optional<Read<Ranks>> ranks, Write<measure::Energy> energy) const;
+};
+
+/// (E59)  E - W: the energy of the liquid and the work that it has done on bodies (E90), less what came in through
+/// openings (E100), the work of forces without a potential (E133), and what systems say that they have given. A column
+/// of the history, energy_balance, where that is not K + U.
+template <int Dim>
+struct MeasureEnergyBalance {
+  static constexpr std::string_view doc = "(E59) energy less what was given, which no step raises";
+  void operator()(Read<measure::Energy> energy, Optional<Read<body::Work>> W_b, Optional<Read<opening::EnergyIn>> E_o,
+                  Optional<Read<EnergyGiven>> given, Write<measure::EnergyBalance> balance,
+                  Update<measure::Columns> columns) const;
 };
 
 /// (E29)  P = sum m_p v_p;  L = sum m_p (x_p - x_c) x v_p.

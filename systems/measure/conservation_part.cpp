@@ -1,5 +1,6 @@
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/measure/conservation.hpp"
+#include "systems/measure/force_work.hpp"
 #include "systems/measure/volume.hpp"
 #include "systems/measure/watch_lid.hpp"
 #include "systems/measure/watch_move.hpp"
@@ -29,6 +30,10 @@ void watch_lid(const Scene& scene, Recipe& recipe) {
 
 void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureEnergy>("measure_energy");
+  registry.add<MeasureEnergyBalance>("measure_energy_balance");
+  registry.add<BeginEnergyGiven>("begin_energy_given");
+  registry.add<CountForceWork>("count_force_work");
+  registry.add<CountFaceForceWork>("count_face_force_work");
   registry.add<MeasureMomentum>("measure_momentum");
   registry.add<MeasureMaxSpeed>("measure_max_speed");
   registry.add<MeasureDivergence>("measure_divergence");

@@ -6,42 +6,55 @@
 
 namespace minamo {
 
-/// Viscosity only takes, and so do walls that stand still: under a constant body force K + U never rises, nor does
-/// K + U + W with the work W that was done on moving bodies. Plain data.
-struct EnergyWatch {
-  double lowest = 0;       ///< K + U + W so far [J]
-  double rise = 0;         ///< largest K + U + W less the lowest before it [J]
-  double time = 0;         ///< when that was [s]
-  double kinetic_max = 0;  ///< [J]
-  double potential_min = 0;
-  double potential_max = 0;
-  double work_min = 0;  ///< done on bodies since the start [J]
-  double work_max = 0;
+/// What a rise is judged by, beside the energies themselves.
+struct EnergyScales {
+  double exchanged = 0;   ///< with bodies, through openings and with forces, by absolute value [J]
+  double unresolved = 0;  ///< of the energy of the surface, what the grid cannot tell [J]
+};
 
-  void start(double kinetic, double potential) {
-    *this = {
-        .lowest = kinetic + potential, .kinetic_max = kinetic, .potential_min = potential, .potential_max = potential};
+/// Viscosity only takes, and so do walls that stand still: the energy less what was given to the liquid, E - W, never
+/// rises. Plain data.
+struct EnergyWatch {
+  double lowest = 0;          ///< E - W so far [J]
+  double rise = 0;            ///< largest E - W less the lowest before it [J]
+  double time = 0;            ///< when that was [s]
+  double kinetic_max = 0;     ///< [J]
+  double stored_min = 0;      ///< potential and surface energy [J]
+  double stored_max = 0;      ///< [J]
+  double exchanged_max = 0;   ///< [J]
+  double unresolved_max = 0;  ///< [J]
+
+  /// \param stored  potential and surface energy [J]
+  void start(double kinetic, double stored, const EnergyScales& scales = {}) {
+    *this = {.lowest = kinetic + stored,
+             .kinetic_max = kinetic,
+             .stored_min = stored,
+             .stored_max = stored,
+             .exchanged_max = scales.exchanged,
+             .unresolved_max = scales.unresolved};
   }
-  /// \param work  done on bodies since the start [J]
-  void see(double t, double kinetic, double potential, double work = 0) {
-    const double energy = kinetic + potential + work;
-    if (energy - lowest > rise) {
-      rise = energy - lowest;
+  /// \param balance  E - W [J]
+  void see(double t, double balance, double kinetic, double stored, const EnergyScales& scales = {}) {
+    if (balance - lowest > rise) {
+      rise = balance - lowest;
       time = t;
     }
-    lowest = std::min(lowest, energy);
+    lowest = std::min(lowest, balance);
     kinetic_max = std::max(kinetic_max, kinetic);
-    potential_min = std::min(potential_min, potential);
-    potential_max = std::max(potential_max, potential);
-    work_min = std::min(work_min, work);
-    work_max = std::max(work_max, work);
+    stored_min = std::min(stored_min, stored);
+    stored_max = std::max(stored_max, stored);
+    exchanged_max = std::max(exchanged_max, scales.exchanged);
+    unresolved_max = std::max(unresolved_max, scales.unresolved);
   }
 
-  /// (E59)  The rise over what was there to exchange: the largest of K_max, U_max - U_min, W_max - W_min and `least`.
+  /// The rise, less what the grid cannot tell. [J]
+  double gain() const { return std::max(0.0, rise - unresolved_max); }
+  /// (E59)  The gain over what was there to exchange: the largest of K_max, the range of what is stored, what was
+  /// exchanged and `least`.
   /// \param least  an energy that the grid can tell from zero [J]
   double share(double least) const {
-    const double scale = std::max({kinetic_max, potential_max - potential_min, work_max - work_min, least});
-    return scale > 0 ? rise / scale : 0;
+    const double scale = std::max({kinetic_max, stored_max - stored_min, exchanged_max, least});
+    return scale > 0 ? gain() / scale : 0;
   }
 };
 

@@ -48,20 +48,9 @@ void MeasureOpeningsAtStart<Dim>::operator()(Read<OpeningSet<Dim>> set, Read<ope
   columns->set("particles", static_cast<double>(id.size()));
 }
 
-template <int Dim>
-void BalanceEnergyOfOpenings<Dim>::operator()(Read<measure::Energy> energy, Read<opening::EnergyIn> energy_in,
-                                              Optional<Read<body::Work>> W_b, Update<measure::Columns> columns) const {
-  double balance = energy->total();
-  for (const double work : W_b.span()) balance += work;
-  for (const double came_in : energy_in) balance -= came_in;
-  columns->set("energy_balance", balance);
-}
-
 template struct MeasureOpenings<2>;
 template struct MeasureOpenings<3>;
 template struct MeasureOpeningsAtStart<2>;
 template struct MeasureOpeningsAtStart<3>;
-template struct BalanceEnergyOfOpenings<2>;
-template struct BalanceEnergyOfOpenings<3>;
 
 }  // namespace minamo

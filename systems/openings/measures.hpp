@@ -2,7 +2,6 @@
 /// \file
 /// Columns of the history for openings.
 
-#include "components/body.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
 #include "engine/system.hpp"
@@ -26,14 +25,6 @@ struct MeasureOpeningsAtStart {
   static constexpr std::string_view doc = "what came in through openings, at the start";
   void operator()(Read<OpeningSet<Dim>> set, Read<opening::MassIn> mass_in, Read<opening::EnergyIn> energy_in,
                   Read<particle::Id> id, Update<measure::Columns> columns) const;
-};
-
-/// (E100)  energy_balance less the energy that came in; without bodies it is K + U less that.
-template <int Dim>
-struct BalanceEnergyOfOpenings {
-  static constexpr std::string_view doc = "(E100) energy less what came in";
-  void operator()(Read<measure::Energy> energy, Read<opening::EnergyIn> energy_in, Optional<Read<body::Work>> W_b,
-                  Update<measure::Columns> columns) const;
 };
 
 }  // namespace minamo

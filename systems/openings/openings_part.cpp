@@ -359,7 +359,6 @@ Contribution read_nothing(Input&, Scene&) {
     recipe.add("accept", "let_out", When::step);
     recipe.add("measure", "measure_openings", When::step);
     recipe.add("measure", "measure_openings_at_start", When::standing);
-    recipe.add("measure", "balance_energy_of_openings");
   };
 }
 
@@ -388,7 +387,6 @@ void add_behind_openings(SystemRegistry& registry) {
   registry.add<LetOut>("let_out");
   registry.add<MeasureOpenings>("measure_openings");
   registry.add<MeasureOpeningsAtStart>("measure_openings_at_start");
-  registry.add<BalanceEnergyOfOpenings>("balance_energy_of_openings");
   registry.add(Part{"behind_openings", "pressure outside openings, what leaves, balances; no key", read_nothing});
 }
 

@@ -4,6 +4,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -11,8 +12,10 @@ namespace minamo {
 
 template <int Dim>
 void SoakVelocity<Dim>::operator()(Read<Clock> clock, Read<Sponges> sponges,
-                                   Read<particle::QuadraturePosition<Dim>> y_p, Write<SpongeShare> kept,
-                                   Update<particle::Velocity<Dim>> v_p) const {
+                                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+                                   Optional<Read<Ranks>> ranks, Write<SpongeShare> kept,
+                                   Update<particle::Velocity<Dim>> v_p, Update<EnergyGiven> given) const {
+  double brought = 0;
   for_each_row(kept.size(), [&](std::size_t p) { kept[p] = 1; });
   Arguments arguments({.time = clock->time + 0.5 * clock->step, .ode = {}, .ode_count = 0});
   // In turn: expressions are not for several threads.
@@ -28,10 +31,14 @@ void SoakVelocity<Dim>::operator()(Read<Clock> clock, Read<Sponges> sponges,
                                              std::isnan(is_here) ? "\"where\"" : "a rate", at[3]));
       if (rate <= 0) continue;
       const double share = std::exp(-rate * clock->step);
-      v_p[p] = toward + share * (v_p[p] - toward);
+      const Vec<Dim> soaked = toward + share * (v_p[p] - toward);
+      brought += 0.5 * m_p[p] * (soaked.squaredNorm() - v_p[p].squaredNorm());
+      v_p[p] = soaked;
       kept[p] *= share;
     }
   }
+  if (ranks) brought = (*ranks)->sum(brought);
+  given->value += std::max(0.0, brought);
 }
 
 template <int Dim>

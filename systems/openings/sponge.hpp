@@ -2,10 +2,12 @@
 /// \file
 /// Sponge layers: regions that draw the velocity of the liquid towards a given one, so that waves end there.
 
+#include "components/energy_given.hpp"
 #include "components/grid.hpp"
 #include "components/instant.hpp"
 #include "components/particle.hpp"
 #include "engine/clock.hpp"
+#include "engine/communicator.hpp"
 #include "engine/system.hpp"
 
 #include <optional>
@@ -28,13 +30,15 @@ struct SpongeShare : Column<Particles, double> {
   static constexpr ComponentInfo info{"sponge.share", "", "1", Lifetime::scratch};
 };
 
-/// (E102)  v_p <- v_s + (v_p - v_s) exp(-r dt), at y_p.
+/// (E102)  v_p <- v_s + (v_p - v_s) exp(-r dt), at y_p. Where that brings energy in a step, it is given; what it takes
+/// is lost as to friction.
 /// \throws std::runtime_error if a rate or `where` is not a number
 template <int Dim>
 struct SoakVelocity {
   static constexpr std::string_view doc = "(E102) v_p in sponges";
   void operator()(Read<Clock> clock, Read<Sponges> sponges, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Write<SpongeShare> kept, Update<particle::Velocity<Dim>> v_p) const;
+                  Read<particle::Mass> m_p, Optional<Read<Ranks>> ranks, Write<SpongeShare> kept,
+                  Update<particle::Velocity<Dim>> v_p, Update<EnergyGiven> given) const;
 };
 
 /// (E102)  grad v_p <- grad v_p exp(-r dt).

@@ -34,21 +34,19 @@ void keep_measured(const measure::Columns& columns, std::string_view name, doubl
 /// The totals with one more row.
 template <int Dim>
 RunTotals added(RunTotals totals, const Clock& clock, const measure::Energy& energy,
-                const measure::Momentum<Dim>& momentum, const measure::Columns& further) {
+                const measure::EnergyBalance& balance, const measure::Momentum<Dim>& momentum,
+                const measure::Columns& further) {
   const bool is_start = totals.rows == 0;
   totals.last = values<Dim>(energy, momentum);
   if (is_start) totals.first = totals.last;
   if (is_start) totals.columns = static_cast<std::int64_t>(further.columns.size());
   require_known(further, totals.columns);
-  if (energy.potential) {
-    const double* balance = further.find("energy_balance");
-    const double work = balance ? *balance - energy.total() : 0;
-    const double stored = *energy.potential + energy.surface.value_or(0);
-    if (is_start) {
-      totals.energy.start(energy.kinetic, stored);
-    } else {
-      totals.energy.see(clock.end_of_step, energy.kinetic, stored, work);
-    }
+  const double stored = energy.potential.value_or(0) + energy.surface.value_or(0);
+  const EnergyScales scales{.exchanged = balance.exchanged, .unresolved = energy.unresolved};
+  if (is_start) {
+    totals.energy.start(energy.kinetic, stored, scales);
+  } else {
+    totals.energy.see(clock.end_of_step, balance.value, energy.kinetic, stored, scales);
   }
   keep_measured(further, "error_velocity", totals.error_velocity);
   keep_measured(further, "error_pressure", totals.error_pressure);
@@ -89,14 +87,15 @@ const RunTotals& totals_of_all_rows(World& world) {
 
 template <int Dim>
 void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> energy,
-                                   Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
-                                   Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap,
-                                   Read<SolveReport> solve, Read<measure::Columns> further, Read<HistoryInterval> every,
+                                   Read<measure::EnergyBalance> balance, Read<measure::Momentum<Dim>> momentum,
+                                   Read<measure::MaxSpeed> speed, Read<measure::MaxDivergence> divergence,
+                                   Read<measure::Overlap> overlap, Read<SolveReport> solve,
+                                   Read<measure::Columns> further, Read<HistoryInterval> every,
                                    Update<RunTotals> totals, Update<HistoryFile> history) const {
   // The row of the start has no step behind it.
   const bool is_start = totals->rows == 0;
   const std::int64_t step = is_start ? 0 : clock->index + 1;
-  const RunTotals with_row = added<Dim>(*totals, *clock, *energy, *momentum, *further);
+  const RunTotals with_row = added<Dim>(*totals, *clock, *energy, *balance, *momentum, *further);
   history->extra.reset();
   if (step % every->steps == 0) {
     *totals = with_row;

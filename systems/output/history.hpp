@@ -31,7 +31,7 @@ struct RunTotals {
   };
   Values first;
   Values last;
-  EnergyWatch energy;  ///< of constant body forces
+  EnergyWatch energy;
   std::int64_t rows = 0;
   std::int64_t columns = 0;  ///< of measure::Columns
   // The last that were measured; NaN: none was.
@@ -73,10 +73,11 @@ std::int64_t cut_history(const std::string& path, std::int64_t rows);
 template <int Dim>
 struct WriteHistory {
   static constexpr std::string_view doc = "a row of history.csv";
-  void operator()(Read<Clock> clock, Read<measure::Energy> energy, Read<measure::Momentum<Dim>> momentum,
-                  Read<measure::MaxSpeed> speed, Read<measure::MaxDivergence> divergence,
-                  Read<measure::Overlap> overlap, Read<SolveReport> solve, Read<measure::Columns> further,
-                  Read<HistoryInterval> every, Update<RunTotals> totals, Update<HistoryFile> history) const;
+  void operator()(Read<Clock> clock, Read<measure::Energy> energy, Read<measure::EnergyBalance> balance,
+                  Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
+                  Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap, Read<SolveReport> solve,
+                  Read<measure::Columns> further, Read<HistoryInterval> every, Update<RunTotals> totals,
+                  Update<HistoryFile> history) const;
 };
 
 /// So that the rows on the disk reach as far as the frames.

@@ -15,11 +15,11 @@ const std::set<std::string, std::less<>> fit{
     "p2g_face_acceleration_pic", "p2g_face_acceleration_tpic", "p2g_face_force", "p2g_multipliers", "find_fill",
     "find_face_density", "rub_faces", "add_face_inertia", "fill_parts", "recover_pressure",
     // over all particles or faces
-    "limit_particle_shift", "accept_step_on_faces", "measure_energy", "measure_momentum", "measure_max_speed",
-    "measure_error_velocity", "measure_error_pressure", "measure_face_divergence", "measure_multiplier_overlap",
-    "find_viscosity", "measure_probes_on_faces", "measure_probes_on_faces_at_start",
+    "limit_particle_shift", "count_face_force_work", "accept_step_on_faces", "measure_energy", "measure_momentum",
+    "measure_max_speed", "measure_error_velocity", "measure_error_pressure", "measure_face_divergence",
+    "measure_multiplier_overlap", "find_viscosity", "measure_probes_on_faces", "measure_probes_on_faces_at_start",
     // alike on all ranks
-    "hold_ode", "integrate_ode",
+    "hold_ode", "integrate_ode", "begin_energy_given", "measure_energy_balance",
     // the first rank writes
     "write_history", "flush_history", "write_frame", "write_xdmf", "write_surfaces",
     // of own particles, cells, and sites

@@ -6,6 +6,7 @@
 #include "components/body.hpp"
 #include "components/grid.hpp"
 #include "components/measure.hpp"
+#include "components/particle.hpp"
 #include "components/step.hpp"
 #include "components/surface_tension.hpp"
 #include "engine/system.hpp"
@@ -54,17 +55,17 @@ struct AddSurfaceTension {
 template <int Dim>
 struct MeasureSurfaceEnergy {
   static constexpr std::string_view doc = "(E115) surface energy at the end of the step";
-  void operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface, Read<face::SurfaceForce<Dim>> F_f,
-                  Read<face::Displacement<Dim>> u_f, Update<measure::Energy> energy,
-                  Update<measure::Columns> columns) const;
+  void operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface, Read<Grid<Dim>> grid,
+                  Read<particle::Volume> V_p, Read<face::SurfaceForce<Dim>> F_f, Read<face::Displacement<Dim>> u_f,
+                  Update<measure::Energy> energy, Update<measure::Columns> columns) const;
 };
 
 /// The same where nothing has moved yet.
 template <int Dim>
 struct MeasureSurfaceEnergyAtStart {
   static constexpr std::string_view doc = "(E115) surface energy at the start";
-  void operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface, Update<measure::Energy> energy,
-                  Update<measure::Columns> columns) const;
+  void operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface, Read<Grid<Dim>> grid,
+                  Read<particle::Volume> V_p, Update<measure::Energy> energy, Update<measure::Columns> columns) const;
 };
 
 }  // namespace minamo

@@ -28,15 +28,8 @@ Vec<Dim> uniform_force(const BodyForce& b, const Instant& now) {
 
 template <int Dim>
 std::optional<Vec<Dim>> force_with_potential(const Grid<Dim>& grid, const BodyForce& b) {
-  Vec<Dim> force;
-  for (int d = 0; d < Dim; ++d) {
-    const auto axis = static_cast<std::size_t>(d);
-    const Expression& component = b.of_place_and_time[axis];
-    if (!component.is_constant()) return {};
-    force[d] = component(std::array<double, 4>{});
-    if (force[d] != 0 && grid.periodic[axis]) return {};
-  }
-  return force;
+  if (!has_potential(b, grid.periodic)) return {};
+  return vector_at<Dim>(b.of_place_and_time, std::array<double, 4>{});
 }
 
 template <int Dim>

@@ -19,8 +19,19 @@ namespace minamo {
 template <int Dim>
 Vec<Dim> uniform_force(const BodyForce& b, const Instant& now);
 
-/// The constant force that there is a potential of, U = -m b . (x - x_low) in (E28). None if it changes, or pulls along
-/// a periodic axis: there things never stop falling.
+/// Whether there is a potential of a force: it is constant, and pulls along no periodic axis, where things never stop
+/// falling.
+/// \param periodic  by axis
+template <class Periodic>
+bool has_potential(const BodyForce& b, const Periodic& periodic) {
+  for (std::size_t d = 0; d < b.of_place_and_time.size(); ++d) {
+    const Expression& component = b.of_place_and_time[d];
+    if (!component.is_constant() || (component({}) != 0 && periodic[d])) return false;
+  }
+  return true;
+}
+
+/// The constant force that there is a potential of, U = -m b . (x - x_low) in (E28).
 template <int Dim>
 std::optional<Vec<Dim>> force_with_potential(const Grid<Dim>& grid, const BodyForce& b);
 

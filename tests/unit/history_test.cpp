@@ -64,7 +64,8 @@ TEST_CASE("the history has a row for the start and one per step", "[unit]") {
 TEST_CASE("the history has an empty potential energy where the force varies in time", "[unit]") {
   const auto rows = history(with(few_cells(), {R"(/body_force=[0, "-9.81*t"])"}), 1);
   CHECK(rows.at(2).at(4).empty());
-  CHECK(rows.at(2).size() == columns_2d);
+  CHECK(rows.at(2).size() == columns_2d + 1);
+  CHECK(rows.at(0).back() == "energy_balance");
 }
 
 TEST_CASE("probes come after the columns of every history, errors last", "[unit]") {

@@ -149,10 +149,10 @@ TEST_CASE("overlap is what particles have beyond the volume of their nodes", "[u
 TEST_CASE("a rise of energy is what came after the lowest, over what there was to exchange", "[unit]") {
   EnergyWatch watch;
   watch.start(0, 60);
-  watch.see(1, 20, 38);  // 58
-  watch.see(2, 15, 45);  // 60: 2 more
-  watch.see(3, 10, 30);
-  watch.see(4, 11, 30);
+  watch.see(1, 58, 20, 38);
+  watch.see(2, 60, 15, 45);  // 2 more
+  watch.see(3, 40, 10, 30);
+  watch.see(4, 41, 11, 30);
   CHECK(watch.rise == 2);
   CHECK(watch.time == 2);
   CHECK(watch.share(0) == Approx(2.0 / 30).epsilon(1e-15));  // U has gone from 60 to 30
@@ -161,11 +161,27 @@ TEST_CASE("a rise of energy is what came after the lowest, over what there was t
 TEST_CASE("rounding at rest is no rise of energy", "[unit]") {
   EnergyWatch watch;
   watch.start(0, 500);
-  watch.see(1, 1e-13, 500);
+  watch.see(1, 1e-13 + 500, 1e-13, 500);
   CHECK(watch.share(0.1) < 1e-11);
   EnergyWatch weightless;
   weightless.start(0, 0);
   CHECK(weightless.share(0) == 0);
-  weightless.see(1, 1e-25, 0);
+  weightless.see(1, 1e-25, 1e-25, 0);
   CHECK(weightless.share(1e-9) < 1e-15);
+}
+
+TEST_CASE("a rise of energy is judged by what was exchanged, with bodies and openings, too", "[unit]") {
+  EnergyWatch watch;
+  watch.start(1, 0);
+  watch.see(1, 1.5, 1, 0, {.exchanged = 40, .unresolved = 0});
+  CHECK(watch.share(0) == Approx(0.5 / 40).epsilon(1e-15));
+}
+
+TEST_CASE("what the grid cannot tell of a surface is no rise of energy, what is more is one", "[unit]") {
+  EnergyWatch watch;
+  watch.start(0, 10);
+  watch.see(1, 10.2, 0, 10.2, {.exchanged = 0, .unresolved = 0.3});
+  CHECK(watch.share(0) == 0);
+  watch.see(2, 10.5, 0.1, 10.4, {.exchanged = 0, .unresolved = 0.3});
+  CHECK(watch.share(0) == Approx(0.2 / 0.4).epsilon(1e-13));
 }
