@@ -73,6 +73,7 @@ struct Columns {
   struct Column {
     std::string name;
     double value = 0;
+    std::string unit = {};
   };
   std::vector<Column> columns;
   // Not scratch, because most scenes have no system that writes them.
@@ -83,10 +84,11 @@ struct Columns {
     const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     return found == columns.end() ? nullptr : &found->value;
   }
-  void set(std::string_view name, double value) {
+  /// \param unit  of the column, which is that of its first value; "1" without one, in the plane per metre of depth
+  void set(std::string_view name, double value, std::string_view unit = {}) {
     const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns.end()) {
-      columns.push_back({std::string(name), value});
+      columns.push_back({std::string(name), value, std::string(unit)});
     } else {
       found->value = value;
     }

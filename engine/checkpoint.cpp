@@ -1,10 +1,15 @@
 #include "engine/checkpoint.hpp"
 
+#include "engine/file_error.hpp"
 #include "engine/shared_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <list>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace minamo {
 
@@ -91,6 +96,15 @@ std::map<std::string_view, std::size_t> rows_of_tables(const Hdf5File& file, con
   return rows;
 }
 
+/// What has been written to a file is on the disk, not in a cache.
+void synchronize(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw_not_written(path);
+  const int failed = ::fsync(file) != 0 ? errno : 0;
+  ::close(file);
+  if (failed != 0) throw std::runtime_error(not_written(path, failed));
+}
+
 }  // namespace
 
 void write_checkpoint(const std::string& path, const World& world, const std::function<void(Hdf5File&)>& add,
@@ -99,7 +113,7 @@ void write_checkpoint(const std::string& path, const World& world, const std::fu
   const bool is_first = rows.ranks == nullptr || rows.ranks->is_first();
   try {
     const OwnState state(world, rows);
-    write_shared(rows.ranks, unfinished, Hdf5File::Access::create, state.datasets(), add);
+    write_shared(rows.ranks, unfinished, state.datasets(), add);
     do_on_all(rows.ranks, [&] {
       if (!is_first) return;
       synchronize(unfinished);

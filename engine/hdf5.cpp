@@ -1,8 +1,11 @@
 #include "engine/hdf5.hpp"
 
+#include "engine/file_error.hpp"
 #include "engine/memory_reserve.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -12,12 +15,27 @@ namespace minamo {
 
 namespace {
 
+/// What the operating system has said of the last failure: the library keeps it in the text of one of its errors.
+std::string reason_of_library() {
+  int error = 0;
+  const auto look = [](unsigned, const H5E_error2_t* entry, void* found) -> herr_t {
+    const std::string text = entry->desc ? entry->desc : "";
+    const auto at = text.find("errno = ");
+    if (at != std::string::npos) *static_cast<int*>(found) = std::atoi(text.c_str() + at + 8);
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &error);
+  return reason(error);
+}
+
+[[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what + reason_of_library()); }
+
 /// An HDF5 identifier that closes itself.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
   Handle(hid_t id, Close close_with, const std::string& what) : id_(id), close_(close_with) {
-    if (id < 0) throw std::runtime_error(what);
+    if (id < 0) fail(what);
   }
   ~Handle() {
     if (id_ >= 0) close_(id_);
@@ -27,7 +45,7 @@ class Handle {
   operator hid_t() const { return id_; }
   /// What is still in a buffer is written now.
   void close(const std::string& what) {
-    if (close_(std::exchange(id_, -1)) < 0) throw std::runtime_error(what);
+    if (close_(std::exchange(id_, -1)) < 0) fail(what);
   }
 
  private:
@@ -61,13 +79,15 @@ void write_attribute(hid_t file, const std::string& object, const std::string& n
   const Handle target(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, what);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, what);
   const Handle attribute(H5Acreate2(target, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
-  if (H5Awrite(attribute, type, value) < 0) throw std::runtime_error(what);
+  if (H5Awrite(attribute, type, value) < 0) fail(what);
 }
 
 hid_t type_of(DatasetRows::Number number) {
   switch (number) {
   case DatasetRows::Number::real:
     return H5T_NATIVE_DOUBLE;
+  case DatasetRows::Number::single:
+    return H5T_NATIVE_FLOAT;
   case DatasetRows::Number::integer:
     return H5T_NATIVE_INT64;
   case DatasetRows::Number::byte:
@@ -95,7 +115,7 @@ struct OpenDataset {
 /// Into a dataset of their size.
 void write_rows(hid_t data, const DatasetRows& rows, const std::string& what) {
   const auto write = [&](hid_t from, hid_t to, const void* values) {
-    if (H5Dwrite(data, type_of(rows.number), from, to, H5P_DEFAULT, values) < 0) throw std::runtime_error(what);
+    if (H5Dwrite(data, type_of(rows.number), from, to, H5P_DEFAULT, values) < 0) fail(what);
   };
   if (!rows.make) return write(H5S_ALL, H5S_ALL, rows.bytes.data());
   constexpr std::size_t most = 4096;  // at a time
@@ -124,10 +144,46 @@ DatasetRows::DatasetRows(std::string name, std::span<const std::byte> values)
 DatasetRows::DatasetRows(std::string name, std::size_t rows, std::size_t numbers_per_row, Maker maker)
     : dataset(std::move(name)), number(Number::real), width(numbers_per_row), made_rows(rows), make(std::move(maker)) {}
 
-std::size_t DatasetRows::row_bytes() const { return width * (number == Number::byte ? 1 : sizeof(double)); }
+DatasetRows DatasetRows::in_single() && {
+  if (number == Number::real) number = Number::single;
+  return std::move(*this);
+}
+
+std::size_t DatasetRows::row_bytes() const {
+  return width * (number == Number::byte ? 1 : number == Number::single ? sizeof(float) : sizeof(double));
+}
+
+std::size_t DatasetRows::rows() const {
+  return make ? made_rows : bytes.size() / (number == Number::byte ? width : width * sizeof(double));
+}
+
+std::span<const std::byte> DatasetRows::encoded(std::size_t begin, std::size_t count,
+                                                std::vector<std::byte>& room) const {
+  const bool is_as_stored = number != Number::single && !make;
+  if (is_as_stored) return bytes.subspan(begin * row_bytes(), count * row_bytes());
+  std::vector<double> made;
+  std::span<const double> values;
+  if (make) {
+    made.resize(count * width);
+    make(begin, made);
+    values = made;
+  } else {
+    values = std::span(reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double))
+                 .subspan(begin * width, count * width);
+  }
+  room.resize(count * row_bytes());
+  if (number == Number::single) {
+    const std::span numbers(reinterpret_cast<float*>(room.data()), values.size());
+    std::transform(values.begin(), values.end(), numbers.begin(),
+                   [](double value) { return static_cast<float>(value); });
+  } else {
+    std::copy_n(std::as_bytes(values).data(), room.size(), room.data());
+  }
+  return room;
+}
 
 Hdf5File::Hdf5File(std::string path, Access access) : path_(std::move(path)), file_(open(path_, access)) {
-  if (file_ < 0) throw std::runtime_error(path_ + ": cannot be opened as an HDF5 file");
+  if (file_ < 0) fail(path_ + ": cannot be opened as an HDF5 file");
 }
 
 Hdf5File::~Hdf5File() {
@@ -137,7 +193,7 @@ Hdf5File::~Hdf5File() {
 void Hdf5File::close() {
   const herr_t failed = H5Fclose(file_);
   file_ = -1;
-  if (failed < 0) throw std::runtime_error(path_ + ": cannot be written");
+  if (failed < 0) fail(path_ + ": cannot be written");
 }
 
 Extent Hdf5File::make(const DatasetRows& like, std::size_t rows, Values values) {

@@ -2,8 +2,6 @@
 /// \file
 /// HDF5 files: groups, datasets of numbers, attributes. The C library behind one class.
 
-#include "engine/file_image.hpp"
-
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,9 +11,15 @@
 
 namespace minamo {
 
+/// Bytes of a file.
+struct Extent {
+  std::uint64_t offset;
+  std::uint64_t bytes;
+};
+
 /// Rows for a dataset: of `width` numbers each; width 1 makes a one-dimensional dataset.
 struct DatasetRows {
-  enum class Number { real, integer, byte };
+  enum class Number { real, single, integer, byte };
   /// Makes rows from one on, as many as there is room for.
   using Maker = std::function<void(std::size_t begin, std::span<double> rows)>;
   DatasetRows(std::string name, std::span<const double> values, std::size_t numbers_per_row = 1);
@@ -24,13 +28,19 @@ struct DatasetRows {
   /// Rows that nobody stores as a file has them: made some thousands at a time while they are written.
   DatasetRows(std::string name, std::size_t rows, std::size_t numbers_per_row, Maker maker);
 
+  /// The same in the file with 4 bytes a number, if they are real.
+  DatasetRows in_single() &&;
+
+  /// Of the file.
   std::size_t row_bytes() const;
-  std::size_t rows() const { return make ? made_rows : bytes.size() / row_bytes(); }
+  std::size_t rows() const;
+  /// Some rows as the file has them, these or made of them in `room`.
+  std::span<const std::byte> encoded(std::size_t begin, std::size_t count, std::vector<std::byte>& room) const;
 
   std::string dataset;
-  Number number;
+  Number number;  ///< of the file
   std::size_t width;
-  std::span<const std::byte> bytes;
+  std::span<const std::byte> bytes;  ///< of real numbers always in 8
   std::size_t made_rows = 0;
   Maker make;
 };
@@ -46,6 +56,7 @@ class Hdf5File {
   Hdf5File& operator=(const Hdf5File&) = delete;
 
   /// \return where in the file the rows are
+  /// \pre they are not in single precision
   Extent write(const DatasetRows& rows);
   Extent write(const std::string& dataset, std::span<const double> values, std::size_t width = 1) {
     return write({dataset, values, width});

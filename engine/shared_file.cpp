@@ -19,18 +19,6 @@ std::vector<Place> places_of(Communicator& ranks, std::span<const DatasetRows> d
   return places;
 }
 
-/// \param make_dataset  by its number
-template <class MakeDataset>
-std::vector<Extent> make_file(const std::string& path, Hdf5File::Access access, std::size_t datasets,
-                              const MakeDataset& make_dataset, const std::function<void(Hdf5File&)>& add) {
-  Hdf5File file(path, access);
-  std::vector<Extent> extents;
-  for (std::size_t k = 0; k < datasets; ++k) extents.push_back(make_dataset(file, k));
-  if (add) add(file);
-  file.close();
-  return extents;
-}
-
 /// What rank 0 has, on all.
 std::vector<Extent> broadcast(Communicator& ranks, const std::vector<Extent>& extents) {
   const auto bytes = to_bytes(std::span<const Extent>(extents));
@@ -38,42 +26,58 @@ std::vector<Extent> broadcast(Communicator& ranks, const std::vector<Extent>& ex
   return from_bytes<Extent>(std::as_bytes(std::span(all)));
 }
 
-/// All at once: a rank has a part of the particles.
-const std::vector<double>& made_rows(const DatasetRows& rows, std::vector<double>& values) {
-  values.resize(rows.rows() * rows.width);
-  rows.make(0, values);
-  return values;
+/// Every rank writes its rows where they belong.
+/// \param extents  of the datasets; those of the first rank count, as does the path
+void write_pieces(Communicator& ranks, const std::string& path, const std::vector<Extent>& extents,
+                  std::span<const DatasetRows> datasets, const std::vector<Place>& places) {
+  const std::string of_first = ranks.broadcast(path, 0);
+  const std::vector<Extent> all = broadcast(ranks, extents);
+  std::vector<Communicator::Piece> pieces;
+  std::vector<std::vector<std::byte>> made(datasets.size());  // all at once: a rank has a part of the particles
+  for (std::size_t k = 0; k < datasets.size(); ++k) {
+    const std::size_t row_bytes = datasets[k].row_bytes();
+    const auto bytes = datasets[k].encoded(0, datasets[k].rows(), made[k]);
+    pieces.push_back({all[k].offset + places[k].begin * row_bytes, row_bytes, bytes});
+  }
+  const bool is_written = ranks.write(of_first, pieces);
+  do_on_all(&ranks, [&] {
+    if (!is_written) throw std::runtime_error(of_first + ": cannot be written");
+  });
 }
 
 }  // namespace
 
-std::vector<Extent> write_shared(Communicator* ranks, const std::string& path, Hdf5File::Access access,
-                                 std::span<const DatasetRows> datasets, const std::function<void(Hdf5File&)>& add) {
+void write_shared(Communicator* ranks, const std::string& path, std::span<const DatasetRows> datasets,
+                  const std::function<void(Hdf5File&)>& add) {
+  const std::vector<Place> places = ranks ? places_of(*ranks, datasets) : std::vector<Place>();
+  std::vector<Extent> extents;
+  const auto make = [&] {
+    Hdf5File file(path, Hdf5File::Access::create);
+    for (std::size_t k = 0; k < datasets.size(); ++k)
+      extents.push_back(ranks ? file.make_room(datasets[k], places[k].all) : file.write(datasets[k]));
+    if (add) add(file);
+    // The library closes the file: what it still has in a buffer cannot overwrite what ranks write then.
+    file.close();
+  };
+  if (ranks == nullptr) return make();
+  do_on_all(ranks, [&] {
+    if (ranks->is_first()) make();
+  });
+  write_pieces(*ranks, path, extents, datasets, places);
+}
+
+void write_shared(Communicator* ranks, GrowingHdf5* file, int compression, std::span<const DatasetRows> datasets) {
   if (ranks == nullptr) {
-    const auto write = [&](Hdf5File& file, std::size_t k) { return file.write(datasets[k]); };
-    return make_file(path, access, datasets.size(), write, add);
+    for (const DatasetRows& rows : datasets) file->write(rows, compression);
+    return;
   }
   const std::vector<Place> places = places_of(*ranks, datasets);
   std::vector<Extent> extents;
   do_on_all(ranks, [&] {
-    const auto make_room = [&](Hdf5File& file, std::size_t k) { return file.make_room(datasets[k], places[k].all); };
-    if (ranks->is_first()) extents = make_file(path, access, datasets.size(), make_room, add);
+    if (file == nullptr) return;
+    for (std::size_t k = 0; k < datasets.size(); ++k) extents.push_back(file->make_room(datasets[k], places[k].all));
   });
-  // The library has closed the file: what it still had in a buffer cannot overwrite what ranks write now.
-  const std::string of_first = ranks->broadcast(path, 0);
-  extents = broadcast(*ranks, extents);
-  std::vector<Communicator::Piece> pieces;
-  std::vector<std::vector<double>> made(datasets.size());
-  for (std::size_t k = 0; k < datasets.size(); ++k) {
-    const std::size_t row_bytes = datasets[k].row_bytes();
-    const auto bytes = datasets[k].make ? std::as_bytes(std::span(made_rows(datasets[k], made[k]))) : datasets[k].bytes;
-    pieces.push_back({extents[k].offset + places[k].begin * row_bytes, row_bytes, bytes});
-  }
-  const bool is_written = ranks->write(of_first, pieces);
-  do_on_all(ranks, [&] {
-    if (!is_written) throw std::runtime_error(of_first + ": cannot be written");
-  });
-  return extents;
+  write_pieces(*ranks, file ? file->path() : std::string(), extents, datasets, places);
 }
 
 }  // namespace minamo

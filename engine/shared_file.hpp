@@ -4,6 +4,7 @@
 /// for the rows of all, and every rank writes its own where that room is.
 
 #include "engine/communicator.hpp"
+#include "engine/growing_hdf5.hpp"
 #include "engine/hdf5.hpp"
 
 #include <functional>
@@ -13,12 +14,15 @@
 
 namespace minamo {
 
-/// Writes datasets with the rows of all ranks, those of the lowest rank first; the file is as if one process had
-/// written them. All that only the first rank knows: path, access, what `add` adds, and the extents of the datasets,
-/// which are returned there.
+/// Makes a file of datasets with the rows of all ranks, those of the lowest rank first; it is as if one process had
+/// written it. Only the first rank knows the path, and what `add` adds.
 /// \param ranks  null: this process is alone
 /// \throws std::runtime_error on all ranks if something goes wrong on one
-std::vector<Extent> write_shared(Communicator* ranks, const std::string& path, Hdf5File::Access access,
-                                 std::span<const DatasetRows> datasets, const std::function<void(Hdf5File&)>& add);
+void write_shared(Communicator* ranks, const std::string& path, std::span<const DatasetRows> datasets,
+                  const std::function<void(Hdf5File&)>& add);
+
+/// Adds such datasets to a file that grows, which the first rank has and the others do not.
+/// \param compression  level of deflate \pre 0 with several ranks
+void write_shared(Communicator* ranks, GrowingHdf5* file, int compression, std::span<const DatasetRows> datasets);
 
 }  // namespace minamo

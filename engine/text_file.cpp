@@ -1,5 +1,8 @@
 #include "engine/text_file.hpp"
 
+#include "engine/file_error.hpp"
+
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 
@@ -10,12 +13,14 @@ namespace fs = std::filesystem;
 void write_text(const fs::path& path, const std::string& text) {
   const fs::path unfinished = path.string() + ".unfinished";
   std::ofstream file(unfinished, std::ios::binary);
+  errno = 0;
   file << text;
   file.close();
   if (!file) {
+    const int why = errno;
     std::error_code ignored;
     fs::remove(unfinished, ignored);
-    throw std::runtime_error(path.string() + ": cannot be written");
+    throw std::runtime_error(not_written(path.string(), why));
   }
   fs::rename(unfinished, path);
 }

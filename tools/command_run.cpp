@@ -25,12 +25,22 @@ std::string rows_text(std::int64_t every) {
   return every == 1 ? "a row per step" : fmt::format("a row per {} steps", every);
 }
 
+/// What a run that has failed can go on from.
+std::string what_is_kept(const RunResult& result, const fs::path& path) {
+  if (!result.checkpoint) return {};
+  const Clock& kept = *result.checkpoint;
+  if (kept.index == 0) return "there is no checkpoint after t = 0 s: the run starts anew\n";
+  const std::string came_to =
+      kept.index == result.clock.index ? "" : fmt::format(" (the run came to t = {:.6g} s)", result.clock.time);
+  return fmt::format("the last good checkpoint is {}, of t = {:.6g} s after {} steps{}; --resume goes on from there\n",
+                     path.string(), kept.time, kept.index, came_to);
+}
+
 int report(const RunResult& result, const Scene& scene, const fs::path& folder, bool quiet) {
   if (!writes_for_all()) return exit_done;
   const fs::path checkpoint = folder / "checkpoint.h5";
   if (result.outcome.ending == Ending::failed) {
-    std::cerr << result.outcome.message << '\n';
-    if (fs::exists(checkpoint)) std::cerr << "the last accepted state is in " << checkpoint.string() << '\n';
+    std::cerr << result.outcome.message << '\n' << what_is_kept(result, checkpoint);
     return exit_failed;
   }
   if (result.was_over) {

@@ -22,31 +22,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* checkpoint_name = "checkpoint.h5";
 
-/// What the checkpoint holds beside the state: scene, version, fields.h5 without its data.
+/// What the checkpoint holds beside the state: scene, version, where the files of frames end.
 namespace dataset {
 constexpr const char* scene = "/scene";
 constexpr const char* version = "/version";
 constexpr const char* frames = "/fields/frames";
-constexpr const char* size = "/fields/size";
-constexpr const char* others = "/fields/others";
 }  // namespace dataset
-
-void add_fields(const FieldsFile& fields, Hdf5File& file) {
-  const FileImage image = image_of(fields);
-  const auto size = static_cast<std::int64_t>(image.size);
-  file.write_text(dataset::frames, Json(fields.frames).dump());
-  file.write(dataset::size, std::span(&size, 1));
-  file.write(dataset::others, image.others);
-}
-
-StoredFields read_fields(const Hdf5File& file) {
-  StoredFields fields{Json::parse(file.read_text(dataset::frames)).get<std::vector<FieldsFile::Frame>>(), {}};
-  const auto size = file.read_bytes(dataset::size);
-  std::copy(size.begin(), size.end(), std::as_writable_bytes(std::span(&fields.image.size, 1)).begin());
-  fields.image.others = file.read_bytes(dataset::others);
-  fields.image.unchanging = extents_of(fields.frames);
-  return fields;
-}
 
 Problem problem(const fs::path& file, std::string what, std::string expected, std::string got) {
   return {file.string(), {}, std::move(what), std::move(expected), std::move(got), {}};
@@ -97,7 +78,7 @@ Hdf5File open_checkpoint(const fs::path& path) {
 }
 
 void require_fit(const Hdf5File& file, const std::string& scene_path, const SceneFile& scene) {
-  for (const char* name : {dataset::version, dataset::scene, dataset::frames, dataset::size, dataset::others}) {
+  for (const char* name : {dataset::version, dataset::scene, dataset::frames}) {
     if (!file.has(name)) throw InputError({no_checkpoint(file.path())});
   }
   const std::string written_by = file.read_text(dataset::version);
@@ -109,36 +90,30 @@ void require_fit(const Hdf5File& file, const std::string& scene_path, const Scen
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-void require_output(const fs::path& folder, const StoredFields& fields) {
-  const fs::path path = folder / "fields.h5";
-  if (fields.image.fits(path.string())) return;
-  throw InputError({problem(path, "is missing, or shorter than at the checkpoint",
-                            fmt::format("at least {} bytes", fields.image.size), {})});
+void require_output(const fs::path& folder, const FieldsPosition& fields) {
+  const std::string misfit = misfit_of_fields(folder.string(), fields);
+  if (misfit.empty()) return;
+  const auto space = misfit.find(' ');
+  throw InputError(
+      {problem(folder / misfit.substr(0, space), misfit.substr(space + 1), "what the run had written until then", {})});
 }
 
 /// Takes the history back. \throws InputError if it does not reach to the checkpoint.
-void open_history(const fs::path& path, std::int64_t rows, std::ofstream& history) {
+void open_history(const fs::path& path, std::int64_t rows, HistoryFile& history) {
   const std::int64_t found = fs::exists(path) ? cut_history(path.string(), rows) : 0;
   if (found < rows) {
     throw InputError({problem(path, "is missing, or ends before the checkpoint", fmt::format("at least {} rows", rows),
                               fmt::format("{} rows", std::max<std::int64_t>(found, 0)))});
   }
-  history.open(path, std::ios::app);
-}
-
-void write_index(World& world) {
-  if (world.has<Grid<2>>()) {
-    make_system<WriteXdmf<2>>("").run(world);
-  } else {
-    make_system<WriteXdmf<3>>("").run(world);
-  }
+  history.path = path.string();
+  history.file.open(path, std::ios::app);
 }
 
 /// Nothing is begun, and the rows that the checkpoint counts are in the file.
 void settle_output(const fs::path& folder, World& world) {
-  take_back_frame(world.resource<FieldsFile>());
-  auto& history = world.resource<HistoryFile>().file;
-  if (!history.flush()) throw std::runtime_error((folder / "history.csv").string() + ": cannot be written");
+  FieldsFile& fields = world.resource<FieldsFile>();
+  if (take_back_frame(fields)) remove_surfaces(folder, fields.frames);
+  flush(world.resource<HistoryFile>());
 }
 
 }  // namespace
@@ -151,17 +126,17 @@ void write_run_checkpoint(const fs::path& folder, const SceneFile& scene, World&
   const auto add = [&](Hdf5File& file) {
     file.write_text(dataset::scene, scene.as_run.dump());
     file.write_text(dataset::version, std::string(version));
-    add_fields(world.resource<FieldsFile>(), file);
+    file.write_text(dataset::frames, Json(position_of(world.resource<FieldsFile>())).dump());
   };
   write_checkpoint((folder / checkpoint_name).string(), world, add,
                    ranks == nullptr ? RowsOfRank{} : rows_of_rank(*ranks, world));
 }
 
-StoredFields load_checkpoint(const fs::path& folder, const std::string& scene_path, const SceneFile& scene,
-                             World& world) {
+FieldsPosition load_checkpoint(const fs::path& folder, const std::string& scene_path, const SceneFile& scene,
+                               World& world) {
   const Hdf5File file = open_checkpoint(folder / checkpoint_name);
   require_fit(file, scene_path, scene);
-  StoredFields fields = read_fields(file);
+  const FieldsPosition fields = Json::parse(file.read_text(dataset::frames)).get<FieldsPosition>();
   require_output(folder, fields);
   world.resource<StepControl>();  // no system names it; the time loop makes it, later
   const Communicator* ranks = all_ranks();
@@ -169,15 +144,10 @@ StoredFields load_checkpoint(const fs::path& folder, const std::string& scene_pa
   return fields;
 }
 
-void continue_output(const fs::path& folder, StoredFields stored, World& world) {
-  open_history(folder / "history.csv", world.resource<RunTotals>().rows, world.resource<HistoryFile>().file);
-  stored.image.restore((folder / "fields.h5").string());
-  FieldsFile& fields = world.resource<FieldsFile>();
-  fields.folder = folder.string();
-  fields.frames = std::move(stored.frames);
-  write_index(world);
-  remove_surfaces(folder, fields.frames.size());
-  if (fs::exists(folder / surface_index)) write_surface_index(fields);
+void continue_output(const fs::path& folder, const FieldsPosition& stored, World& world) {
+  open_history(folder / "history.csv", world.resource<RunTotals>().rows, world.resource<HistoryFile>());
+  continue_fields(world.resource<FieldsFile>(), folder.string(), stored);
+  remove_surfaces(folder, stored.frames);
 }
 
 }  // namespace minamo

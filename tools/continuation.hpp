@@ -14,22 +14,17 @@ namespace minamo {
 /// \throws std::runtime_error; an older checkpoint is left as it was then.
 void write_run_checkpoint(const std::filesystem::path& folder, const SceneFile& scene, World& world);
 
-/// fields.h5 at a checkpoint.
-struct StoredFields {
-  std::vector<FieldsFile::Frame> frames;
-  FileImage image;
-};
-
 /// Sets the state to that of the folder's checkpoint. No file is changed.
 /// \param scene_path  what the messages call the scene
 /// \pre the components have been created.
 /// \throws InputError if there is no checkpoint, if it is of another version or of a scene that differs in more than
-/// `title`, `time.end` and `output`, or if fields.h5 does not reach to it.
-StoredFields load_checkpoint(const std::filesystem::path& folder, const std::string& scene_path, const SceneFile& scene,
-                             World& world);
+/// `title`, `time.end` and `output`, or if the frames do not reach to it.
+/// \return where they end
+FieldsPosition load_checkpoint(const std::filesystem::path& folder, const std::string& scene_path,
+                               const SceneFile& scene, World& world);
 
-/// Takes fields.h5, history.csv and the surfaces back to the checkpoint, and goes on with them.
+/// Takes the frames, history.csv and the surfaces back to the checkpoint, and goes on with them.
 /// \throws InputError if the history does not reach to it.
-void continue_output(const std::filesystem::path& folder, StoredFields fields, World& world);
+void continue_output(const std::filesystem::path& folder, const FieldsPosition& fields, World& world);
 
 }  // namespace minamo

@@ -1,5 +1,6 @@
 #include "tools/results_folder.hpp"
 
+#include "systems/output/history.hpp"
 #include "systems/surface/surface_folder.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -23,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What goes when a run begins. The scene as run is replaced, so that there is one at every moment.
-constexpr std::array<const char*, 7> removed{"history.csv",  "fields.h5",     "fields.xdmf", surface_index,
-                                             "summary.json", "checkpoint.h5", "trace.json"};
+constexpr std::array<const char*, 8> removed{"history.csv", history_units_name, "fields.h5",     "fields.xdmf",
+                                             surface_index, "summary.json",     "checkpoint.h5", "trace.json"};
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code missing;

@@ -33,10 +33,11 @@ namespace fs = std::filesystem;
 /// Begins the output of a new run.
 void open_output(const fs::path& folder, World& world) {
   remove_results(folder);
-  auto& history = world.resource<HistoryFile>().file;
-  history.open(folder / "history.csv");
-  if (!history) refuse_folder(folder, "cannot be written");
-  world.resource<FieldsFile>().folder = folder.string();
+  auto& history = world.resource<HistoryFile>();
+  history.path = (folder / "history.csv").string();
+  history.file.open(history.path);
+  if (!history.file) refuse_folder(folder, "cannot be written");
+  start_fields(world.resource<FieldsFile>(), folder.string());
 }
 
 /// Finds out whether what an earlier run has left may go, and says that it goes.
@@ -69,7 +70,7 @@ bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& ti
   do_on_all(all_ranks(), [&] {
     if (writes_for_all()) claim = claim_folder(plan, scene_text, file);
   });
-  std::optional<StoredFields> fields;
+  std::optional<FieldsPosition> fields;
   if (plan.beginning == Beginning::continuation) {
     fields = load_checkpoint(plan.folder, plan.scene, file, world);
     if (all_ranks() != nullptr) send_particles_home(file.scene.dimension, world);
@@ -78,7 +79,7 @@ bool begin_output(const RunPlan& plan, const SceneFile& file, const TimePlan& ti
   do_on_all(all_ranks(), [&] {
     if (!writes_for_all()) return;
     if (fields) {
-      continue_output(plan.folder, std::move(*fields), world);
+      continue_output(plan.folder, *fields, world);
       fs::remove(plan.folder / "summary.json");  // of the part before, which a kill from now on would leave to stand
     } else {
       open_output(plan.folder, world);
@@ -157,15 +158,10 @@ void close_history(const fs::path& folder, World& world) {
 }
 
 /// A system after the history, or beside it, has rejected the step.
-void take_back_row(const fs::path& folder, World& world) {
+void take_back_rejected_row(World& world) {
   HistoryFile& history = world.resource<HistoryFile>();
-  const std::int64_t rows = world.resource<RunTotals>().rows;
   history.extra.reset();
-  if (history.rows <= rows) return;
-  history.file.close();
-  cut_history((folder / "history.csv").string(), rows);
-  history.file.open(folder / "history.csv", std::ios::app);
-  history.rows = rows;
+  if (history.rows > world.resource<RunTotals>().rows) take_back_row(history);
 }
 
 }  // namespace
@@ -196,6 +192,7 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
     result.was_over = true;
     return result;
   }
+  if (plan.beginning == Beginning::continuation) result.checkpoint = world.resource<Clock>();
   warn_of_idle_ranks(world);
   Progress progress(times, world.resource<Clock>(), plan.quiet || !writes_for_all());
   const std::int64_t all_at_start = sum_over_ranks(static_cast<std::int64_t>(world.rows<Particles>()));
@@ -208,12 +205,13 @@ RunResult run_into_folder(const SceneFile& file, const RunPlan& plan, Profiler& 
       .after_rejection =
           [&](const Clock& clock, const std::string& why) {
             warn_of_rejection(clock, why);
-            if (writes_for_all()) take_back_row(plan.folder, world);
+            if (writes_for_all()) take_back_rejected_row(world);
           },
       .write_checkpoint =
           [&] {
             reserve.release();
             write_run_checkpoint(plan.folder, file, world);
+            result.checkpoint = world.resource<Clock>();
             reserve.take();
           }};
   const Stopwatch loop;

@@ -37,10 +37,11 @@ struct RunPlan {
 struct RunResult {
   Outcome outcome;
   Clock clock;
-  Json summary;                 ///< as in summary.json
-  double loop_seconds = 0;      ///< wall time of the time loop [s]
-  double loop_cpu_seconds = 0;  ///< processor time of the time loop, all threads [s]
-  bool was_over = false;        ///< the checkpoint is that of the end; nothing was run or written
+  std::optional<Clock> checkpoint;  ///< that of the last good one in the folder
+  Json summary;                     ///< as in summary.json
+  double loop_seconds = 0;          ///< wall time of the time loop [s]
+  double loop_cpu_seconds = 0;      ///< processor time of the time loop, all threads [s]
+  bool was_over = false;            ///< the checkpoint is that of the end; nothing was run or written
 };
 
 /// Runs the scene and writes all that a run leaves but the trace.

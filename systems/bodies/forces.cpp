@@ -25,26 +25,28 @@ struct BodyRow {
 
 template <int Dim>
 void set_columns(measure::Columns& columns, const std::string& name, const BodyRow<Dim>& row) {
-  const auto vector = [&](const char* what, const Vec<Dim>& value) {
-    for (int d = 0; d < Dim; ++d) columns.set(fmt::format("{}_{}_{}", name, what, "xyz"[d]), value[d]);
+  const auto vector = [&](const char* what, const Vec<Dim>& value, const char* unit) {
+    for (int d = 0; d < Dim; ++d) columns.set(fmt::format("{}_{}_{}", name, what, "xyz"[d]), value[d], unit);
   };
-  const auto rotation = [&](const char* what, const Vec<rotations<Dim>>& value) {
+  const auto rotation = [&](const char* what, const Vec<rotations<Dim>>& value, const char* unit) {
     if constexpr (Dim == 2) {
-      columns.set(fmt::format("{}_{}", name, what), value[0]);
+      columns.set(fmt::format("{}_{}", name, what), value[0], unit);
     } else {
-      vector(what, value);
+      vector(what, value, unit);
     }
   };
-  vector("force", row.force);
-  rotation("torque", row.torque);
-  vector("position", row.position);
-  vector("velocity", row.velocity);
-  rotation("angle", row.angle);
-  rotation("rotation", row.spin);
-  columns.set(name + "_work", row.work);
+  const char* force = Dim == 2 ? "N/m" : "N";
+  const char* torque = Dim == 2 ? "N" : "N m";
+  vector("force", row.force, force);
+  rotation("torque", row.torque, torque);
+  vector("position", row.position, "m");
+  vector("velocity", row.velocity, "m/s");
+  rotation("angle", row.angle, "rad");
+  rotation("rotation", row.spin, "rad/s");
+  columns.set(name + "_work", row.work, Dim == 2 ? "J/m" : "J");
   if (!row.friction) return;
-  vector("friction", row.friction->template head<Dim>());
-  rotation("friction_torque", row.friction->template tail<rotations<Dim>>());
+  vector("friction", row.friction->template head<Dim>(), force);
+  rotation("friction_torque", row.friction->template tail<rotations<Dim>>(), torque);
 }
 
 }  // namespace

@@ -96,9 +96,9 @@ void MeasureProbesOnFacesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Rea
         {reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(ProbeSums<Dim>) / sizeof(double)});
   for (std::size_t k = 0; k < sums.size(); ++k) {
     const auto& probe = probes->probes[k];
-    columns->set(probe.pressure, sums[k].pressure);
+    columns->set(probe.pressure, sums[k].pressure, "Pa");
     for (std::size_t d = 0; d < Dim; ++d)
-      columns->set(probe.velocity[d], sums[k].wet[d] > 0 ? sums[k].velocity[d] / sums[k].wet[d] : 0);
+      columns->set(probe.velocity[d], sums[k].wet[d] > 0 ? sums[k].velocity[d] / sums[k].wet[d] : 0, "m/s");
   }
 }
 

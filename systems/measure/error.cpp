@@ -84,7 +84,7 @@ void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clo
                                            Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                                            Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const {
   const Instant now = instant_of(ode, clock);
-  if (now.time > exact->until) return columns->set("error_velocity", not_known);
+  if (now.time > exact->until) return columns->set("error_velocity", not_known, "1");
   const Arguments start(now);
   const auto sum =
       sum_of_parts<VelocitySum>(ranks, x_p.size(), [&](VelocitySum& part_sum, std::size_t part, std::size_t p) {
@@ -93,7 +93,7 @@ void MeasureErrorVelocity<Dim>::operator()(Read<exact::Velocity> exact, Read<Clo
         part_sum.join({V_p[p], V_p[p] * (v_p[p] - v).squaredNorm(), V_p[p] * v.squaredNorm()});
       });
   require_finite(sum.exact, "velocity", now);
-  columns->set("error_velocity", relative(sum.difference, sum.exact, sum.weight));
+  columns->set("error_velocity", relative(sum.difference, sum.exact, sum.weight), "1");
 }
 
 template <int Dim>
@@ -102,7 +102,7 @@ void MeasureErrorPressure<Dim>::operator()(Read<exact::Pressure> exact, Read<Rat
                                            Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Pressure> p_p,
                                            Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const {
   const Instant now = instant_of(ode, rates);
-  if (now.time > exact->until) return columns->set("error_pressure", not_known);
+  if (now.time > exact->until) return columns->set("error_pressure", not_known, "1");
   const Arguments start(now);
   const auto sum =
       sum_of_parts<PressureSum>(ranks, y_p.size(), [&](PressureSum& part_sum, std::size_t part, std::size_t p) {
@@ -113,7 +113,7 @@ void MeasureErrorPressure<Dim>::operator()(Read<exact::Pressure> exact, Read<Rat
       });
   const auto squares = [&](const WeightedMean& q) { return exact->is_free ? q.scatter : q.squares(); };
   require_finite(sum.exact.squares(), "pressure", now);
-  columns->set("error_pressure", relative(squares(sum.difference), squares(sum.exact), sum.exact.weight));
+  columns->set("error_pressure", relative(squares(sum.difference), squares(sum.exact), sum.exact.weight), "1");
 }
 
 template struct MeasureErrorVelocity<2>;

@@ -24,8 +24,8 @@ void MeasureProbesIn<Dim, Velocity>::operator()(Read<Grid<Dim>> grid, Read<NodeI
       });
     });
     if (wet > 0) v_s /= wet;
-    columns->set(probe.pressure, p_s);
-    for (int d = 0; d < Dim; ++d) columns->set(probe.velocity[static_cast<std::size_t>(d)], v_s[d]);
+    columns->set(probe.pressure, p_s, "Pa");
+    for (int d = 0; d < Dim; ++d) columns->set(probe.velocity[static_cast<std::size_t>(d)], v_s[d], "m/s");
   }
 }
 

@@ -1,10 +1,19 @@
 #include "systems/openings/measures.hpp"
 
 #include <limits>
+#include <string_view>
 
 namespace minamo {
 
 namespace {
+
+// Units of the columns.
+template <int Dim>
+constexpr std::string_view unit_of_mass = Dim == 2 ? "kg/m" : "kg";
+template <int Dim>
+constexpr std::string_view unit_of_energy = Dim == 2 ? "J/m" : "J";
+template <int Dim>
+constexpr std::string_view unit_of_rate = Dim == 2 ? "m^2/s" : "m^3/s";
 
 /// Flow into the box through an opening. [m^3/s; m^2/s in 2-D]
 template <int Dim>
@@ -29,11 +38,12 @@ void MeasureOpenings<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     const Opening<Dim>& opening = set->openings[o];
     const Side<Dim> side(*grid, *splines, opening.side);
-    columns->set(opening.name + "_mass_in", mass_in[o]);
-    columns->set(opening.name + "_energy_in", energy_in[o]);
-    columns->set(opening.name + "_rate", rate_of<Dim>(opening, *set, o, side, velocities->in_balances[o]));
+    columns->set(opening.name + "_mass_in", mass_in[o], unit_of_mass<Dim>);
+    columns->set(opening.name + "_energy_in", energy_in[o], unit_of_energy<Dim>);
+    columns->set(opening.name + "_rate", rate_of<Dim>(opening, *set, o, side, velocities->in_balances[o]),
+                 unit_of_rate<Dim>);
   }
-  columns->set("particles", static_cast<double>(id.size()));
+  columns->set("particles", static_cast<double>(id.size()), "1");
 }
 
 template <int Dim>
@@ -41,11 +51,11 @@ void MeasureOpeningsAtStart<Dim>::operator()(Read<OpeningSet<Dim>> set, Read<ope
                                              Read<opening::EnergyIn> energy_in, Read<particle::Id> id,
                                              Update<measure::Columns> columns) const {
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
-    columns->set(set->openings[o].name + "_mass_in", mass_in[o]);
-    columns->set(set->openings[o].name + "_energy_in", energy_in[o]);
-    columns->set(set->openings[o].name + "_rate", std::numeric_limits<double>::quiet_NaN());
+    columns->set(set->openings[o].name + "_mass_in", mass_in[o], unit_of_mass<Dim>);
+    columns->set(set->openings[o].name + "_energy_in", energy_in[o], unit_of_energy<Dim>);
+    columns->set(set->openings[o].name + "_rate", std::numeric_limits<double>::quiet_NaN(), unit_of_rate<Dim>);
   }
-  columns->set("particles", static_cast<double>(id.size()));
+  columns->set("particles", static_cast<double>(id.size()), "1");
 }
 
 template struct MeasureOpenings<2>;

@@ -1,6 +1,5 @@
 #include "systems/output/body_fields.hpp"
 
-#include "engine/hdf5.hpp"
 #include "systems/shapes/placement.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -24,20 +23,20 @@ std::span<const double> coordinates(const Vec<Size>& value) {
 }
 
 template <int Dim>
-void write_outline(const typename BodyOutlines<Dim>::OfBody& body, Hdf5File& file, std::vector<Extent>& extents) {
+void write_outline(const typename BodyOutlines<Dim>::OfBody& body, GrowingHdf5& file) {
   std::vector<std::int64_t> elements;
   for (const auto& element : body.outline.element) elements.insert(elements.end(), element.begin(), element.end());
   const std::string group = outline_group(body.name);
-  extents.push_back(file.write(group + "/points", coordinates<Dim>(std::span(body.outline.point)), Dim));
-  extents.push_back(file.write(group + "/elements", elements, Dim));
+  file.write(group + "/points", coordinates<Dim>(std::span(body.outline.point)), Dim);
+  file.write(group + "/elements", elements, Dim);
 }
 
 template <int Dim>
 void write_moved_points(const typename BodyOutlines<Dim>::OfBody& body, const Placement<Dim>& placement,
-                        const std::string& group, Hdf5File& file, std::vector<Extent>& extents) {
+                        const std::string& group, GrowingHdf5& file) {
   std::vector<Vec<Dim>> points;
   for (const Vec<Dim>& X : body.outline.point) points.push_back(placement.to_world(X));
-  extents.push_back(file.write(group + "/points", coordinates<Dim>(std::span<const Vec<Dim>>(points)), Dim));
+  file.write(group + "/points", coordinates<Dim>(std::span<const Vec<Dim>>(points)), Dim);
 }
 
 /// A dataset as an XDMF data item.
@@ -72,23 +71,21 @@ void WriteBodies<Dim>::operator()(Read<BodyOutlines<Dim>> outlines, Read<body::P
                                   Read<body::Spin<Dim>> omega_b, Read<body::Angle<Dim>> alpha_b,
                                   Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
-  const std::size_t frame = fields->frames.size() - 1;
-  std::vector<Extent>& extents = fields->frames.back().extents;
-  Hdf5File file(fields->path(), Hdf5File::Access::extend);
+  const std::size_t frame = fields->frames - 1;
+  GrowingHdf5& file = fields->file;
   for (std::size_t b = 0; b < outlines->bodies.size(); ++b) {
     const auto& body = outlines->bodies[b];
     const std::string group = body_group(frame, body.name);
     const Mat<Dim> row_by_row = R_b[b].transpose();  // Eigen's own order is column by column
-    if (frame == 0) write_outline<Dim>(body, file, extents);
-    extents.push_back(file.write(group + "/position", coordinates<Dim>(c_b[b])));
-    extents.push_back(file.write(group + "/rotation", std::span(row_by_row.data(), Dim * Dim), Dim));
-    extents.push_back(file.write(group + "/velocity", coordinates<Dim>(V_b[b])));
-    extents.push_back(file.write(group + "/spin", coordinates<rotations<Dim>>(omega_b[b])));
-    extents.push_back(file.write(group + "/angle", coordinates<rotations<Dim>>(alpha_b[b])));
-    if (body.moves) write_moved_points<Dim>(body, {body.pivot, c_b[b], R_b[b]}, group, file, extents);
+    if (frame == 0) write_outline<Dim>(body, file);
+    file.write(group + "/position", coordinates<Dim>(c_b[b]));
+    file.write(group + "/rotation", std::span(row_by_row.data(), Dim * Dim), Dim);
+    file.write(group + "/velocity", coordinates<Dim>(V_b[b]));
+    file.write(group + "/spin", coordinates<rotations<Dim>>(omega_b[b]));
+    file.write(group + "/angle", coordinates<rotations<Dim>>(alpha_b[b]));
+    if (body.moves) write_moved_points<Dim>(body, {body.pivot, c_b[b], R_b[b]}, group, file);
   }
-  file.set_attribute(fmt::format("/bodies/{}", frame), "time", fields->frames.back().time);
-  file.close();
+  file.set_attribute(fmt::format("/bodies/{}", frame), "time", fields->time);
 }
 
 template <int Dim>

@@ -1,11 +1,14 @@
 #include "systems/output/fields.hpp"
 
 #include "engine/shared_file.hpp"
-#include "engine/text_file.hpp"
 #include "systems/grid/point_locator.hpp"
 #include "systems/output/body_fields.hpp"
 
 #include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
 
 namespace minamo {
 
@@ -16,28 +19,45 @@ std::span<const double> numbers(std::span<const Vec<Size>> values) {
   return {reinterpret_cast<const double*>(values.data()), values.size() * Size};
 }
 
-/// Row by row, as files have tensors; Eigen's own order is column by column.
+/// With a third component of zero in the plane.
 template <int Dim>
-DatasetRows::Maker row_by_row(std::span<const Mat<Dim>> values) {
-  return [values](std::size_t begin, std::span<double> rows) {
-    constexpr std::size_t width = std::size_t{Dim} * Dim;
-    for (std::size_t k = 0; k < rows.size(); k += width) {
-      Eigen::Map<Mat<Dim>> row(&rows[k]);
-      row = values[begin + k / width].transpose();
-    }
-  };
+DatasetRows vectors(const std::string& dataset, std::span<const Vec<Dim>> values) {
+  if constexpr (Dim == 3) {
+    return {dataset, numbers<3>(values), 3};
+  } else {
+    return {dataset, values.size(), 3, [values](std::size_t begin, std::span<double> rows) {
+              for (std::size_t k = 0; k < rows.size(); k += 3) {
+                const Vec<2>& v = values[begin + k / 3];
+                std::copy_n(std::array{v[0], v[1], 0.0}.begin(), 3, &rows[k]);
+              }
+            }};
+  }
+}
+
+/// Row by row, as files have tensors, Eigen's own order being column by column; with a third row and column of zeros in
+/// the plane.
+template <int Dim>
+DatasetRows tensors(const std::string& dataset, std::span<const Mat<Dim>> values) {
+  return {dataset, values.size(), 9, [values](std::size_t begin, std::span<double> rows) {
+            for (std::size_t k = 0; k < rows.size(); k += 9) {
+              Eigen::Map<Mat<3>> row(&rows[k]);
+              row.setZero();
+              row.template topLeftCorner<Dim, Dim>() = values[begin + k / 9].transpose();
+            }
+          }};
 }
 
 std::string group(std::size_t frame) { return fmt::format("/particles/{}", frame); }
 
-constexpr std::string_view whole_numbers = R"(NumberType="Int" Precision="8")";
+bool is_whole(DatasetRows::Number number) { return number == DatasetRows::Number::integer; }
 
 /// A dataset of fields.h5 as an XDMF data item.
-std::string data_item(std::size_t frame, const std::string& name, std::size_t rows, int width,
-                      std::string_view type = R"(NumberType="Float" Precision="8")") {
-  const std::string shape = width == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, width);
-  return fmt::format(R"(<DataItem Dimensions="{}" {} Format="HDF">fields.h5:{}/{}</DataItem>)", shape, type,
-                     group(frame), name);
+std::string data_item(std::size_t frame, const FieldsFile::Field& field, std::size_t rows) {
+  const std::string shape = field.width == 1 ? fmt::format("{}", rows) : fmt::format("{} {}", rows, field.width);
+  const int bytes = field.number == DatasetRows::Number::single ? 4 : 8;
+  return fmt::format(
+      R"(<DataItem Dimensions="{}" NumberType="{}" Precision="{}" Format="HDF">fields.h5:{}/{}</DataItem>)", shape,
+      is_whole(field.number) ? "Int" : "Float", bytes, group(frame), field.name);
 }
 
 std::string attribute(const std::string& name, std::string_view kind, const std::string& item) {
@@ -54,37 +74,44 @@ std::string vertices(const std::string& ids, std::size_t n) {
                      n, ids);
 }
 
-std::string time_text(const FieldsFile::Frame& frame) {
-  return fmt::format("        <Time Value=\"{}\"/>\n", frame.time);
+std::string time_text(double time) { return fmt::format("        <Time Value=\"{}\"/>\n", time); }
+
+const char* kind_of(std::size_t width) {
+  switch (width) {
+  case 3:
+    return "Vector";
+  case 9:
+    return "Tensor";
+  default:
+    return "Scalar";
+  }
 }
 
 /// \param head  what stands first in the grid
 template <int Dim>
-std::string particles_text(const FieldsFile::Frame& frame, std::size_t k, const std::string& head) {
+std::string particles_text(const FieldsFile& frame, const std::string& head) {
   const std::size_t n = frame.particles;
-  const std::string ids = data_item(k, "id", n, 1, whole_numbers);
+  const std::size_t k = frame.frames - 1;
+  const auto item_of = [&](const FieldsFile::Field& field) { return data_item(k, field, n); };
+  const auto number = [&](std::string_view name) {
+    return *std::find_if(frame.fields.begin(), frame.fields.end(),
+                         [&](const auto& field) { return field.name == name; });
+  };
+  const std::string ids = item_of(number("id"));
   std::string text = fmt::format("      <Grid Name=\"particles\" GridType=\"Uniform\">\n{}"
                                  "{}        <Geometry GeometryType=\"{}\">\n          {}\n        </Geometry>\n",
-                                 head, vertices(ids, n), Dim == 2 ? "XY" : "XYZ", data_item(k, "position", n, Dim));
-  text += attribute("velocity", Dim == 2 ? "Matrix" : "Vector", data_item(k, "velocity", n, Dim));
-  text += attribute("pressure", "Scalar", data_item(k, "pressure", n, 1));
-  text += attribute("id", "Scalar", ids);
-  for (const std::string& field : frame.extra_fields) {
-    if (field == "fluid") {
-      text += attribute(field, "Scalar", data_item(k, field, n, 1, whole_numbers));
-      continue;
-    }
-    const bool is_tensor = field == "velocity_gradient";
-    text += attribute(field, is_tensor ? "Matrix" : "Scalar", data_item(k, field, n, is_tensor ? Dim * Dim : 1));
-  }
+                                 head, vertices(ids, n), Dim == 2 ? "XY" : "XYZ", item_of(number("position")));
+  for (const FieldsFile::Field& field : frame.fields)
+    if (field.name != "position") text += attribute(field.name, kind_of(field.width), item_of(field));
   return text + "      </Grid>\n";
 }
 
 template <int Dim>
-std::string frame_text(const FieldsFile::Frame& frame, std::size_t k, const BodyOutlines<Dim>* outlines) {
-  if (!outlines) return particles_text<Dim>(frame, k, time_text(frame));
-  return "      <Grid Name=\"frame\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" + time_text(frame) +
-         particles_text<Dim>(frame, k, {}) + body_grids<Dim>(*outlines, k) + "      </Grid>\n";
+std::string frame_text(const FieldsFile& frame, const BodyOutlines<Dim>* outlines) {
+  const std::string time = time_text(frame.time);
+  if (!outlines) return particles_text<Dim>(frame, time);
+  return "      <Grid Name=\"frame\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" + time +
+         particles_text<Dim>(frame, {}) + body_grids<Dim>(*outlines, frame.frames - 1) + "      </Grid>\n";
 }
 
 }  // namespace
@@ -106,9 +133,9 @@ void SamplePressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> 
 }
 
 template <int Dim>
-void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
-                                 Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
-                                 Read<particle::Mass> m_p, Read<particle::Volume> V_p,
+void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<FieldsChoice> choice, Read<particle::Id> id,
+                                 Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
+                                 Read<particle::Pressure> p_p, Read<particle::Mass> m_p, Read<particle::Volume> V_p,
                                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                  Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
                                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<Ranks>> ranks,
@@ -118,43 +145,34 @@ void WriteFrame<Dim>::operator()(Read<Clock> clock, Read<particle::Id> id, Read<
   const std::int64_t particles = all ? all->sum(own) : own;
   const bool is_writer = !fields->folder.empty();
   if (!is_writer && !all) return;
-  do_on_all(all, [&] {
-    if (is_writer) begin_frame(*fields, clock->time, static_cast<std::size_t>(particles));
-  });
-  const std::string name = is_writer ? group(fields->frames.size() - 1) : std::string();
-  const std::span<const Mat<Dim>> gradients = grad_v_p.span();
-  std::vector<DatasetRows> data{{name + "/position", numbers<Dim>(x_p.span()), Dim},
-                                {name + "/velocity", numbers<Dim>(v_p.span()), Dim},
-                                {name + "/pressure", p_p.span()},
-                                {name + "/id", id.span()}};
-  std::vector<std::string> extra_fields;
-  const auto add_field = [&](const char* field, const auto&... rows) {
-    extra_fields.emplace_back(field);
-    data.emplace_back(name + "/" + field, rows...);
+  if (is_writer) begin_frame(*fields, clock->time, static_cast<std::size_t>(particles));
+  const std::string name = is_writer ? group(fields->frames - 1) + "/" : std::string();
+  std::vector<DatasetRows> data;
+  const auto add = [&](DatasetRows rows) {
+    data.push_back(choice->in_single ? std::move(rows).in_single() : std::move(rows));
   };
-  add_field("mass", m_p.span());
-  add_field("volume", V_p.span());
-  if (grad_v_p) add_field("velocity_gradient", gradients.size(), Dim * Dim, row_by_row<Dim>(gradients));
-  if (g_p) add_field("shear_rate", g_p.span());
-  if (mu_p) add_field("viscosity", mu_p.span());
-  if (k_p) add_field("fluid", k_p.span());
-  const bool is_first = fields->frames.size() == 1;
-  const auto extents = write_shared(all, fields->path(), is_first ? Hdf5File::Access::create : Hdf5File::Access::extend,
-                                    data, [&](Hdf5File& file) { file.set_attribute(name, "time", clock->time); });
+  add({name + "position", numbers<Dim>(x_p.span()), Dim});
+  if (choice->has("velocity")) add(vectors<Dim>(name + "velocity", v_p.span()));
+  if (choice->has("pressure")) add({name + "pressure", p_p.span()});
+  add({name + "id", id.span()});
+  if (choice->has("mass")) add({name + "mass", m_p.span()});
+  if (choice->has("volume")) add({name + "volume", V_p.span()});
+  if (grad_v_p && choice->has("velocity_gradient")) add(tensors<Dim>(name + "velocity_gradient", grad_v_p.span()));
+  if (g_p && choice->has("shear_rate")) add({name + "shear_rate", g_p.span()});
+  if (mu_p && choice->has("viscosity")) add({name + "viscosity", mu_p.span()});
+  if (k_p && choice->has("fluid")) add({name + "fluid", k_p.span()});
+  write_shared(all, is_writer ? &fields->file : nullptr, choice->compression, data);
   if (!is_writer) return;
-  fields->frames.back().extents = extents;
-  fields->frames.back().extra_fields = extra_fields;
+  fields->file.set_attribute(group(fields->frames - 1), "time", clock->time);
+  fields->fields.clear();
+  for (const DatasetRows& rows : data)
+    fields->fields.push_back({rows.dataset.substr(name.size()), rows.width, rows.number});
 }
 
 template <int Dim>
 void WriteXdmf<Dim>::operator()(Optional<Read<BodyOutlines<Dim>>> outlines, Update<FieldsFile> fields) const {
   if (fields->folder.empty()) return;
-  std::string xdmf = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
-                     "    <Grid Name=\"minamo\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (std::size_t k = 0; k < fields->frames.size(); ++k)
-    xdmf += frame_text<Dim>(fields->frames[k], k, outlines ? &*outlines : nullptr);
-  write_text(fields->folder + "/fields.xdmf", xdmf + "    </Grid>\n  </Domain>\n</Xdmf>\n");
-  end_frame(*fields);
+  end_frame(*fields, frame_text<Dim>(*fields, outlines ? &*outlines : nullptr));
 }
 
 template struct SamplePressure<2>;

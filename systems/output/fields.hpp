@@ -1,7 +1,9 @@
 #pragma once
 /// \file
 /// fields.h5 and fields.xdmf: what particles carry, at every output time. /particles/{frame}/{position, velocity,
-/// pressure, id, ...}, attribute `time`. Bodies are in body_fields.hpp.
+/// pressure, id, ...}, attribute `time`. Vectors have three components and tensors nine, in the plane too, as
+/// ParaView's filters want them; position, which it takes for points, has as many as the scene. Bodies are in
+/// body_fields.hpp.
 
 #include "components/fluids.hpp"
 #include "components/grid.hpp"
@@ -25,20 +27,21 @@ struct SamplePressure {
                   Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const;
 };
 
-/// Adds a frame to fields.h5; a velocity gradient in rows of d x d numbers, row by row. The frame is finished by
-/// write_xdmf; until then take_back_frame() undoes it. \throws std::runtime_error if the file cannot be written.
+/// Adds a frame to fields.h5; a velocity gradient row by row. write_xdmf shows it to readers; until then
+/// take_back_frame() undoes it. \throws std::runtime_error if the file cannot be written.
 template <int Dim>
 struct WriteFrame {
   static constexpr std::string_view doc = "a frame of fields.h5";
-  void operator()(Read<Clock> clock, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p, Read<particle::Mass> m_p,
-                  Read<particle::Volume> V_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                  Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,
-                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<Ranks>> ranks,
-                  Update<FieldsFile> fields) const;
+  void operator()(Read<Clock> clock, Read<FieldsChoice> choice, Read<particle::Id> id,
+                  Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
+                  Read<particle::Mass> m_p, Read<particle::Volume> V_p,
+                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<particle::ShearRate>> g_p,
+                  Optional<Read<particle::Viscosity>> mu_p, Optional<Read<particle::FluidIndex>> k_p,
+                  Optional<Read<Ranks>> ranks, Update<FieldsFile> fields) const;
 };
 
-/// Rewrites fields.xdmf, the index that ParaView opens. With bodies a frame is a collection of particles and bodies.
+/// Shows the frame in fields.h5, and in fields.xdmf, the index that ParaView opens. With bodies a frame is a collection
+/// of particles and bodies.
 template <int Dim>
 struct WriteXdmf {
   static constexpr std::string_view doc = "fields.xdmf";

@@ -1,47 +1,80 @@
 #pragma once
 /// \file
-/// The state of fields.h5 between two frames: what is in it, and how to take it back to that.
+/// The state of fields.h5 and its indices between two frames: what is in them, and how to take them back to that.
 
 #include "engine/component.hpp"
-#include "engine/file_image.hpp"
+#include "engine/growing_hdf5.hpp"
+#include "engine/growing_xml.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace minamo {
 
-/// Where the frames go, and what the XDMF index says of them.
-struct FieldsFile {
-  struct Frame {
-    double time = 0;  ///< [s]
-    std::size_t particles = 0;
-    std::vector<std::string> extra_fields;  ///< beyond position, velocity, pressure, id
-    std::vector<Extent> extents;            ///< of its data in the file
-  };
-  std::string folder;  ///< nothing is written while it is empty
-  std::vector<Frame> frames;
-  std::optional<FileImage> before_frame;  ///< while a frame is being written
-  static constexpr ComponentInfo info{"fields.file", "", "", Lifetime::cache};
+/// What a frame has, and how.
+struct FieldsChoice {
+  std::optional<std::vector<std::string>> names = {};  ///< beside position and id; none: all
+  bool in_single = true;                               ///< 4 bytes a number, of those that are no whole numbers
+  int compression = 0;                                 ///< level of deflate [1]
+  static constexpr ComponentInfo info{"fields.choice", "", "", Lifetime::constant};
 
-  std::string path() const { return folder + "/fields.h5"; }
+  bool has(std::string_view name) const {
+    return !names || std::find(names->begin(), names->end(), name) != names->end();
+  }
 };
 
-/// Where the data of frames lie in the file, in rising order.
-std::vector<Extent> extents_of(const std::vector<FieldsFile::Frame>& frames);
+/// So many frames, and where the files end with them.
+struct FieldsPosition {
+  std::size_t frames = 0;
+  GrowingHdf5::Commit file;
+  std::uint64_t index = 0;     ///< of fields.xdmf
+  std::uint64_t surfaces = 0;  ///< of surface.pvd; 0: there is none
+};
 
-/// The file as it is now. \pre no frame is being written.
-FileImage image_of(const FieldsFile& fields);
+/// Where the frames go, and what the XDMF index says of the one that is being written.
+struct FieldsFile {
+  struct Field {
+    std::string name;
+    std::size_t width;
+    DatasetRows::Number number;
+  };
+  std::string folder;  ///< nothing is written while it is empty
+  std::size_t frames = 0;
+  double time = 0;                       ///< of the last one [s]
+  std::size_t particles = 0;             ///< in it
+  std::vector<Field> fields;             ///< of it, beside position and id
+  std::optional<FieldsPosition> before;  ///< while a frame is being written
+  GrowingHdf5 file;
+  GrowingXml index;
+  GrowingXml surfaces;
+  static constexpr ComponentInfo info{"fields.file", "", "", Lifetime::cache};
+};
 
-/// Starts a frame, and one line of the index. \throws std::runtime_error
+/// The index of surfaces, which ParaView opens.
+inline constexpr const char* surface_index = "surface.pvd";
+
+/// Files without a frame in a folder. \throws std::runtime_error
+void start_fields(FieldsFile& fields, const std::string& folder);
+/// What is wrong with the files in a folder, which are to be taken back to there: a sentence that begins with the name
+/// of the file; empty if nothing is.
+std::string misfit_of_fields(const std::string& folder, const FieldsPosition& position);
+/// Takes the files in a folder back and goes on from there. \throws std::runtime_error
+void continue_fields(FieldsFile& fields, const std::string& folder, const FieldsPosition& position);
+
+FieldsPosition position_of(const FieldsFile& fields);
+
+/// Starts a frame. \throws std::runtime_error
 void begin_frame(FieldsFile& fields, double time, std::size_t particles);
-void end_frame(FieldsFile& fields);
-/// Undoes a frame that was begun and not ended, if there is one. \throws std::runtime_error
-void take_back_frame(FieldsFile& fields);
+/// Shows the frame to readers: first in fields.h5, then in the index. \throws std::runtime_error
+void end_frame(FieldsFile& fields, const std::string& index_text);
+/// Undoes a frame that was begun and not ended, if there is one. \return whether there was \throws std::runtime_error
+bool take_back_frame(FieldsFile& fields);
 
-void to_json(nlohmann::ordered_json& json, const FieldsFile::Frame& frame);
-void from_json(const nlohmann::ordered_json& json, FieldsFile::Frame& frame);
+void to_json(nlohmann::ordered_json& json, const FieldsPosition& position);
+void from_json(const nlohmann::ordered_json& json, FieldsPosition& position);
 
 }  // namespace minamo

@@ -1,14 +1,21 @@
 #include "systems/output/history.hpp"
 
+#include "engine/file_error.hpp"
+#include "engine/text_file.hpp"
+
+#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
 
 namespace minamo {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 template <int Dim>
 RunTotals::Values values(const measure::Energy& energy, const measure::Momentum<Dim>& momentum) {
@@ -62,21 +69,56 @@ void append_cells(const std::vector<measure::Columns::Column>& columns, fmt::mem
   }
 }
 
-void require_written(const std::ostream& file) {
-  if (!file) throw std::runtime_error("history.csv: cannot be written");
+/// \pre errno was 0 before the file was written to
+void require_written(HistoryFile& history) {
+  if (history.file) return;
+  // Once it has failed nothing is tried any more.
+  if (errno != 0) history.error = errno;
+  throw std::runtime_error(not_written(history.path.empty() ? "history.csv" : history.path, history.error));
+}
+
+/// The units of the columns, in a file of their own: who reads history.csv takes what is behind its first line for
+/// numbers.
+template <int Dim>
+void write_units(const std::string& history, const measure::Columns& further) {
+  nlohmann::ordered_json units;
+  for (const auto& [column, unit] : history_units<Dim>(further)) units[column] = unit;
+  write_text(fs::path(history).replace_filename(history_units_name), units.dump(2) + "\n");
 }
 
 }  // namespace
 
 template <int Dim>
+std::vector<std::pair<std::string, std::string>> history_units(const measure::Columns& further) {
+  const char* energy = Dim == 2 ? "J/m" : "J";
+  std::vector<std::pair<std::string, std::string>> units{
+      {"step", "1"}, {"time", "s"}, {"dt", "s"}, {"kinetic_energy", energy}, {"potential_energy", energy}};
+  const auto add_vector = [&](const char* name, int size, const char* unit) {
+    for (int d = 0; d < size; ++d) units.emplace_back(size == 1 ? name : fmt::format("{}_{}", name, "xyz"[d]), unit);
+  };
+  add_vector("momentum", Dim, Dim == 2 ? "kg/s" : "kg m/s");
+  add_vector("angular_momentum", rotations<Dim>, Dim == 2 ? "kg m/s" : "kg m^2/s");
+  units.insert(units.end(), {{"max_speed", "m/s"},
+                             {"max_divergence", "1/s"},
+                             {"overlap", "1"},
+                             {"active_nodes", "1"},
+                             {"iterations", "1"},
+                             {"residual", "1"}});
+  for (const auto& column : further.columns) units.emplace_back(column.name, column.unit.empty() ? "1" : column.unit);
+  return units;
+}
+
+template <int Dim>
 std::string history_header(const measure::Columns& further) {
-  const std::string momentum = Dim == 2 ? "momentum_x,momentum_y,angular_momentum"
-                                        : "momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,"
-                                          "angular_momentum_z";
-  std::string names = "step,time,dt,kinetic_energy,potential_energy," + momentum +
-                      ",max_speed,max_divergence,overlap,active_nodes,iterations,residual";
-  for (const auto& column : further.columns) names += "," + column.name;
+  std::string names;
+  for (const auto& [column, unit] : history_units<Dim>(further)) names += (names.empty() ? "" : ",") + column;
   return names;
+}
+
+void flush(HistoryFile& history) {
+  errno = 0;
+  history.file.flush();
+  require_written(history);
 }
 
 const RunTotals& totals_of_all_rows(World& world) {
@@ -104,7 +146,11 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   }
   if (!history->file.is_open() && !history->keeps_row) return;
 
-  if (is_start && history->file.is_open()) history->file << history_header<Dim>(*further) << '\n';
+  errno = 0;
+  if (is_start && history->file.is_open()) {
+    if (!history->path.empty()) write_units<Dim>(history->path, *further);
+    history->file << history_header<Dim>(*further) << '\n';
+  }
   fmt::memory_buffer row;
   const auto out = std::back_inserter(row);
   fmt::format_to(out, "{},{},{},{},", step, is_start ? clock->time : clock->end_of_step, is_start ? 0 : clock->step,
@@ -120,12 +166,21 @@ void WriteHistory<Dim>::operator()(Read<Clock> clock, Read<measure::Energy> ener
   row.push_back('\n');
   history->file.write(row.data(), static_cast<std::streamsize>(row.size()));
   history->rows = with_row.rows;
-  require_written(history->file);
+  history->row_bytes = row.size();
+  require_written(*history);
 }
 
 template <int Dim>
 void FlushHistory<Dim>::operator()(Update<HistoryFile> history) const {
-  if (history->file.is_open()) require_written(history->file.flush());
+  if (history->file.is_open()) flush(*history);
+}
+
+void take_back_row(HistoryFile& history) {
+  flush(history);
+  history.file.close();
+  fs::resize_file(history.path, fs::file_size(history.path) - history.row_bytes);
+  history.file.open(history.path, std::ios::app);
+  --history.rows;
 }
 
 std::int64_t cut_history(const std::string& path, std::int64_t rows) {
@@ -134,10 +189,12 @@ std::int64_t cut_history(const std::string& path, std::int64_t rows) {
   std::streamoff end = 0;
   for (std::string line; lines < rows + 1 && std::getline(file, line) && !file.eof(); ++lines) end = file.tellg();
   file.close();
-  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(end));
+  fs::resize_file(path, static_cast<std::uintmax_t>(end));
   return lines - 1;
 }
 
+template std::vector<std::pair<std::string, std::string>> history_units<2>(const measure::Columns&);
+template std::vector<std::pair<std::string, std::string>> history_units<3>(const measure::Columns&);
 template std::string history_header<2>(const measure::Columns&);
 template std::string history_header<3>(const measure::Columns&);
 template struct WriteHistory<2>;

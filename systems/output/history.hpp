@@ -14,6 +14,8 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace minamo {
 
@@ -49,7 +51,10 @@ struct HistoryFile {
     RunTotals totals;  ///< with it
   };
   std::ofstream file;
-  std::int64_t rows = 0;  ///< written, among them that of a step which is taken back
+  std::string path;           ///< with its units beside it; empty: none
+  std::int64_t rows = 0;      ///< written, among them that of a step which is taken back
+  std::size_t row_bytes = 0;  ///< of the last one
+  int error = 0;              ///< errno of what went wrong
   std::optional<ExtraRow> extra;
   bool keeps_row = false;  ///< for who reads the rows as they come
   std::string row;         ///< the last one, without its end
@@ -59,16 +64,29 @@ struct HistoryFile {
 /// With the row of the last step, whether or not it was its turn.
 const RunTotals& totals_of_all_rows(World& world);
 
+/// Beside history.csv, the units of its columns.
+inline constexpr const char* history_units_name = "history.units.json";
+
+/// The columns of history.csv and their units, in the plane those per metre of depth.
+template <int Dim>
+std::vector<std::pair<std::string, std::string>> history_units(const measure::Columns& further);
+
+/// What has been written is on the disk. \throws std::runtime_error
+void flush(HistoryFile& history);
+
 /// The first line of history.csv, without its end.
 template <int Dim>
 std::string history_header(const measure::Columns& further);
+
+/// Takes back the last row of a history, at the same cost however long that is. \throws std::runtime_error
+void take_back_row(HistoryFile& history);
 
 /// Cuts a history off behind so many rows, or behind its last whole one.
 /// \return how many it has then; -1 for a file without header
 /// \throws std::filesystem::filesystem_error
 std::int64_t cut_history(const std::string& path, std::int64_t rows);
 
-/// The header comes with the first row, because it is then that measure::Columns knows its names.
+/// Header and units come with the first row, because it is then that measure::Columns knows its names.
 /// \throws std::runtime_error if a system sets a column that the header does not have, or if writing fails.
 template <int Dim>
 struct WriteHistory {

@@ -3,6 +3,7 @@
 #include "systems/output/body_fields.hpp"
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
+#include "systems/output/read_fields.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/memory.hpp"
@@ -56,11 +57,14 @@ void add_surfaces(const Scene& scene, Recipe& recipe) {
 }
 
 Contribution read_output(Input& input, Scene& scene) {
+  FieldsChoice fields;
   input.object("output", "what is written when", Input::Presence::optional, [&](Input& in) {
     scene.output = read_times(in, scene.dimension, scene.time.end);
     check_output_times(in, scene.output, scene.time);
+    fields = read_fields(in, scene);
   });
-  return [](const Scene& of, Recipe& recipe) {
+  return [fields](const Scene& of, Recipe& recipe) {
+    recipe.constant(fields);
     add_systems(of, recipe, "accept", {{"accept_step"}, {"accept_step_on_faces"}}, When::step);
     recipe.add("accept", "note_step");
     recipe.add("record", "write_history");

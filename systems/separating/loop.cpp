@@ -25,8 +25,8 @@ void EndContactPass<Dim>::operator()(Update<ContactLoop> loop) const {
 
 template <int Dim>
 void MeasureContact<Dim>::operator()(Read<ContactLoop> loop, Update<measure::Columns> columns) const {
-  columns->set("contact_passes", loop->passes);
-  columns->set("contact_unsettled", loop->unsettled);
+  columns->set("contact_passes", loop->passes, "1");
+  columns->set("contact_unsettled", loop->unsettled, "1");
 }
 
 template struct FillContactSource<2>;

@@ -27,6 +27,11 @@ template <int Dim>
 struct SampledShape {
   std::function<double(const Vec<Dim>&)> distance;
   std::function<Vec<Dim>(const Vec<Dim>&)> gradient;
+  /// Whether a node is inside, where that is known without the distance; may be empty.
+  std::function<bool(std::size_t row)> inside = {};
+  /// How far the surface is from a node inside, on the way to one outside, in shares of it, where that is known without
+  /// the distance; may be empty.
+  std::function<double(std::size_t in, std::size_t out)> share = {};
 };
 
 /// Corners, where the tangents of two neighbouring points meet, are points, too; points on a straight line are left

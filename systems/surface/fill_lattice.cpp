@@ -38,8 +38,7 @@ SampleNodes<Dim> nodes_around(const Bounds<Dim>& box, double spacing, double mar
 template <int Dim>
 FillLattice<Dim>::FillLattice(const Bounds<Dim>& box, double spacing, std::span<const Vec<Dim>> position)
     : nodes_(nodes_around<Dim>(box, spacing, (quadratic_spline_reach * width + 1) * spacing, position)),
-      fill_(nodes_.size(), 0.0F),
-      momentum_(nodes_.size()) {}
+      sums_(nodes_.size()) {}
 
 template <int Dim>
 void FillLattice<Dim>::add(const Vec<Dim>& x, const Vec<Dim>& v, double volume) {
@@ -57,13 +56,13 @@ void FillLattice<Dim>::add(const Vec<Dim>& x, const Vec<Dim>& v, double volume) 
       weight[d][static_cast<std::size_t>(k)] = quadratic_spline((first[d] + k - at) / width);
   }
   const double amount = volume / std::pow(width * nodes_.spacing, Dim);
+  std::array<float, 1 + static_cast<std::size_t>(Dim)> carried{1.0F};
+  for (std::size_t d = 0; d < Dim; ++d) carried[1 + d] = static_cast<float>(v[static_cast<Eigen::Index>(d)]);
   const auto add_line = [&](std::size_t row, double share) {
     for (int i = 0; i < count[0]; ++i) {
-      const auto here = row + static_cast<std::size_t>(i);
-      const double part = share * weight[0][static_cast<std::size_t>(i)];
-      fill_[here] += static_cast<float>(part);
-      for (std::size_t d = 0; d < Dim; ++d)
-        momentum_[here][d] += static_cast<float>(part * v[static_cast<Eigen::Index>(d)]);
+      auto& sum = sums_[row + static_cast<std::size_t>(i)];
+      const auto part = static_cast<float>(share * weight[0][static_cast<std::size_t>(i)]);
+      for (std::size_t k = 0; k <= Dim; ++k) sum[k] += part * carried[k];
     }
   };
   const auto n0 = static_cast<std::size_t>(nodes_.count[0]);
@@ -109,7 +108,7 @@ void FillLattice<Dim>::for_each_corner(const Vec<Dim>& x, const Use& use) const 
 template <int Dim>
 double FillLattice<Dim>::fill(const Vec<Dim>& x) const {
   double sum = 0;
-  for_each_corner(x, [&](std::size_t row, double weight) { sum += weight * fill_[row]; });
+  for_each_corner(x, [&](std::size_t row, double weight) { sum += weight * sums_[row][0]; });
   return sum;
 }
 
@@ -118,8 +117,8 @@ Vec<Dim> FillLattice<Dim>::velocity(const Vec<Dim>& x) const {
   double filled = 0;
   Vec<Dim> sum = Vec<Dim>::Zero();
   for_each_corner(x, [&](std::size_t row, double weight) {
-    filled += weight * fill_[row];
-    for (std::size_t d = 0; d < Dim; ++d) sum[static_cast<Eigen::Index>(d)] += weight * momentum_[row][d];
+    filled += weight * sums_[row][0];
+    for (std::size_t d = 0; d < Dim; ++d) sum[static_cast<Eigen::Index>(d)] += weight * sums_[row][1 + d];
   });
   if (filled <= 0) return Vec<Dim>::Zero();
   return sum / filled;

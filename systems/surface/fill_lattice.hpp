@@ -20,6 +20,8 @@ class FillLattice {
   void add(const Vec<Dim>& x, const Vec<Dim>& v, double volume);
 
   const SampleNodes<Dim>& nodes() const { return nodes_; }
+  /// fill() of a node.
+  double fill_at(std::size_t row) const { return sums_[row][0]; }
   /// sum_p V_p S/width^Dim between the nodes, linear along every axis. [1]
   double fill(const Vec<Dim>& x) const;
   /// Mean of the particles' velocities, weighted likewise; zero far from all. [m/s]
@@ -32,8 +34,7 @@ class FillLattice {
   void for_each_corner(const Vec<Dim>& x, const Use& use) const;
 
   SampleNodes<Dim> nodes_;
-  std::vector<float> fill_;
-  std::vector<std::array<float, static_cast<std::size_t>(Dim)>> momentum_;  ///< fill times velocity
+  std::vector<std::array<float, 1 + static_cast<std::size_t>(Dim)>> sums_;  ///< fill, and fill times velocity
 };
 
 }  // namespace minamo

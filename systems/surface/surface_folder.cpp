@@ -1,7 +1,5 @@
 #include "systems/surface/surface_folder.hpp"
 
-#include "engine/text_file.hpp"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -34,15 +32,10 @@ std::optional<std::size_t> frame_of_surface(const fs::path& folder, const fs::pa
   return is_ours ? std::optional(frame) : std::nullopt;
 }
 
-void write_surface_index(const FieldsFile& fields) {
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-  for (std::size_t k = 0; k < fields.frames.size(); ++k) {
-    const fs::path file = surface_path(fields.folder, k, SurfaceFormat::vtp);
-    if (!fs::exists(file)) continue;
-    text += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", fields.frames[k].time,
-                        file.lexically_relative(fields.folder).string());
-  }
-  write_text(fs::path(fields.folder) / surface_index, text + "</Collection>\n</VTKFile>\n");
+void add_to_surface_index(FieldsFile& fields) {
+  const fs::path file = surface_path(fields.folder, fields.frames - 1, SurfaceFormat::vtp);
+  fields.surfaces.append(fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", fields.time,
+                                     file.lexically_relative(fields.folder).string()));
 }
 
 void remove_surfaces(const fs::path& folder, std::size_t from) {

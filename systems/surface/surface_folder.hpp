@@ -11,9 +11,6 @@
 
 namespace minamo {
 
-/// The index, which ParaView opens.
-inline constexpr const char* surface_index = "surface.pvd";
-
 /// surface/NNNN.EXT in the folder of a run.
 std::filesystem::path surface_path(const std::filesystem::path& folder, std::size_t frame, SurfaceFormat format);
 
@@ -21,9 +18,8 @@ std::filesystem::path surface_path(const std::filesystem::path& folder, std::siz
 /// no run writes.
 std::optional<std::size_t> frame_of_surface(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-/// Writes the index of the frames whose VTP file is there: surfaces may have been switched on later.
-/// \throws std::runtime_error if it cannot be written
-void write_surface_index(const FieldsFile& fields);
+/// Adds the VTP file of the frame that is being written. \throws std::runtime_error if it cannot be written
+void add_to_surface_index(FieldsFile& fields);
 
 /// Removes the surfaces of a frame and of all later ones, of every format, and no other file.
 /// \throws std::filesystem::filesystem_error

@@ -35,10 +35,10 @@ void WriteSurfaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> ou
     bodies.emplace(*set, c_b.span(), R_b.span());
     of.distance_to_bodies = [&](const Vec<Dim>& point) { return bodies->distance(point); };
   }
-  const auto path = surface_path(fields->folder, fields->frames.size() - 1, output->format);
+  const auto path = surface_path(fields->folder, fields->frames - 1, output->format);
   std::filesystem::create_directories(path.parent_path());
   write_surface<Dim>(surface_of<Dim>(of), output->format, output->spacing, path.string());
-  if (output->format == SurfaceFormat::vtp) write_surface_index(*fields);
+  if (output->format == SurfaceFormat::vtp) add_to_surface_index(*fields);
 }
 
 template struct WriteSurfaces<2>;

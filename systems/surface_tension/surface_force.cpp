@@ -93,10 +93,11 @@ double unresolved_of(const SurfaceTension& tension, const FreeSurface<Dim>& surf
          (of_curvature * per_radius * per_radius * area + of_contact * h * contact_lines_of<Dim>(surface));
 }
 
+template <int Dim>
 void set_energy(double joule, double unresolved, measure::Energy& energy, measure::Columns& columns) {
   energy.surface = joule;
   energy.unresolved = unresolved;
-  columns.set("surface_energy", joule);
+  columns.set("surface_energy", joule, Dim == 2 ? "J/m" : "J");
 }
 
 }  // namespace
@@ -152,7 +153,7 @@ void MeasureSurfaceEnergy<Dim>::operator()(Read<SurfaceTension> tension, Read<Fr
                                            Update<measure::Energy> energy, Update<measure::Columns> columns) const {
   const double work = reduce_rows(
       F_f.size(), 0.0, [&](std::size_t i) { return F_f[i].dot(u_f[i]); }, std::plus<>());
-  set_energy(energy_of<Dim>(*tension, *surface) - 0.5 * work,
+  set_energy<Dim>(energy_of<Dim>(*tension, *surface) - 0.5 * work,
              unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span()), *energy, *columns);
 }
 
@@ -161,7 +162,7 @@ void MeasureSurfaceEnergyAtStart<Dim>::operator()(Read<SurfaceTension> tension, 
                                                   Read<Grid<Dim>> grid, Read<particle::Volume> V_p,
                                                   Update<measure::Energy> energy,
                                                   Update<measure::Columns> columns) const {
-  set_energy(energy_of<Dim>(*tension, *surface), unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span()),
+  set_energy<Dim>(energy_of<Dim>(*tension, *surface), unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span()),
              *energy, *columns);
 }
 

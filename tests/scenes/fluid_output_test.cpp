@@ -31,10 +31,10 @@ TEST_CASE("frames tell the liquid of every particle, where there are several", "
               .code == 0);
   const Hdf5File file(folder / "out/fields.h5", Hdf5File::Access::read);
   const auto fluid = values_of<std::int64_t>(file, "/particles/0/fluid");
-  const auto position = values_of<double>(file, "/particles/0/position");
+  const auto position = values_of<float>(file, "/particles/0/position");
   REQUIRE(position.size() == 2 * fluid.size());
   // "fresh" stands first in the scene and on the right.
-  for (std::size_t p = 0; p < fluid.size(); ++p) REQUIRE(fluid[p] == (position[2 * p] < 0.6 ? 1 : 0));
+  for (std::size_t p = 0; p < fluid.size(); ++p) REQUIRE(fluid[p] == (position[2 * p] < 0.6F ? 1 : 0));
   CHECK_THAT(text_of(folder / "out/fields.xdmf"),
              Catch::Contains(R"(<Attribute Name="fluid" AttributeType="Scalar")") &&
                  Catch::Contains(R"(NumberType="Int" Precision="8" Format="HDF">fields.h5:/particles/0/fluid)"));

@@ -56,6 +56,7 @@ if(MINAMO_OPENVDB)
   set(minamo_openvdb minamo::openvdb)
 endif()
 minamo_import(hdf5 hdf5.h LIBRARIES hdf5 SUFFIXES hdf5/serial)
+minamo_import(zlib zlib.h LIBRARIES z)
 
 # Debian's HDF5 can also read from the web. Its shared library brings curl, TLS and Kerberos along, 30 libraries, whose
 # loading takes a quarter of the processor time of a run of one step. So programs take their part of the static library

@@ -43,9 +43,12 @@ class Field:
 def fields_of(run: Run) -> dict[str, Field]:
     """All that the particles of a run can be coloured by."""
     columns, dimension = run.columns(0), run.dimension
-    found = [Field("speed", "m/s", lambda columns: np.linalg.norm(columns["velocity"], axis=1)),
-             Field("pressure", "Pa", lambda columns: columns["pressure"], "cividis")]
-    found += [_part("velocity", "m/s", k, AXES[k]) for k in range(dimension)]
+    found = []
+    if "velocity" in columns:
+        found.append(Field("speed", "m/s", lambda columns: np.linalg.norm(columns["velocity"], axis=1)))
+        found += [_part("velocity", "m/s", k, AXES[k]) for k in range(dimension)]
+    if "pressure" in columns:
+        found.insert(1 if found else 0, Field("pressure", "Pa", lambda columns: columns["pressure"], "cividis"))
     if "velocity_gradient" in columns:
         found.append(Field("vorticity", "1/s", _vorticity, SIGNED if dimension == 2 else SEQUENTIAL))
         pairs = [(i, j) for i in range(dimension) for j in range(dimension)]
@@ -76,9 +79,19 @@ def _vorticity(columns: dict[str, np.ndarray]) -> np.ndarray:
     return turning[:, 1, 0] if dimension == 2 else np.sqrt(0.5) * np.linalg.norm(turning, axis=(1, 2))
 
 
+def _source(name: str) -> str:
+    """The column of fields.h5 that a field is made of, which a run may have left out; empty for others."""
+    sources = {"speed": "velocity", "vorticity": "velocity_gradient", "velocity_gradient": "velocity_gradient",
+               "velocity": "velocity"}
+    whole = name if name in sources else name.rpartition("_")[0]
+    return sources.get(whole, name if name in ("pressure", "mass", "volume") else "")
+
+
 def usual_fields(runs: list[Run]) -> list[str]:
     """What is drawn if nothing is asked for: which liquid, where there are several, and what the flow is."""
-    return (["fluid"] if all(run.fluids for run in runs) else []) + ["speed", "pressure"]
+    known = [fields_of(run) for run in runs]
+    wanted = (["fluid"] if all(run.fluids for run in runs) else []) + ["speed", "pressure"]
+    return [name for name in wanted if all(name in fields for fields in known)] or list(known[0])[:1]
 
 
 def find_field(runs: list[Run], name: str) -> Field:
@@ -86,6 +99,10 @@ def find_field(runs: list[Run], name: str) -> Field:
     for run in runs:
         known = fields_of(run)
         if name not in known:
+            source = _source(name)
+            if source and source not in run.field_names:
+                raise NoResults(f"{run.folder}: fields.h5 has no {source}, which \"{name}\" is made of; expected: a run "
+                                f"with \"{source}\" in /output/fields")
             near = difflib.get_close_matches(name, known, 1, 0.4)
             raise NoResults(f"{run.folder}: unknown field \"{name}\"; expected one of: {', '.join(known)}"
                             + (f"; nearest: {near[0]}" if near else ""))

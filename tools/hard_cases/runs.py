@@ -118,6 +118,8 @@ def run(program: Path, scene: dict[str, Any], method: Method, folder: Path, seco
     """A call of `minamo run`. The time is that of the processor: a machine with more to do is no reason to fail."""
     folder.mkdir(parents=True, exist_ok=True)
     scene = method.of(scene)
+    # Runs are compared to the last digits.
+    scene = scene | {"output": {"precision": "double"} | scene.get("output", {})}
     file = folder / "case.json"
     file.write_text(json.dumps(scene, indent=1))
     command = [str(program), "run", str(file), "--threads", "1", "--quiet", "--overwrite", "--out", str(folder)]
@@ -162,8 +164,11 @@ def frame(group: h5py.Group) -> Frame:
     ids = group["id"][:].ravel()
     order = np.argsort(ids)
     position = group["position"][:][order]
+    dimension = position.shape[1]
     gradient = None
     if "velocity_gradient" in group:
-        gradient = group["velocity_gradient"][:][order].reshape(len(order), position.shape[1], position.shape[1])
-    return Frame(float(group.attrs["time"]), ids[order], group["mass"][:][order], position, group["velocity"][:][order],
-                 group["pressure"][:].ravel()[order], gradient)
+        rows = group["velocity_gradient"][:][order]
+        size = 3 if rows.shape[1] == 9 else dimension
+        gradient = rows.reshape(len(order), size, size)[:, :dimension, :dimension]
+    return Frame(float(group.attrs["time"]), ids[order], group["mass"][:][order], position,
+                 group["velocity"][:][order][:, :dimension], group["pressure"][:].ravel()[order], gradient)

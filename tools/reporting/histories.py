@@ -30,7 +30,7 @@ class Plot:
 def plots(runs: list[Run]) -> list[Plot]:
     """What is worth a plot: nothing that is empty, or always zero, in all runs. Several runs: a column per plot."""
     per_metre = all(run.dimension == 2 for run in runs)
-    shown = [_with_columns(plot, runs) for plot in _known_plots(per_metre) + _further_plots(runs)]
+    shown = [_with_units(_with_columns(plot, runs), runs) for plot in _known_plots(per_metre) + _further_plots(runs)]
     shown = [plot for plot in shown if plot.columns]
     return shown if len(runs) == 1 else [single for plot in shown for single in _one_by_one(plot)]
 
@@ -65,6 +65,13 @@ def _further_plots(runs: list[Run]) -> list[Plot]:
 def _unit(column: str) -> str:
     """Of a probe's column: NAME_pressure, NAME_velocity_x."""
     return "Pa" if column.endswith("_pressure") else "m/s" if column[:-1].endswith("_velocity_") else ""
+
+
+def _with_units(plot: Plot, runs: list[Run]) -> Plot:
+    """With the unit that the runs themselves give the columns, if it is one and the same."""
+    units = {run.units[column] for run in runs for column in plot.columns if column in run.units}
+    unit = units.pop() if len(units) == 1 else plot.unit
+    return Plot(plot.title, plot.columns, unit if unit != "1" or plot.unit else "", plot.logarithmic)
 
 
 def _with_columns(plot: Plot, runs: list[Run]) -> Plot:

@@ -100,6 +100,8 @@ def _is_free(box: tuple[np.ndarray, np.ndarray], others: list[tuple[np.ndarray, 
 def _linear_velocity(run: Run, low: np.ndarray, high: np.ndarray) -> np.ndarray | None:
     """Coefficients of v = (1, x, y) c in a box at the start, 3 x 2; None if v is not linear, or zero."""
     start = run.frame(0)
+    if "velocity" not in start.columns:
+        return None
     inside = np.all((start.position > low) & (start.position < high), axis=1)
     velocity, basis = start.velocity[inside], np.column_stack([np.ones(inside.sum()), start.position[inside]])
     if start.time > 0 or len(basis) < 4 or not np.any(velocity):

@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -26,10 +27,28 @@ class Frame:
     """The particles at an output time, in the order of their ids."""
 
     time: float  # [s]
-    id: np.ndarray
-    position: np.ndarray  # [m], particles x dimension
-    velocity: np.ndarray  # [m/s], particles x dimension
-    pressure: np.ndarray  # [Pa]
+    columns: dict[str, np.ndarray]
+    source: str  # for messages
+
+    def column(self, name: str) -> np.ndarray:
+        """A field, which a run may have left out."""
+        if name not in self.columns:
+            raise NoResults(f"{self.source} has no {name}; expected: a run with \"{name}\" in /output/fields")
+        return self.columns[name]
+
+    @property
+    def id(self) -> np.ndarray:
+        return self.column("id")
+
+    @property
+    def position(self) -> np.ndarray:
+        """Particles x dimension. [m]"""
+        return self.column("position")
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """Particles x dimension. [m/s]"""
+        return self.column("velocity")
 
 
 class Run:
@@ -49,6 +68,7 @@ class Run:
                             "`minamo run SCENE --out DIR` wrote")
         self.summary = self._json("summary.json")
         self.history = self._history()
+        self.units: dict[str, str] = self._json("history.units.json")  # of the columns of the history
         self.times = self._times()
 
     def require_whole(self) -> None:
@@ -102,17 +122,24 @@ class Run:
         with self.fields() as file:
             return np.sort(file[f"particles/{index}/id"][:])
 
+    @cached_property
+    def field_names(self) -> set[str]:
+        """What all frames hold: a run that goes on may write more or less than before."""
+        with self.fields() as file:
+            return set.intersection(*(set(group) for group in file["particles"].values()))
+
     def columns(self, index: int) -> dict[str, np.ndarray]:
-        """All that frame `index` of fields.h5 holds, particles x width or particles, in the order of the ids."""
+        """Of frame `index` of fields.h5 what all frames hold, particles x width or particles, in the order of the ids.
+        Vectors and tensors have the dimension of the scene, real numbers are double, however they are stored."""
         with self.fields() as file:
             group = file[f"particles/{index}"]
             order = np.argsort(group["id"][:])
-            return {name: values[:][order] for name, values in group.items()}
+            return {name: as_computed(values[:][order], self.dimension) for name, values in group.items()
+                    if name in self.field_names}
 
     def frame(self, index: int) -> Frame:
         """Frame `index` of fields.h5."""
-        columns = self.columns(index)
-        return Frame(float(self.times[index]), *(columns[name] for name in ("id", "position", "velocity", "pressure")))
+        return Frame(float(self.times[index]), self.columns(index), f"{self.folder}: fields.h5")
 
     def frames(self) -> Iterator[Frame]:
         """All frames, in the order of time."""
@@ -185,6 +212,16 @@ class Run:
         return int(np.argmax(np.abs(force))) if any(force) else self.dimension - 1
 
 
+def as_computed(values: np.ndarray, dimension: int) -> np.ndarray:
+    """A column in double precision, and in the plane without what is zero there: the third component of a vector, the
+    third row and column of a tensor."""
+    if values.dtype.kind == "f":
+        values = values.astype(float)
+    if values.ndim == 2 and dimension == 2 and values.shape[1] in (3, 9):
+        return values[:, [0, 1] if values.shape[1] == 3 else [0, 1, 3, 4]]
+    return values
+
+
 def labels(runs: list[Run]) -> list[str]:
     """What tells the runs apart in a few letters: the scheme, else the title, else the folder."""
     for names in ([run.scheme for run in runs], [run.title for run in runs], [run.name for run in runs]):
@@ -214,6 +251,6 @@ def _way(before: Frame, after: Frame) -> float:
     """How far the particles move that are in both frames; where openings have exchanged all, by their velocity. [m]"""
     _, old, new = np.intersect1d(before.id, after.id, assume_unique=True, return_indices=True)
     ways = after.position[new] - before.position[old]
-    if len(ways) == 0:
+    if len(ways) == 0 and "velocity" in after.columns:
         ways = (after.time - before.time) * after.velocity
     return float(np.sqrt(np.mean(ways**2))) if len(ways) else 0.0
