@@ -40,7 +40,7 @@ def run(name, ranks, scene, *options, expect=0, program="MPI_PROGRAM"):
     if "--resume" not in options:
         shutil.rmtree(folder, ignore_errors=True)
     done = subprocess.run([*command(ranks, program), "run", str(scene), "--out", str(folder), "--threads", "1", "--quiet",
-                           *options], capture_output=True, text=True, timeout=250)
+                           "--set", '/output/precision="double"', *options], capture_output=True, text=True, timeout=250)
     if expect is not None and done.returncode != expect:
         raise AssertionError(f"{name}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
     return folder, done
@@ -75,7 +75,7 @@ def layout(path):
 
     def add(name, item):
         kind = (item.dtype, item.shape, item.chunks) if isinstance(item, h5py.Dataset) else None
-        if name in ("fields/others", "fields/frames", "state/history.totals"):
+        if name in ("fields/frames", "state/history.totals"):
             kind = item.dtype
         found[name] = (kind, dict(item.attrs))
 

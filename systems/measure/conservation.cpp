@@ -136,7 +136,7 @@ void MeasureEnergyBalance<Dim>::operator()(Read<measure::Energy> energy, Optiona
     give(given->value);
     give(given->by_forces);
   }
-  if (W_b || E_o || given || energy->surface) columns->set("energy_balance", balance->value);
+  if (W_b || E_o || given || energy->surface) columns->set("energy_balance", balance->value, Dim == 2 ? "J/m" : "J");
 }
 
 template <int Dim>

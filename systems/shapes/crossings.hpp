@@ -5,8 +5,11 @@
 #include "engine/parallel.hpp"
 #include "systems/shapes/marching.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace minamo {
 
@@ -42,7 +45,7 @@ template <int Dim>
 class Crossings {
  public:
   Crossings(const SampledShape<Dim>& shape, const SampleNodes<Dim>& nodes)
-      : shape_(shape), nodes_(nodes), inside_(nodes.size()) {
+      : shape_(shape), nodes_(nodes), inside_(nodes.size()), place_(nodes.size(), none), way_(ways_in(nodes)) {
     for_each_row(inside_.size(), [&](std::size_t row) {
       inside_[row] = (shape_.inside ? shape_.inside(row) : shape_.distance(nodes_.at(row)) <= 0) ? 1 : 0;
     });
@@ -50,12 +53,15 @@ class Crossings {
 
   bool inside(std::size_t row) const { return inside_[row] != 0; }
 
-  /// The number of the point between two nodes, one inside and one outside.
+  /// The number of the point between two nodes of a box of the lattice, one inside and one outside.
   std::uint32_t between(std::size_t a, std::size_t b) {
     if (!inside(a)) std::swap(a, b);
-    const auto [found, is_new] = number_.try_emplace(Ends{a, b}, static_cast<std::uint32_t>(ends_.size()));
-    if (is_new) ends_.emplace_back(a, b);
-    return found->second;
+    std::uint32_t& number = number_of(std::min(a, b), std::max(a, b));
+    if (number == none) {
+      number = static_cast<std::uint32_t>(ends_.size());
+      ends_.emplace_back(a, b);
+    }
+    return number;
   }
 
   std::vector<Vec<Dim>> points() const {
@@ -70,16 +76,41 @@ class Crossings {
   }
 
  private:
-  using Ends = std::pair<std::size_t, std::size_t>;
-  struct Hash {
-    std::size_t operator()(const Ends& ends) const { return 1'000'003 * ends.first + ends.second; }
-  };
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  static constexpr std::size_t ways = (std::size_t{1} << static_cast<std::size_t>(Dim)) - 1;  // to nodes that follow
+  using Numbers = std::array<std::uint32_t, ways>;
+
+  /// Of the point on the line between a node and one of those that follow it along the axes.
+  std::uint32_t& number_of(std::size_t low, std::size_t high) {
+    std::uint32_t& place = place_[low];
+    if (place == none) {
+      place = static_cast<std::uint32_t>(numbers_.size());
+      numbers_.emplace_back().fill(none);
+    }
+    const auto way = std::find(way_.begin(), way_.end(), high - low);
+    return numbers_[place][static_cast<std::size_t>(way - way_.begin())];
+  }
+
+  /// From a node to those that follow it, in rows.
+  static std::array<std::size_t, ways> ways_in(const SampleNodes<Dim>& nodes) {
+    std::array<std::size_t, ways> rows{};
+    for (std::size_t way = 1; way <= ways; ++way) {
+      std::size_t stride = 1;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        if ((way >> d & 1U) == 1) rows[way - 1] += stride;
+        stride *= static_cast<std::size_t>(nodes.count[d]);
+      }
+    }
+    return rows;
+  }
 
   const SampledShape<Dim>& shape_;
   const SampleNodes<Dim>& nodes_;
   std::vector<std::uint8_t> inside_;
-  std::unordered_map<Ends, std::uint32_t, Hash> number_;
-  std::vector<Ends> ends_;  ///< inside, outside
+  std::vector<std::uint32_t> place_;  ///< in numbers_, of every node
+  std::vector<Numbers> numbers_;      ///< of nodes that the surface passes by
+  std::array<std::size_t, ways> way_;
+  std::vector<std::pair<std::size_t, std::size_t>> ends_;  ///< inside, outside
 };
 
 }  // namespace minamo

@@ -36,26 +36,33 @@ class Tetrahedra {
     const auto is_inside = [&](std::size_t row) { return crossings_.inside(row); };
     if (std::all_of(corner.begin(), corner.end(), is_inside) || std::none_of(corner.begin(), corner.end(), is_inside))
       return;
-    for (const auto& [a, b, c, d] : simplices_of_box<3>()) cut({corner[a], corner[b], corner[c], corner[d]});
+    for (const auto& [a, b, c, d] : simplices_of_box<3>()) cut({a, b, c, d}, corner);
   }
 
-  void cut(std::array<std::size_t, 4> corner) {
-    const std::size_t inside = put_inside_first(corner, [&](std::size_t row) { return crossings_.inside(row); });
-    for_each_cut(corner, inside, [&](const auto& lines) { add(lines); });
+  /// \param simplex  of corners of the box, 0 ... 7
+  /// \param row      of these corners
+  void cut(std::array<std::size_t, 4> simplex, const std::array<std::size_t, 8>& row) {
+    const std::size_t inside = put_inside_first(simplex, [&](std::size_t c) { return crossings_.inside(row[c]); });
+    for_each_cut(simplex, inside, [&](const auto& lines) { add(lines, row); });
+  }
+
+  static Vec<3> place(std::size_t corner) {
+    return Vec<3>(static_cast<double>(corner & 1U), static_cast<double>(corner >> 1U & 1U),
+            static_cast<double>(corner >> 2U));
   }
 
   /// A triangle between points on lines from inside to outside. Which way it turns, the middles of the lines tell: the
   /// points themselves may coincide.
-  void add(const std::array<std::array<std::size_t, 2>, 3>& lines) {
+  void add(const std::array<std::array<std::size_t, 2>, 3>& lines, const std::array<std::size_t, 8>& row) {
     std::array<Vec<3>, 3> middle;
     Vec<3> outward = Vec<3>::Zero();
     std::array<std::uint32_t, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec<3> in = nodes_.at(lines[k][0]);
-      const Vec<3> out = nodes_.at(lines[k][1]);
+      const Vec<3> in = place(lines[k][0]);
+      const Vec<3> out = place(lines[k][1]);
       middle[k] = 0.5 * (in + out);
       outward += out - in;
-      triangle[k] = crossings_.between(lines[k][0], lines[k][1]);
+      triangle[k] = crossings_.between(row[lines[k][0]], row[lines[k][1]]);
     }
     if ((middle[1] - middle[0]).cross(middle[2] - middle[0]).dot(outward) < 0) std::swap(triangle[1], triangle[2]);
     outline_.element.push_back(triangle);

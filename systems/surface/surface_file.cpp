@@ -9,6 +9,8 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 namespace minamo {
 
@@ -28,41 +30,31 @@ void append_vector(std::string& bytes, const Vec<Dim>& vector) {
   for (Eigen::Index d = 0; d < 3; ++d) append(bytes, static_cast<float>(d < Dim ? vector[d] : 0));
 }
 
-/// An array of the appended data, after its size in bytes.
-class Appended {
- public:
-  /// \return where it begins
-  std::size_t add(const std::string& array) {
-    const std::size_t offset = bytes_.size();
-    append(bytes_, static_cast<std::uint64_t>(array.size()));
-    bytes_ += array;
-    return offset;
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
+/// An array of the appended data: what the head says of it, and how many bytes it has.
+struct Array {
+  const char* type;
+  const char* name;
+  int components;
+  std::uint64_t bytes;
 };
+
+/// Where the arrays begin: each after its size in 8 bytes.
+std::string declared(const Array& array, std::uint64_t& offset) {
+  const std::uint64_t begin = std::exchange(offset, offset + sizeof(std::uint64_t) + array.bytes);
+  return fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", array.type,
+      array.name, array.components, begin);
+}
 
 template <int Dim>
 std::string vtp(const ParticleSurface<Dim>& surface) {
   const auto& [points, elements] = surface.outline;
-  std::string places;
-  std::string velocities;
-  std::string corners;
-  std::string ends;
-  for (const Vec<Dim>& x : points) append_vector<Dim>(places, x);
-  for (const Vec<Dim>& v : surface.velocity) append_vector<Dim>(velocities, v);
-  for (std::size_t k = 0; k < elements.size(); ++k) {
-    for (const std::uint32_t corner : elements[k]) append(corners, static_cast<std::int32_t>(corner));
-    append(ends, static_cast<std::int32_t>(Dim * (k + 1)));
-  }
-  Appended data;
-  const auto array = [&](const char* type, const char* name, int components, const std::string& bytes) {
-    return fmt::format(
-        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-        name, components, data.add(bytes));
-  };
+  const std::uint64_t vectors = points.size() * 3 * sizeof(float);
+  const Array velocities{"Float32", "velocity", 3, vectors};
+  const Array places{"Float32", "position", 3, vectors};
+  const Array corners{"Int32", "connectivity", 1, elements.size() * Dim * sizeof(std::int32_t)};
+  const Array ends{"Int32", "offsets", 1, elements.size() * sizeof(std::int32_t)};
+  std::uint64_t bytes = 0;
   const char* kind = Dim == 2 ? "Lines" : "Polys";
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
@@ -70,12 +62,23 @@ std::string vtp(const ParticleSurface<Dim>& surface) {
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n",
       points.size(), Dim == 2 ? elements.size() : 0, Dim == 2 ? 0 : elements.size());
-  text += "<PointData Vectors=\"velocity\">\n" + array("Float32", "velocity", 3, velocities) + "</PointData>\n";
-  text += "<Points>\n" + array("Float32", "position", 3, places) + "</Points>\n";
-  text += fmt::format("<{}>\n", kind) + array("Int32", "connectivity", 1, corners) +
-          array("Int32", "offsets", 1, ends) + fmt::format("</{}>\n", kind);
+  text += "<PointData Vectors=\"velocity\">\n" + declared(velocities, bytes) + "</PointData>\n";
+  text += "<Points>\n" + declared(places, bytes) + "</Points>\n";
+  text += fmt::format("<{}>\n", kind) + declared(corners, bytes);
+  text += declared(ends, bytes) + fmt::format("</{}>\n", kind);
   text += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  return text + data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
+  constexpr std::string_view tail = "\n</AppendedData>\n</VTKFile>\n";
+  text.reserve(text.size() + bytes + tail.size());
+  append(text, velocities.bytes);
+  for (const Vec<Dim>& v : surface.velocity) append_vector<Dim>(text, v);
+  append(text, places.bytes);
+  for (const Vec<Dim>& x : points) append_vector<Dim>(text, x);
+  append(text, corners.bytes);
+  for (const auto& element : elements)
+    for (const std::uint32_t corner : element) append(text, static_cast<std::int32_t>(corner));
+  append(text, ends.bytes);
+  for (std::size_t k = 0; k < elements.size(); ++k) append(text, static_cast<std::int32_t>(Dim * (k + 1)));
+  return text.append(tail);
 }
 
 template <int Dim>

@@ -3,6 +3,9 @@
 
 #include "support/folder.hpp"
 #include "support/program_output.hpp"
+#include "support/xml.hpp"
+
+#include "engine/hdf5.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -33,6 +36,19 @@ Arguments run_to(const std::string& out, const Arguments& more = {}) {
   return arguments;
 }
 
+const Arguments in_double{"--set", R"(/output/precision="double")"};
+
+/// Frames that can be read.
+int whole_frames(const std::string& path) {
+  const Hdf5File file(path, Hdf5File::Access::read);
+  int count = 0;
+  while (file.has("/particles/" + std::to_string(count))) {
+    if (file.read_bytes("/particles/" + std::to_string(count) + "/velocity").empty()) return -1;
+    ++count;
+  }
+  return count;
+}
+
 std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
@@ -53,21 +69,30 @@ TEST_CASE("a run whose files may not grow ends with 3, whole files, and goes on 
   const Folder folder;
   // Blocks of 512 or 1024 bytes, as the shell has it; fields.h5 ends up with 245 kB.
   const std::string blocks = GENERATE("110", "170");
-  const auto end = output_of_program(folder / "", run_to("out"), "ulimit -f " + blocks + " && ");
+  const auto end = output_of_program(folder / "", run_to("out", in_double), "ulimit -f " + blocks + " && ");
   CHECK(end.code == 3);
-  CHECK_THAT(end.err, Catch::Contains("cannot be written") && Catch::Contains("the last accepted state is in"));
+  CHECK_THAT(end.err, Catch::Contains("out/fields.h5: cannot be written: file too large") &&
+                          Catch::Contains("the last good checkpoint is out/checkpoint.h5, of t = 0.0") &&
+                          Catch::Contains("; --resume goes on from there"));
   CHECK(lines(end.err) <= 3);
+  CHECK(whole_frames(folder / "out/fields.h5") > 5);
+  CHECK(is_well_formed(text_of(folder / "out/fields.xdmf")));
   CHECK(ends_with_a_whole_row(folder / "out/history.csv"));
-  CHECK(output_of_program(folder / "", run_to("out", {"--resume"})).code == 0);
-  CHECK(output_of_program(folder / "", run_to("whole")).code == 0);
+  Arguments again = in_double;
+  again.emplace_back("--resume");
+  CHECK(output_of_program(folder / "", run_to("out", again)).code == 0);
+  CHECK(output_of_program(folder / "", run_to("whole", in_double)).code == 0);
   CHECK(differing_files(folder / "out", folder / "whole", output).empty());
 }
 
 TEST_CASE("a run on a full disk ends with 3, whole files, and goes on when there is room", "[error]") {
+  const auto [size, checkpoint, kept] = GENERATE(table<std::string, std::string, std::string>(
+      {{"150k", "1", "there is no checkpoint after t = 0 s: the run starts anew"},
+       {"250k", "0.01", "checkpoint.h5, of t = 0.01 s after 10 steps (the run came to t = 0.0"}}));
   const Folder folder;
   std::filesystem::create_directory(folder / "disk");
   // A disk of the program's own, where one may be mounted.
-  const std::string make = "mount -t tmpfs -o size=150k none " + (folder / "disk");
+  const std::string make = "mount -t tmpfs -o size=" + size + " none " + (folder / "disk");
   const std::string in_own_namespace = "unshare --mount --map-root-user sh -c '" + make + "' 2> /dev/null";
   if (std::system(in_own_namespace.c_str()) != 0) {
     WARN("no disk may be mounted here");
@@ -75,15 +100,20 @@ TEST_CASE("a run on a full disk ends with 3, whole files, and goes on when there
   }
   const std::string program = MINAMO_PROGRAM;
   std::string line;
-  for (const std::string& word : run_to(folder / "disk/out")) line += " \"" + word + "\"";
+  for (const std::string& word : run_to(folder / "disk/out", {"--set", "/output/checkpoint=" + checkpoint}))
+    line += " \"" + word + "\"";
   const std::string script = make + " || exit 9\n\"" + program + "\"" + line + " > \"" + (folder / "log") +
-                             "\" 2>&1; echo $? >> \"" + (folder / "log") + "\"\nmount -o remount,size=10M " +
-                             (folder / "disk") + "\n\"" + program + "\"" + line + " --resume; echo $? >> \"" +
-                             (folder / "log") + "\"\ncp -r " + (folder / "disk/out") + " " + (folder / "out") + "\n";
+                             "\" 2>&1; echo $? >> \"" + (folder / "log") + "\"\ncp \"" +
+                             (folder / "disk/out/fields.h5") + "\" \"" + (folder / "full.h5") +
+                             "\"\nmount -o remount,size=10M " + (folder / "disk") + "\n\"" + program + "\"" + line +
+                             " --resume; echo $? >> \"" + (folder / "log") + "\"\ncp -r " + (folder / "disk/out") +
+                             " " + (folder / "out") + "\n";
   std::ofstream(folder / "script") << script;
   REQUIRE(std::system(("unshare --mount --map-root-user sh " + (folder / "script")).c_str()) == 0);
-  CHECK_THAT(text_of(folder / "log"), Catch::Contains("cannot be written") && Catch::EndsWith("\n3\n0\n"));
-  CHECK(output_of_program(folder / "", run_to("whole")).code == 0);
+  CHECK_THAT(text_of(folder / "log"), Catch::Contains("cannot be written: no space left on device") &&
+                                          Catch::Contains(kept) && Catch::EndsWith("\n3\n0\n"));
+  CHECK(whole_frames(folder / "full.h5") > 2);
+  CHECK(output_of_program(folder / "", run_to("whole", {"--set", "/output/checkpoint=" + checkpoint})).code == 0);
   CHECK(differing_files(folder / "out", folder / "whole", output).empty());
 }
 

@@ -55,7 +55,8 @@ class SameBits(unittest.TestCase):
         self.compare(scene(discretization={"scheme": "equal_order"}, time={"end": 0.2, "cfl": 0.5}), 8, "cfl", 1)
 
     def test_pressure_of_a_frame(self):
-        out = run_program(self, scene(time={"end": 0.04, "step": 0.004}), 10, "frame")
+        described = scene(time={"end": 0.04, "step": 0.004}, output={"every": 0.04, "precision": "double"})
+        out = run_program(self, described, 10, "frame")
         sim = minamo.Simulation(scene(time={"end": 0.04, "step": 0.004}), threads=1)
         sim.run()
         frame = minamo.Run(out / "out").particles()

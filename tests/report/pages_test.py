@@ -241,7 +241,7 @@ class SideBySide(PageTest):
         speeds = []
         for folder in self.folders:
             with h5py.File(folder / "fields.h5") as file:
-                speeds += [np.linalg.norm(frame["velocity"][:], axis=1).max() for frame in file["particles"].values()]
+                speeds += [np.linalg.norm(frame["velocity"][:].astype(float), axis=1).max() for frame in file["particles"].values()]
         self.assertAlmostEqual(np.max(speeds), self.js("app.colourBar.field.most"), delta=1e-9)
 
     def test_what_differs_between_the_scenes_is_listed(self) -> None:

@@ -39,10 +39,10 @@ class InThePlane(PageTest):
         before = self.picture()
         with h5py.File(self.folder / "fields.h5") as file:
             frames = [file[f"particles/{k}"] for k in range(6)]
-            pressure = np.array([frame["pressure"][:] for frame in frames])
-            gradient = np.array([frame["velocity_gradient"][:] for frame in frames])
-            speed = np.linalg.norm([frame["velocity"][:] for frame in frames], axis=2)
-        expected = {"speed": speed, "pressure": pressure, "vorticity": gradient[..., 2] - gradient[..., 1],
+            pressure, gradient, velocity = (np.array([frame[name][:] for frame in frames], float)
+                                            for name in ("pressure", "velocity_gradient", "velocity"))
+        expected = {"speed": np.linalg.norm(velocity, axis=2), "pressure": pressure,
+                    "vorticity": gradient[..., 3] - gradient[..., 1],
                     "velocity gradient, norm": np.linalg.norm(gradient, axis=2)}
         names = self.js("[...document.getElementById('field').options].map((option) => option.value)")
         self.assertEqual({*expected, "velocity x", "velocity y", "divergence"}, set(names))

@@ -101,6 +101,67 @@ class Choice(unittest.TestCase):
         self.assertEqual((3, -(-rows // 3)), (packed["every"], packed["rows"]))
 
 
+class Columns(unittest.TestCase):
+    """What frames hold, in old files and new ones."""
+
+    FINE = ("/time/end=0.004", "/output/every=0.002")
+
+    def test_files_of_either_precision_have_the_same_columns(self) -> None:
+        single = Run(RESULTS.run("paper/dam_break_tpic", "single", *self.FINE))
+        double = Run(RESULTS.run("paper/dam_break_tpic", "double", *self.FINE, '/output/precision="double"'))
+        deflated = Run(RESULTS.run("paper/dam_break_tpic", "deflated", *self.FINE, "/output/compression=4"))
+        for name, values in double.columns(2).items():
+            of_single = single.columns(2)[name]
+            self.assertEqual(values.dtype, of_single.dtype)
+            self.assertEqual(values.shape, of_single.shape)
+            np.testing.assert_allclose(of_single, values, rtol=1e-7)  # half of 2^-23
+            np.testing.assert_array_equal(of_single, deflated.columns(2)[name])
+        self.assertEqual((2, 4), (single.columns(2)["velocity"].shape[1], single.columns(2)["velocity_gradient"].shape[1]))
+
+    def test_a_file_with_two_components_and_double_precision_is_read_as_ever(self) -> None:
+        new = Run(RESULTS.run("paper/dam_break_tpic", "old", *self.FINE, '/output/precision="double"'))
+        columns = [new.columns(frame) for frame in range(3)]
+        with h5py.File(new.folder / "fields.h5", "r+") as file:
+            for frame, held in enumerate(columns):
+                for name, values in held.items():
+                    del file[f"particles/{frame}/{name}"]
+                    file[f"particles/{frame}/{name}"] = values
+        old = Run(new.folder)
+        for name, values in old.columns(1).items():
+            np.testing.assert_array_equal(columns[1][name], values)
+
+    def test_a_field_that_was_left_out_is_named(self) -> None:
+        run = Run(RESULTS.run("paper/dam_break_tpic", "few", *self.FINE, '/output/fields=["pressure"]'))
+        self.assertEqual({"id", "position", "pressure"}, set(run.columns(0)))
+        with self.assertRaisesRegex(NoResults, 'few: fields.h5 has no velocity; expected: a run with "velocity" in'):
+            run.frame(0).velocity
+
+    def test_what_some_frames_have_is_not_offered(self) -> None:
+        folder = RESULTS.run("paper/dam_break_tpic", "changed", *self.FINE)
+        done = subprocess.run([RESULTS.program, "run", RESULTS.source / "scenes/paper/dam_break_tpic.json", "--out", folder,
+                               "--resume", "--quiet", "--set", "/time/end=0.008", "--set", "/output/every=0.002", "--set",
+                               '/output/fields="minimal"', "--set", '/output/precision="double"'], check=False)
+        self.assertEqual(0, done.returncode)
+        run = Run(folder)
+        self.assertEqual(5, len(run.times))
+        self.assertEqual({"id", "position", "velocity", "pressure"}, set(run.columns(0)))
+        self.assertEqual(set(run.columns(0)), set(run.columns(4)))
+        self.assertEqual({"speed", "velocity x", "velocity y", "pressure"},
+                         {quantity.name for quantity in Particles.read(run, 100).quantities})
+
+
+class Units(unittest.TestCase):
+    """reporting.histories."""
+
+    def test_a_plot_has_the_unit_that_the_run_gives_its_columns(self) -> None:
+        run = Run(RESULTS.run("mixer", "units", "/grid/cells=[20,20]", "/time/end=0.02", "/time/step=0.01"))
+        self.assertEqual(set(run.history), set(run.units))
+        units = {column: plot.unit for plot in plots([run]) for column in plot.columns}
+        self.assertEqual(("J/m", "N/m", "N", "rad", "J/m"),
+                         tuple(units[column] for column in ("kinetic_energy", "cross_force_x", "cross_torque", "cross_angle",
+                                                            "energy_balance")))
+
+
 class Openings(unittest.TestCase):
     """Particles that come and go."""
 
