@@ -19,9 +19,9 @@ using Bytes = std::vector<std::byte>;
 
 constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
-/// Half of the most entries of a node; 4 and 16 are the library's own for groups.
+/// Half of the most entries of a node. A small one is written sooner when one of its entries is new.
 constexpr std::size_t symbols_k = 4;
-constexpr std::size_t tree_k = 16;
+constexpr std::size_t tree_k = 8;
 constexpr std::size_t chunks_k = 4;
 
 struct Link {

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 void write_text(const fs::path& path, const std::string& text) {
   const fs::path unfinished = path.string() + ".unfinished";
-  std::ofstream file(unfinished, std::ios::binary);
   errno = 0;
+  std::ofstream file(unfinished, std::ios::binary);
   file << text;
   file.close();
   if (!file) {

@@ -36,8 +36,6 @@ Arguments run_to(const std::string& out, const Arguments& more = {}) {
   return arguments;
 }
 
-const Arguments in_double{"--set", R"(/output/precision="double")"};
-
 /// Frames that can be read.
 int whole_frames(const std::string& path) {
   const Hdf5File file(path, Hdf5File::Access::read);
@@ -67,21 +65,19 @@ bool ends_with_a_whole_row(const std::string& history) {
 
 TEST_CASE("a run whose files may not grow ends with 3, whole files, and goes on when they may", "[error]") {
   const Folder folder;
-  // Blocks of 512 or 1024 bytes, as the shell has it; fields.h5 ends up with 245 kB.
+  // Blocks of 512 or 1024 bytes, as the shell has it; fields.h5 ends up with 540 kB.
   const std::string blocks = GENERATE("110", "170");
-  const auto end = output_of_program(folder / "", run_to("out", in_double), "ulimit -f " + blocks + " && ");
+  const auto end = output_of_program(folder / "", run_to("out"), "ulimit -f " + blocks + " && ");
   CHECK(end.code == 3);
   CHECK_THAT(end.err, Catch::Contains("out/fields.h5: cannot be written: file too large") &&
                           Catch::Contains("the last good checkpoint is out/checkpoint.h5, of t = 0.0") &&
                           Catch::Contains("; --resume goes on from there"));
   CHECK(lines(end.err) <= 3);
-  CHECK(whole_frames(folder / "out/fields.h5") > 5);
+  CHECK(whole_frames(folder / "out/fields.h5") > 2);
   CHECK(is_well_formed(text_of(folder / "out/fields.xdmf")));
   CHECK(ends_with_a_whole_row(folder / "out/history.csv"));
-  Arguments again = in_double;
-  again.emplace_back("--resume");
-  CHECK(output_of_program(folder / "", run_to("out", again)).code == 0);
-  CHECK(output_of_program(folder / "", run_to("whole", in_double)).code == 0);
+  CHECK(output_of_program(folder / "", run_to("out", {"--resume"})).code == 0);
+  CHECK(output_of_program(folder / "", run_to("whole")).code == 0);
   CHECK(differing_files(folder / "out", folder / "whole", output).empty());
 }
 

@@ -54,9 +54,16 @@ std::vector<std::string> links_of_group(const std::string& path, const std::stri
 TEST_CASE("the HDF5 library reads what a growing file holds, however many frames there are", "[unit]") {
   const Folder folder;
   const std::string path = folder / "f.h5";
-  const int frames = GENERATE(0, 1, 8, 9, 300, 3000);  // 8 names in a node, 32 nodes in the next
+  const int frames = GENERATE(0, 1, 8, 9, 300, 3000);  // 8 names in a node, 16 nodes in the next
   GrowingHdf5 file = GrowingHdf5::create(path);
   for (int k = 0; k < frames; ++k) add_growing_frame(file, k);
+  if (frames > 0) {
+    std::vector<std::string> names;
+    for (int k = 0; k < frames; ++k) names.push_back(std::to_string(k));
+    std::sort(names.begin(), names.end());
+    CHECK(links_of_group(path, "/frames") == names);
+    CHECK(links_of_group(path, "/") == std::vector<std::string>{"frames", "others"});
+  }
   const Hdf5File read(path, Hdf5File::Access::read);
   bool is_right = true;
   for (int k = 0; k < frames; ++k) {
@@ -66,12 +73,6 @@ TEST_CASE("the HDF5 library reads what a growing file holds, however many frames
   }
   CHECK(is_right);
   CHECK_FALSE(read.has(growing_frame(frames)));
-  if (frames == 0) return;
-  std::vector<std::string> names;
-  for (int k = 0; k < frames; ++k) names.push_back(std::to_string(k));
-  std::sort(names.begin(), names.end());
-  CHECK(links_of_group(path, "/frames") == names);
-  CHECK(links_of_group(path, "/") == std::vector<std::string>{"frames", "others"});
 }
 
 TEST_CASE("a growing file has numbers of every kind, deflated or not", "[unit]") {
@@ -153,9 +154,11 @@ TEST_CASE("a frame takes as much of a growing file at its end as at its begin", 
     add_growing_frame(file, k);
     ends.push_back(file.committed().end);
   }
-  // Between powers of two the room for names does not move. A node of the tree more in the path is 544 bytes of 2100
-  // for both groups.
-  const auto mean = [&](std::size_t from, std::size_t to) { return (ends[to] - ends[from]) / (to - from); };
+  // Between powers of two the room for names does not move. The path through the tree has two nodes more at the end: of
+  // 288 bytes, for two groups, beside 2770.
+  const auto mean = [&](std::size_t from, std::size_t to) {
+    return static_cast<double>(ends[to] - ends[from]) / static_cast<double>(to - from);
+  };
   CHECK(mean(3000, 3900) < 1.7 * mean(100, 110));
 }
 

@@ -20,8 +20,8 @@ std::string growing_element(int k, std::size_t bytes) {
 /// The numbers of the elements of a document, in its order.
 std::vector<int> element_numbers(const std::string& text) {
   std::vector<int> found;
-  for (auto at = text.find("n=\""); at != std::string::npos; at = text.find("n=\"", at + 1))
-    found.push_back(std::atoi(text.c_str() + at + 3));
+  for (auto at = text.find("<e n="); at != std::string::npos; at = text.find("<e n=", at + 1))
+    found.push_back(std::atoi(text.c_str() + at + 6));
   return found;
 }
 
