@@ -240,6 +240,9 @@ class Figures(unittest.TestCase):
             done = figures("cut", "--no-movie")
             self.assertEqual((done.returncode, done.stdout), (2, ""), size)
             self.assertRegex(done.stderr, r"^cut: fields\.h5 cannot be read \(.*\)\n$")
+        self.assertEqual(run_scene("paper/dam_break_tpic", "few", SHORT | {"/output/fields": ["pressure"]}), 0)
+        self.expect_error("few: fields.h5 has no velocity, which \"speed\" is made of; expected: a run with \"velocity\" in "
+                          "/output/fields", "few", "--field", "speed")
         known = ("speed, pressure, velocity_x, velocity_y, vorticity, velocity_gradient_xx, velocity_gradient_xy, "
                  "velocity_gradient_yx, velocity_gradient_yy, id, mass, volume")
         self.expect_error(f"dam_break_tpic: unknown field \"presure\"; expected one of: {known}; nearest: pressure",

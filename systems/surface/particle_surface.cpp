@@ -20,6 +20,8 @@ constexpr double half_full = 0.5;
 /// Beyond these the surface of a pool would leave its place by half a particle to make up for thin sheets.
 constexpr double least_level = 0.3;
 constexpr double most_level = 0.6;
+/// Of the volume. [1]
+constexpr double volume_tolerance = 5e-3;
 
 /// (E111)  C/O, and how far a place is beyond walls and in bodies, in widths of the splines; negative inside of the
 /// room that is open.
@@ -239,7 +241,6 @@ double excess_of(const Outline<Dim>& outline, const Liquid<Dim>& liquid, double 
 /// \param wanted  of their volume [1]
 template <int Dim>
 double find_level(const Liquid<Dim>& liquid, double wanted) {
-  constexpr double tolerance = 2e-3;
   constexpr int most_tries = 6;
   struct Try {
     double level;
@@ -249,12 +250,12 @@ double find_level(const Liquid<Dim>& liquid, double wanted) {
     return Try{level, excess_of<Dim>(outline_at<Dim>(liquid, level, Points::linear), liquid, level) - wanted};
   };
   Try one = at(half_full);
-  if (std::abs(one.excess) <= tolerance) return one.level;
+  if (std::abs(one.excess) <= volume_tolerance) return one.level;
   // The volume falls where the level rises: by regula falsi between the two.
   Try other = at(one.excess > 0 ? most_level : least_level);
   for (int k = 0; k < most_tries && one.excess * other.excess < 0; ++k) {
     const Try next = at(one.level + (other.level - one.level) * one.excess / (one.excess - other.excess));
-    if (std::abs(next.excess) <= tolerance) return next.level;
+    if (std::abs(next.excess) <= volume_tolerance) return next.level;
     (next.excess * one.excess > 0 ? one : other) = next;
   }
   return std::abs(one.excess) < std::abs(other.excess) ? one.level : other.level;
@@ -271,7 +272,6 @@ struct Found {
 /// cent of the volume, nearly the same at all levels.
 template <int Dim>
 Found<Dim> find_surface(const Liquid<Dim>& liquid) {
-  constexpr double tolerance = 5e-3;
   constexpr int most_tries = 3;
   const auto with = [&](double wanted) {
     const double level = find_level<Dim>(liquid, wanted);
@@ -281,7 +281,7 @@ Found<Dim> find_surface(const Liquid<Dim>& liquid) {
   };
   Found<Dim> best = with(0);
   double wanted = -best.excess;
-  for (int k = 1; k < most_tries && std::abs(best.excess) > tolerance; ++k) {
+  for (int k = 1; k < most_tries && std::abs(best.excess) > volume_tolerance; ++k) {
     Found<Dim> next = with(wanted);
     wanted -= next.excess;
     if (std::abs(next.excess) < std::abs(best.excess)) best = std::move(next);

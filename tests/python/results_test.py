@@ -26,6 +26,30 @@ class Results(unittest.TestCase):
         self.assertEqual(len(history["time"]), 51)
         self.assertEqual(history["kinetic_energy"][-1], float(rows[-1]["kinetic_energy"]))
 
+    def test_every_column_of_the_history_has_a_unit(self):
+        self.assertEqual(list(self.run_.units), list(self.run_.history))
+        self.assertEqual([self.run_.units[name] for name in ("time", "kinetic_energy", "momentum_x", "step")],
+                         ["s", "J/m", "kg/s", "1"])
+
+    def test_vectors_have_three_components_in_the_plane(self):
+        frame = self.run_.particles()
+        count = len(frame["id"])
+        self.assertEqual([frame[name].shape for name in ("position", "velocity", "velocity_gradient")],
+                         [(count, 2), (count, 3), (count, 9)])
+        self.assertEqual({frame[name].dtype for name in ("position", "velocity", "pressure")}, {np.dtype("f4")})
+        self.assertFalse(frame["velocity"][:, 2].any())
+        self.assertFalse(frame["velocity_gradient"][:, [2, 5, 6, 7, 8]].any())
+        self.assertTrue(frame["velocity_gradient"][:, [0, 1, 3, 4]].any(axis=0).all())
+
+    def test_a_run_writes_the_fields_that_its_scene_names(self):
+        for fields, expected in (("minimal", {"id", "position", "velocity", "pressure"}),
+                                 (["mass"], {"id", "position", "mass"})):
+            few = minamo.run(scene(output={"every": 0.1, "fields": fields, "precision": "double", "compression": 6}),
+                             folder("few"), threads=1)
+            self.assertEqual(set(few.particles()), expected)
+            self.assertEqual(few.particles()["position"].dtype, np.dtype("f8"))
+            np.testing.assert_allclose(few.particles()["position"], self.run_.particles()["position"], rtol=1e-7)
+
     def test_empty_cells_are_not_numbers(self):
         swirling = minamo.run(scene(body_force=["-y", "x"]), folder("swirl"), threads=1, steps=1)
         self.assertTrue(math.isnan(swirling.history["potential_energy"][0]))

@@ -47,6 +47,12 @@ class Run:
         table = np.array([[float(cell) if cell else np.nan for cell in row] for row in rows]).reshape(-1, len(names))
         return dict(zip(names, table.T.copy()))
 
+    @property
+    def units(self) -> dict[str, str]:
+        """The units of the columns of the history, "1" without one; in the plane those per metre of depth."""
+        path = self.folder / "history.units.json"
+        return json.loads(path.read_text()) if path.is_file() else {}
+
     def _fields(self):
         import h5py
 
@@ -62,18 +68,19 @@ class Run:
     def times(self) -> np.ndarray:
         """The time of every frame, `(frames,)`. [s]"""
         with self._fields() as file:
-            frames = file["particles"]
+            frames = file.get("particles", {})
             return np.array([frames[str(k)].attrs["time"] for k in range(len(frames))])
 
     def __len__(self) -> int:
         """Frames."""
         with self._fields() as file:
-            return len(file["particles"])
+            return len(file.get("particles", {}))
 
     def particles(self, k: int = -1) -> dict[str, np.ndarray]:
-        """Frame `k`, counted from the end where it is negative: `position` `(particles, d)` [m], `velocity` [m/s],
-        `pressure` `(particles,)` [Pa], `id`, and what the scheme carries. Particles change places from frame to frame;
-        `id` tells who is who."""
+        """Frame `k`, counted from the end where it is negative, as fields.h5 has it: `position` `(particles, d)` [m],
+        `velocity` `(particles, 3)` [m/s], its third component zero in the plane, `pressure` `(particles,)` [Pa], `id`, and
+        what the scheme carries, in single precision unless the scene says otherwise; what `/output/fields` leaves out is
+        not there. Particles change places from frame to frame; `id` tells who is who."""
         return self._frame("particles", k)
 
     def bodies(self, k: int = -1) -> dict[str, dict[str, np.ndarray]]:
@@ -83,7 +90,7 @@ class Run:
 
     def _frame(self, of: str, k: int):
         with self._fields() as file:
-            count = len(file["particles"])
+            count = len(file.get("particles", {}))
             if not -count <= k < count:
                 raise IndexError(f"frame {k} of {count}")
             group = file.get(f"{of}/{k % count}")
