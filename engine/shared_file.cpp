@@ -1,5 +1,11 @@
 #include "engine/shared_file.hpp"
 
+#include "engine/file_error.hpp"
+
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+
 namespace minamo {
 
 namespace {
@@ -26,6 +32,15 @@ std::vector<Extent> broadcast(Communicator& ranks, const std::vector<Extent>& ex
   return from_bytes<Extent>(std::as_bytes(std::span(all)));
 }
 
+/// MPI does not say why a file cannot be written. \return an errno, or 0
+int error_of(const std::string& path, std::span<const Communicator::Piece> pieces) {
+  std::uintmax_t bytes = 0;
+  for (const Communicator::Piece& piece : pieces) bytes += piece.rows.size();
+  std::error_code unknown;
+  const auto space = std::filesystem::space(path, unknown);
+  return !unknown && space.available < bytes ? ENOSPC : 0;
+}
+
 /// Every rank writes its rows where they belong.
 /// \param extents  of the datasets; those of the first rank count, as does the path
 void write_pieces(Communicator& ranks, const std::string& path, const std::vector<Extent>& extents,
@@ -41,7 +56,7 @@ void write_pieces(Communicator& ranks, const std::string& path, const std::vecto
   }
   const bool is_written = ranks.write(of_first, pieces);
   do_on_all(&ranks, [&] {
-    if (!is_written) throw std::runtime_error(of_first + ": cannot be written");
+    if (!is_written) throw std::runtime_error(not_written(of_first, error_of(of_first, pieces)));
   });
 }
 
