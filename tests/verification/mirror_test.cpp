@@ -145,70 +145,15 @@ TEST_CASE("a jet into a symmetric box does not drift", "[verification]") {
   CHECK(of.velocity < 1e-9);
 }
 
-TEST_CASE("bodies are the same in the mirror", "[verification]") {
-  const std::string wall = GENERATE(R"("slip")", R"("no_slip")", R"({"slip_length": 0.01})", R"("separating")");
-  const std::string motion = GENERATE("null", R"json({"prescribed": {"velocity": ["0.5*cos(20*t)", "0.2"]}})json",
-                                      R"({"free": {"density": 700}})");
-  const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
-  CAPTURE(wall, motion, mirror.axis, mirror.mirrored);
-  Json scene = with(column(), {"/walls=\"slip\"", "/fluid/viscosity=1",
-                               R"json(/bodies=[{"name": "post", "shape": {"box": {"low": [-0.33, -0.2],
-                                                                               "high": [-0.21, 0.03]}}},
-                                              {"name": "other", "shape": {"ball": {"center": [0.02, 0.06],
-                                                                                  "radius": 0.09}}}])json"});
-  for (Json& body : scene["bodies"]) body["wall"] = Json::parse(wall);
-  if (motion != "null") scene["bodies"][1]["motion"] = Json::parse(motion);
-  check_image<2>(scene, mirror, 6, 1e-9);
-}
-
-TEST_CASE("bodies in space are the same in the mirror", "[verification]") {
-  const std::string wall = GENERATE(R"("slip")", R"({"slip_length": 0.01})");
-  const Mirror<3> mirror = GENERATE(in_z, exchanged_in_space);
-  CAPTURE(wall, mirror.axis, mirror.mirrored);
-  Json scene = Json::parse(R"json({
-    "dimension": 3, "grid": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.2], "cells": [6, 4, 4]},
-    "fluid": {"density": 1000, "viscosity": 2}, "body_force": [0, 0.5, -9.81],
-    "particles": [{"shape": {"box": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.1]}},
-                   "velocity": ["0.3*sin(7*y)", "0.4*x", "0.1*x"]}],
-    "bodies": [{"name": "ball", "shape": {"ball": {"center": [0.03, 0.05, -0.04], "radius": 0.12}}},
-               {"name": "post", "shape": {"box": {"low": [-0.3, -0.2, -0.2], "high": [-0.18, 0.03, 0.2]}}}],
-    "solver": {"scheme": "block", "tolerance": 1e-13}, "time": {"end": 1, "step": 0.01}})json");
-  for (Json& body : scene["bodies"]) body["wall"] = Json::parse(wall);
-  check_image<3>(scene, mirror, 4, 1e-9);
-}
-
 TEST_CASE("walls and liquids are the same in the mirror", "[verification]") {
   const std::string walls = GENERATE(R"("separating")", R"({"x": "periodic", "y": "slip"})",
                                      R"({"x": ["slip", {"slip_length": 0.02}], "y": "no_slip"})");
   const std::string fluid =
-      GENERATE(R"({"density": 1000, "viscosity": 1})", R"({"density": 1000, "viscosity": 300})",
-               R"({"density": 1000, "rheology": {"bingham": {"yield_stress": 50, "viscosity": 1}}})");
+      GENERATE(R"({"density": 1000, "viscosity": 0.1})", R"({"density": 1000, "viscosity": 300})");
   const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
-  if (walls.find("separating") != std::string::npos && fluid.find("\"viscosity\": 1}") == std::string::npos) return;
+  if (walls.find("separating") != std::string::npos && fluid.find("0.1") == std::string::npos) return;
   CAPTURE(walls, fluid, mirror.axis, mirror.mirrored);
   check_image<2>(with(column(), {"/walls=" + walls, "/fluid=" + fluid}), mirror, 5, 1e-9);
-}
-
-TEST_CASE("surface tension is the same in the mirror", "[verification]") {
-  const std::string degrees = GENERATE("60", "120");
-  const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
-  CAPTURE(degrees, mirror.axis, mirror.mirrored);
-  Json scene = with(column(), {"/walls=\"slip\"", R"json(/particles/0={"shape": {"ball": {"center": [0.03, -0.17],
-                                                                                   "radius": 0.2}}})json",
-                               R"(/surface_tension={"coefficient": 20, "contact_angle": )" + degrees + "}"});
-  check_image<2>(scene, mirror, 5, 1e-9);
-}
-
-TEST_CASE("surface tension in space is the same in the mirror", "[verification]") {
-  const Mirror<3> mirror = GENERATE(in_z, exchanged_in_space);
-  CAPTURE(mirror.axis, mirror.mirrored);
-  const Json scene = Json::parse(R"json({
-    "dimension": 3, "grid": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.2], "cells": [6, 4, 4]},
-    "fluid": {"density": 1000, "viscosity": 2},
-    "particles": [{"shape": {"ball": {"center": [0.03, 0.02, -0.11], "radius": 0.17}}}],
-    "surface_tension": {"coefficient": 20, "contact_angle": 60},
-    "solver": {"scheme": "block", "tolerance": 1e-13}, "time": {"end": 1, "step": 0.005}})json");
-  check_image<3>(scene, mirror, 4, 1e-9);
 }
 
 TEST_CASE("the lattice of a shape is the same in the mirror where its surface passes through particles",

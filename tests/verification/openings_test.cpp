@@ -352,11 +352,11 @@ TEST_CASE("liquid between openings at its level stays at rest", "[verification]"
 
 namespace {
 
-/// Plane Poiseuille flow at its speed, H = 1 m, between pressures of 2 Pa and 0 over 1 m: U = 2/(12 mu).
+/// Plane Poiseuille flow at its speed, 1 m high, between pressures of 2 Pa and 0 over 2 m: U = 1/(12 mu).
 Json pressure_channel(int dimension, double viscosity) {
   Json scene = Json::parse(R"json({
-    "grid": {"low": [0, 0], "high": [1, 1], "cells": [8, 8]}, "walls": {"x": "slip", "y": "no_slip"},
-    "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 1]}}, "velocity": ["y*(1 - y)/mu", 0]}],
+    "grid": {"low": [0, 0], "high": [2, 1], "cells": [20, 10]}, "walls": {"x": "slip", "y": "no_slip"},
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [2, 1]}}, "velocity": ["0.5*y*(1 - y)/mu", 0]}],
     "openings": [{"name": "in", "side": "x_low", "outflow": {"pressure": 2}},
                  {"name": "out", "side": "x_high", "outflow": {"pressure": 0}}],
     "time": {"end": 99, "step": 0.25}})json");
@@ -364,14 +364,13 @@ Json pressure_channel(int dimension, double viscosity) {
   scene["fluid"] = {{"density", 100}, {"viscosity", viscosity}};
   scene["constants"] = {{"mu", viscosity}};
   if (dimension == 2) return scene;
-  const Json depth = 0.5;
   scene["walls"]["z"] = "periodic";
   scene["grid"]["low"].push_back(0);
-  scene["grid"]["high"].push_back(depth);
-  scene["grid"]["cells"].push_back(4);
+  scene["grid"]["high"].push_back(0.5);
+  scene["grid"]["cells"].push_back(5);
   Json& region = scene["particles"][0];
   region["shape"]["box"]["low"].push_back(0);
-  region["shape"]["box"]["high"].push_back(depth);
+  region["shape"]["box"]["high"].push_back(0.5);
   region["velocity"].push_back(0);
   region["per_cell"] = 2;
   return scene;
@@ -382,24 +381,31 @@ double share_of_flow(const Json& scene, int steps) {
   SceneRun run(scene);
   run.step(steps);
   const double area = scene["dimension"] == 2 ? 1 : 0.5;
-  const double exact = 2 / (12 * scene["fluid"]["viscosity"].get<double>()) * area;
-  return measured(run.world(), "in_rate") / exact;
+  return measured(run.world(), "in_rate") * 12 * scene["fluid"]["viscosity"].get<double>() / area;
+}
+
+Json with_static_pressures(Json scene) {
+  for (Json& opening : scene["openings"]) opening["outflow"]["kind"] = "static";
+  return scene;
 }
 
 }  // namespace
 
 TEST_CASE("static pressures drive plane Poiseuille flow whatever its Reynolds number", "[verification]") {
-  // 0.1 and 17. Between reservoirs it is 0.9 and 0.6 of that, because the liquid has to be brought to its speed.
-  const double viscosity = GENERATE(12.9, 1.0);
+  // Re = 0.08 and 8. Between reservoirs the flow at Re = 8 is 0.85 of that after 10 s, 0.8 later, because the liquid
+  // has to be brought to its speed.
+  const double viscosity = GENERATE(10.0, 1.0);
   const Mirror<2> mirror =
       GENERATE(Mirror<2>{{0, 1}, {false, false}}, Mirror<2>{{0, 1}, {true, false}}, Mirror<2>{{1, 0}, {false, true}});
   CAPTURE(viscosity, mirror.axis, mirror.mirrored);
-  Json scene = pressure_channel(2, viscosity);
-  const double total = share_of_flow(mirrored<2>(scene, mirror), 40);
-  for (Json& opening : scene["openings"]) opening["outflow"]["kind"] = "static";
-  const double with_static = share_of_flow(mirrored<2>(scene, mirror), 40);
-  CHECK(with_static == Approx(1).epsilon(0.02));
-  CHECK(total < with_static);
+  const Json scene = mirrored<2>(pressure_channel(2, viscosity), mirror);
+  CHECK(share_of_flow(with_static_pressures(scene), 40) == Approx(1).epsilon(0.02));  // 0.990 measured, of both
+  CHECK(share_of_flow(scene, 40) < (viscosity > 1 ? 0.99 : 0.86));
+}
+
+TEST_CASE("static pressures drive plane Poiseuille flow in space", "[verification]") {
+  const Json scene = pressure_channel(3, 1);
+  CHECK(share_of_flow(with_static_pressures(scene), 20) == Approx(1).epsilon(0.02));
 }
 
 TEST_CASE("inflow without a way out is told", "[verification]") {
