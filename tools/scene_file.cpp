@@ -9,6 +9,7 @@
 #include "systems/setup/scene_systems.hpp"
 #include "systems/setup/schemes.hpp"
 #include "systems/setup/seed.hpp"
+#include "systems/setup/time_plan.hpp"
 #include "systems/surface_tension/capillary_step.hpp"
 #include "tools/available_memory.hpp"
 #include "tools/machine.hpp"
@@ -136,8 +137,9 @@ void seed(const Scene& scene, const std::string& file, World& world) {
 
 std::vector<std::string> warnings_of(const Scene& scene, World& world) {
   std::vector<std::string> warnings = scene.remarks;
-  for (const auto& more : {warnings_of_lengths(scene), warnings_of_speeds(scene, world),
-                           warnings_of_bodies(scene, world), warnings_of_surface_tension(scene)})
+  for (const auto& more :
+       {warnings_of_lengths(scene), warnings_of_speeds(scene, world), warnings_of_bodies(scene, world),
+        warnings_of_surface_tension(scene), warnings_of_gravity(scene)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   return warnings;
 }

@@ -21,6 +21,7 @@
 #include "systems/bodies/solid.hpp"
 #include "systems/bodies/solid_parts.hpp"
 #include "systems/bodies/wall_flux.hpp"
+#include "systems/bodies/watch_bodies.hpp"
 #include "systems/conforming/friction_choice.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
@@ -263,6 +264,7 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   recipe.add("accept", "count_stops", When::step);
   recipe.add("measure", "measure_bodies", When::step);
   recipe.add("measure", "measure_bodies_at_start", When::standing);
+  recipe.add("measure", "watch_bodies", When::step);
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
     BodySet<Dim> set = bodies.of<Dim>();
@@ -358,6 +360,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<CountClosedFaces>("count_closed_faces");
   registry.add<MeasureBodies>("measure_bodies");
   registry.add<MeasureBodiesAtStart>("measure_bodies_at_start");
+  registry.add<WatchBodies>("watch_bodies");
   registry.add(Part{"bodies", "solids in the liquid", read_bodies});
 }
 

@@ -160,9 +160,9 @@ std::string name_of_side(std::size_t side) {
 }
 
 template <int Dim>
-class Warnings {
+class BodyWarnings {
  public:
-  Warnings(const BodySet<Dim>& set, const BodyOutlines<Dim>& outlines, const Grid<Dim>& grid)
+  BodyWarnings(const BodySet<Dim>& set, const BodyOutlines<Dim>& outlines, const Grid<Dim>& grid)
       : set_(set), grid_(grid), around_(set, outlines, grid) {}
 
   std::vector<std::string> all() {
@@ -236,9 +236,9 @@ std::vector<std::string> warnings_of_bodies(const Scene& scene, World& world) {
   if (!scene.facts.find<BodiesOfScene>()) return {};
   return with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
-    auto found =
-        Warnings<Dim>(world.resource<BodySet<Dim>>(), world.resource<BodyOutlines<Dim>>(), world.resource<Grid<Dim>>())
-            .all();
+    auto found = BodyWarnings<Dim>(world.resource<BodySet<Dim>>(), world.resource<BodyOutlines<Dim>>(),
+                                   world.resource<Grid<Dim>>())
+                     .all();
     const auto of_cut = warning_of_cut(world.resource<LiquidCut>(), Dim);
     found.insert(found.end(), of_cut.begin(), of_cut.end());
     return found;

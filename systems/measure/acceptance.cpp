@@ -20,6 +20,11 @@ namespace {
 constexpr double largest_residual = 1e-6;
 /// Liquid that falls on liquid overlaps by a hundredth in a step, a collapse by its own volume.
 constexpr double largest_growth_of_overlap = 0.2;
+/// Where as much has been lost before, a step may add only what liquid that falls on liquid does.
+constexpr double overlap_to_hold = 0.2;
+constexpr double largest_growth_beyond = 0.02;
+/// What an eighth of a step does not mend, like liquid that goes through a thin wall, no shorter one does.
+constexpr int most_halvings_beyond = 3;
 /// Of a particle, in cells.
 constexpr double least_move_that_squeezes = 0.25;
 
@@ -64,12 +69,34 @@ bool are_finite(std::span<const double> numbers) {
   return reduce_rows(numbers.size(), std::int64_t{0}, room, std::bit_or<>()) >= 0;  // none has the sign bit
 }
 
-bool are_apart(double overlap, double before) { return overlap <= before + largest_growth_of_overlap; }
+/// The overlap after a step, and what it is judged by.
+struct OverlapOfStep {
+  double now = 0;
+  double before = 0;   ///< after the last step
+  double largest = 0;  ///< so far
+  int halvings = 0;    ///< of the step
+};
 
-void require_apart(double overlap, double before) {
-  if (are_apart(overlap, before)) return;
-  throw StepRejected(
-      fmt::format("advect: the overlap grows from {:.3g} to {:.3g} of the liquid in one step", before, overlap));
+OverlapOfStep overlap_of_step(const measure::Overlap& now, const StepTotals& so_far, const StepControl& control) {
+  return {now.value, so_far.overlap, so_far.overlap_max, control.halvings};
+}
+
+bool grows_at_once(const OverlapOfStep& overlap) { return overlap.now > overlap.before + largest_growth_of_overlap; }
+
+bool grows_beyond(const OverlapOfStep& overlap) {
+  return overlap.now > std::max(overlap_to_hold, overlap.largest) &&
+         overlap.now > overlap.before + largest_growth_beyond && overlap.halvings < most_halvings_beyond;
+}
+
+bool are_apart(const OverlapOfStep& overlap) { return !grows_at_once(overlap) && !grows_beyond(overlap); }
+
+void require_apart(const OverlapOfStep& overlap) {
+  if (grows_at_once(overlap))
+    throw StepRejected(fmt::format("advect: the overlap grows from {:.3g} to {:.3g} of the liquid in one step",
+                                   overlap.before, overlap.now));
+  if (grows_beyond(overlap))
+    throw StepRejected(fmt::format("advect: the overlap grows on from {:.3g} to {:.3g} of the liquid, more than {:.3g}",
+                                   overlap.before, overlap.now, overlap_to_hold));
 }
 
 /// From the middle of the step to its end, across periodic ends the shorter way. [m]
@@ -113,7 +140,8 @@ void AcceptStep<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest
                                  Read<node::Displacement<Dim>> u_i, Read<particle::Id> id,
                                  Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                                  Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                                 Read<measure::Overlap> overlap, Read<StepTotals> so_far) const {
+                                 Read<measure::Overlap> overlap, Read<StepTotals> so_far,
+                                 Read<StepControl> control) const {
   require_solved(*solve, *tolerance);
   // A node below the mass threshold moves particles by next to nothing, however far it moves itself.
   const double threshold = mass_threshold(m_i.span());
@@ -121,16 +149,19 @@ void AcceptStep<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest
     return m_i[i] <= threshold && u_i[i].allFinite() ? 0 : length<Dim>(u_i[i]);
   });
   require_finite<Dim>(id.span(), x_p.span(), v_p.span(), grad_v_p.span());
-  require_apart(overlap->value, so_far->overlap);
+  require_apart(overlap_of_step(*overlap, *so_far, *control));
 }
 
 template <int Dim>
-void AcceptStepOnFaces<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance, Read<SolveReport> solve,
-    Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f, Read<face::Displacement<Dim>> u_f,
-    Read<particle::Id> id, Read<particle::Position<Dim>> x_p, Read<particle::QuadraturePosition<Dim>> y_p,
-    Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-    Optional<Read<SiteExchange>> shared, Read<measure::Overlap> overlap, Read<StepTotals> so_far) const {
+void AcceptStepOnFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest,
+                                        Read<SolverTolerance> tolerance, Read<SolveReport> solve,
+                                        Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
+                                        Read<face::Displacement<Dim>> u_f, Read<particle::Id> id,
+                                        Read<particle::Position<Dim>> x_p, Read<particle::QuadraturePosition<Dim>> y_p,
+                                        Read<particle::Velocity<Dim>> v_p,
+                                        Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                                        Optional<Read<SiteExchange>> shared, Read<measure::Overlap> overlap,
+                                        Read<StepTotals> so_far, Read<StepControl> control) const {
   require_solved(*solve, *tolerance);
   const double threshold = mass_threshold(numbers_of(m_f.span()), Dim, of_ranks(shared));
   require_moderate<Dim>(*grid, largest->cells, site.span(), u_f.span(), [&](std::size_t i) {
@@ -139,9 +170,10 @@ void AcceptStepOnFaces<Dim>::operator()(
     return (m_f[i].array() > threshold).select(u_f[i], Vec<Dim>(Vec<Dim>::Zero())).norm();
   });
   require_finite<Dim>(id.span(), x_p.span(), v_p.span(), grad_v_p.span());
-  if (are_apart(overlap->value, so_far->overlap)) return;
+  const OverlapOfStep of_step = overlap_of_step(*overlap, *so_far, *control);
+  if (are_apart(of_step)) return;
   if (largest_half_move<Dim>(*grid, x_p.span(), y_p.span()) > 0.5 * least_move_that_squeezes * grid->spacing) {
-    require_apart(overlap->value, so_far->overlap);
+    require_apart(of_step);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "components/staggered.hpp"
 #include "components/step.hpp"
 #include "engine/linear_solver.hpp"
+#include "engine/step_control.hpp"
 #include "engine/system.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
@@ -25,7 +26,8 @@ struct StepTotals {
 
 /// (E58)  Accepts a step if |r| <= 1e-6 |b| (or the solver's tolerance, where that is more), all u_I are finite and
 /// those of nodes above the mass threshold (E7) at most LargestMove, what particles carry is finite, and the overlap
-/// (E32) has not grown by more than a fifth of the liquid.
+/// (E32) has not grown by more than a fifth of the liquid, nor, where it is more than a fifth and more than ever, by
+/// more than a fiftieth. An eighth of a step is not held to the latter: what that does not mend no shorter one does.
 template <int Dim>
 struct AcceptStep {
   static constexpr std::string_view doc = "(E58) reject the step if it cannot be trusted";
@@ -34,7 +36,7 @@ struct AcceptStep {
                   Read<SolveReport> solve, Read<node::Site<Dim>> site, Read<node::Mass> m_i,
                   Read<node::Displacement<Dim>> u_i, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                  Read<measure::Overlap> overlap, Read<StepTotals> so_far) const;
+                  Read<measure::Overlap> overlap, Read<StepTotals> so_far, Read<StepControl> control) const;
 };
 
 /// (E58) of the conforming discretization, whose overlap is that at y_p: what the second half of a step squeezes is
@@ -48,7 +50,7 @@ struct AcceptStepOnFaces {
                   Read<face::Displacement<Dim>> u_f, Read<particle::Id> id, Read<particle::Position<Dim>> x_p,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Velocity<Dim>> v_p,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<SiteExchange>> shared,
-                  Read<measure::Overlap> overlap, Read<StepTotals> so_far) const;
+                  Read<measure::Overlap> overlap, Read<StepTotals> so_far, Read<StepControl> control) const;
 };
 
 /// The start counts.

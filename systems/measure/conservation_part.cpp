@@ -4,8 +4,11 @@
 #include "systems/measure/volume.hpp"
 #include "systems/measure/watch_lid.hpp"
 #include "systems/measure/watch_move.hpp"
+#include "systems/measure/watch_volume.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
+
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 
@@ -26,6 +29,18 @@ void watch_lid(const Scene& scene, Recipe& recipe) {
   });
 }
 
+VolumeAdvice advice_for(const Scene& scene) {
+  VolumeAdvice advice;
+  auto& phrases = advice.phrases;
+  phrases.push_back(scene.time.step ? fmt::format(R"(a shorter step, "time": {{"step": {:.3g}}})", *scene.time.step / 2)
+                                    : fmt::format(R"(shorter steps, "time": {{"cfl": {:.3g}}})", scene.time.cfl / 2));
+  if (scene.schemes.at("volume") == "none") phrases.emplace_back(R"("volume": {"scheme": "projection"})");
+  if (scene.schemes.at("integrator") == "newmark") phrases.emplace_back(R"("integrator": {"scheme": "midpoint"})");
+  if (!is_conforming(scene)) phrases.emplace_back(R"("discretization": {"scheme": "conforming"})");
+  if (scene.facts.find<BodiesOfScene>()) phrases.emplace_back("walls of bodies thicker than a cell, or more cells");
+  return advice;
+}
+
 }  // namespace
 
 void add_conservation(SystemRegistry& registry) {
@@ -40,6 +55,7 @@ void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureOverlap>("measure_overlap");
   registry.add<WatchMove>("watch_move");
   registry.add<WatchLid>("watch_lid");
+  registry.add<WatchVolume>("watch_volume");
   registry.add(
       Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
              return [](const Scene& of, Recipe& recipe) {
@@ -54,6 +70,8 @@ void add_conservation(SystemRegistry& registry) {
                // Beside bodies it is measured in the slot of the solve, before velocities are extended to closed faces.
                if (!of.facts.find<BodiesOfScene>())
                  add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});
+               recipe.add("measure", "watch_volume");
+               recipe.constant(advice_for(of));
              };
            }});
 }

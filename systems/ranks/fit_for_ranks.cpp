@@ -17,7 +17,8 @@ const std::set<std::string, std::less<>> fit{
     // over all particles or faces
     "limit_particle_shift", "count_face_force_work", "accept_step_on_faces", "measure_energy", "measure_momentum",
     "measure_max_speed", "measure_error_velocity", "measure_error_pressure", "measure_face_divergence",
-    "measure_multiplier_overlap", "find_viscosity", "measure_probes_on_faces", "measure_probes_on_faces_at_start",
+    "measure_multiplier_overlap", "watch_volume", "find_viscosity", "measure_probes_on_faces",
+    "measure_probes_on_faces_at_start",
     // alike on all ranks
     "hold_ode", "integrate_ode", "begin_energy_given", "measure_energy_balance",
     // the first rank writes

@@ -7,6 +7,7 @@
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/bodies/motion.hpp"
 #include "systems/pipeline.hpp"
+#include "systems/setup/discretization.hpp"
 #include "systems/surface_tension/capillary_step.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -62,20 +63,50 @@ double step_of_bodies(const Scene& scene, World& world, double dt) {
                                                                           : dt;
 }
 
-}  // namespace
-
-double step_of_cfl(const Scene& scene, double largest_speed, double largest_force) {
-  const double dt = crossing_time(largest_speed, largest_force, scene.time.cfl * scene.grid.spacing);
-  return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every, capillary_step(scene).value_or(dt)});
-}
-
-double longest_step(const Scene& scene) {
-  if (scene.time.step) return *scene.time.step;
+/// |b| of the components that are constant. [m/s^2]
+double constant_force(const Scene& scene) {
   double squared = 0;
   for (const Expression& force : scene.facts.get<BodyForce>().of_place_and_time) {
     squared += force.is_constant() ? std::pow(force({}), 2) : 0;
   }
-  return step_of_cfl(scene, 0, std::sqrt(squared));
+  return std::sqrt(squared);
+}
+
+/// Longest step over sqrt(h/|b|), in which a particle that falls from rest crosses half a cell; 0: any.
+double share_of_fall(const Scene& scene) {
+  constexpr double newmark = 0.125;
+  constexpr double equal_order = 0.5;
+  if (scene.schemes.at("integrator") == "newmark") return newmark;
+  return is_conforming(scene) ? 0 : equal_order;
+}
+
+}  // namespace
+
+std::optional<double> gravity_step(const Scene& scene, double largest_force) {
+  const double share = share_of_fall(scene);
+  if (share == 0 || !(largest_force > 0)) return {};
+  return share * std::sqrt(scene.grid.spacing / largest_force);
+}
+
+std::vector<std::string> warnings_of_gravity(const Scene& scene) {
+  constexpr double much_longer = 2;  // what grows within some thousand steps
+  const auto longest = gravity_step(scene, constant_force(scene));
+  if (!longest || !scene.time.step || *scene.time.step <= much_longer * *longest) return {};
+  return {
+      fmt::format("a step of {:.3g} s is more than twice as long as the body force allows, {:.3g} s: waves grow in a "
+                  "liquid at rest",
+                  *scene.time.step, *longest)};
+}
+
+double step_of_cfl(const Scene& scene, double largest_speed, double largest_force) {
+  const double dt = crossing_time(largest_speed, largest_force, scene.time.cfl * scene.grid.spacing);
+  return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every, capillary_step(scene).value_or(dt),
+                   gravity_step(scene, largest_force).value_or(dt)});
+}
+
+double longest_step(const Scene& scene) {
+  if (scene.time.step) return *scene.time.step;
+  return step_of_cfl(scene, 0, constant_force(scene));
 }
 
 TimePlan make_time_plan(const Scene& scene) {

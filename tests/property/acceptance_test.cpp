@@ -106,6 +106,25 @@ TEST_CASE("on faces only a step that moves liquid is held to have squeezed it", 
   CHECK_THROWS_WITH(after("[8, 0]"), Catch::Contains("advect: the overlap grows from"));
 }
 
+TEST_CASE("where much is lost a step may add little, but a short one is taken whatever it adds", "[property]") {
+  SceneRun run(coarse_dam_break());
+  run.step(3);
+  World& world = run.world();
+  const auto grows = [&](double from, double to, int halvings) {
+    world.resource<StepTotals>().overlap = from;
+    world.resource<StepTotals>().overlap_max = from;
+    world.resource<measure::Overlap>().value = to;
+    world.resource<StepControl>().halvings = halvings;
+    accept(world);
+  };
+  CHECK_NOTHROW(grows(0.1, 0.15, 0));
+  CHECK_THROWS_WITH(grows(0.3, 0.35, 0), Catch::Contains("advect: the overlap grows on from 0.3 to 0.35"));
+  CHECK_THROWS_AS(grows(0.3, 0.35, 2), StepRejected);
+  CHECK_NOTHROW(grows(0.3, 0.31, 0));
+  CHECK_NOTHROW(grows(0.3, 0.35, 3));
+  CHECK_THROWS_AS(grows(0.3, 0.51, 3), StepRejected);
+}
+
 TEST_CASE("a run with larger CFL numbers may move farther in a step", "[property]") {
   const Scene scene = read(with(coarse_dam_break(), {R"(/time={"end": 1, "cfl": 8})"}));
   World world;

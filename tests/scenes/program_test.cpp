@@ -307,6 +307,33 @@ TEST_CASE("a run whose pressure turns over from step to step says so at its end"
   CHECK_FALSE(fall(R"({"scheme": "midpoint"})").first.contains("pressure_turns"));
 }
 
+TEST_CASE("equal order keeps a pool at rest with the steps that it chooses", "[scene]") {
+  const Folder folder;
+  std::ofstream(folder / "pool.json") << R"({"dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [20, 20]},
+    "discretization": {"scheme": "equal_order"}, "fluid": {"density": 1000, "viscosity": 1e-3},
+    "body_force": [0, -9.81], "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.5]}}}],
+    "time": {"end": 20}, "output": {"every": 20}})";
+  const ProgramEnd end = run_program({"run", folder / "pool.json", "--out", folder / "out", "--quiet"});
+  CHECK(end.code == 0);
+  CHECK(end.output.empty());
+  // With steps of sqrt(h/g) it was 0.4.
+  CHECK(json_of(folder / "out/summary.json")["conservation"]["overlap_max"] < 0.05);
+}
+
+TEST_CASE("a run that loses volume says so while it goes on, and what to change", "[scene]") {
+  const Folder folder;
+  std::ofstream(folder / "pool.json") << R"({"dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [20, 20]},
+    "discretization": {"scheme": "equal_order"}, "fluid": {"density": 1000, "viscosity": 1e-3}, "volume": {"scheme": "none"},
+    "body_force": [0, -9.81], "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.5]}}}],
+    "integrator": {"scheme": "newmark"}, "time": {"end": 20, "step": 0.07}, "output": {"every": 20}})";
+  const ProgramEnd end = run_program({"run", folder / "pool.json", "--out", folder / "out", "--quiet"});
+  CHECK(end.code == 0);
+  CHECK_THAT(end.output, Catch::Contains("no room for it") && Catch::Contains("lower than its volume allows") &&
+                             Catch::Contains("\"midpoint\"") && Catch::Contains("as long as the body force allows"));
+  const Json summary = json_of(folder / "out/summary.json");
+  CHECK(summary["warnings"].size() >= 3);
+}
+
 TEST_CASE("a run that keeps its energy says nothing of it", "[scene]") {
   const Folder folder;
   const ProgramEnd end = run_program(dam_break(folder / "out", {"--set", "/time/step=0.01", "--steps", "60"}));
