@@ -48,7 +48,7 @@ class Tetrahedra {
 
   static Vec<3> place(std::size_t corner) {
     return Vec<3>(static_cast<double>(corner & 1U), static_cast<double>(corner >> 1U & 1U),
-            static_cast<double>(corner >> 2U));
+                  static_cast<double>(corner >> 2U));
   }
 
   /// A triangle between points on lines from inside to outside. Which way it turns, the middles of the lines tell: the

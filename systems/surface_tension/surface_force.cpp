@@ -154,7 +154,7 @@ void MeasureSurfaceEnergy<Dim>::operator()(Read<SurfaceTension> tension, Read<Fr
   const double work = reduce_rows(
       F_f.size(), 0.0, [&](std::size_t i) { return F_f[i].dot(u_f[i]); }, std::plus<>());
   set_energy<Dim>(energy_of<Dim>(*tension, *surface) - 0.5 * work,
-             unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span()), *energy, *columns);
+                  unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span()), *energy, *columns);
 }
 
 template <int Dim>
@@ -163,7 +163,7 @@ void MeasureSurfaceEnergyAtStart<Dim>::operator()(Read<SurfaceTension> tension, 
                                                   Update<measure::Energy> energy,
                                                   Update<measure::Columns> columns) const {
   set_energy<Dim>(energy_of<Dim>(*tension, *surface), unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span()),
-             *energy, *columns);
+                  *energy, *columns);
 }
 
 template struct AddSurfaceTension<2>;
