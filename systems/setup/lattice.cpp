@@ -32,13 +32,19 @@ PlaceIn place_in(const ParticleScene& region, const Instant& start, const Vec<Di
   };
   const bool own = is_in(x);
   if (region.jitter) return own ? PlaceIn::inside : PlaceIn::outside;
-  // Along no side of what a user writes down: one of the two lies inside if the surface passes through x.
-  Vec<Dim> aside;
-  for (int d = 0; d < Dim; ++d) aside[d] = rounding * std::array{1.0, 0.7129, 0.3917}[static_cast<std::size_t>(d)];
-  const bool above = is_in(x + aside);
-  const bool below = is_in(x - aside);
-  if (own && above && below) return PlaceIn::inside;
-  return own || above || below ? PlaceIn::surface : PlaceIn::outside;
+  // A surface that passes through x has some of them inside, wherever it or its corner turns.
+  constexpr std::size_t corners = power(2, Dim);
+  std::size_t inside = 0;
+  for (std::size_t c = 0; c < corners; ++c) {
+    Vec<Dim> aside;
+    for (int d = 0; d < Dim; ++d) {
+      const double length = std::array{1.0, 0.7129, 0.3917}[static_cast<std::size_t>(d)];  // along no edge of a shape
+      aside[d] = (c >> static_cast<std::size_t>(d) & 1U) == 0 ? -rounding * length : rounding * length;
+    }
+    if (is_in(x + aside)) ++inside;
+  }
+  if (own && inside == corners) return PlaceIn::inside;
+  return own || inside > 0 ? PlaceIn::surface : PlaceIn::outside;
 }
 
 /// Keeps, of the points that are tried one after the other, those inside a region; the many at a time that threads

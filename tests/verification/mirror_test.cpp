@@ -66,11 +66,14 @@ void check_image(const Json& scene, const Mirror<Dim>& mirror, int steps, double
 }  // namespace
 
 TEST_CASE("every transfer scheme and integrator is the same in the mirror", "[verification]") {
-  const Json scene = any_method(column());
+  Json scene = any_method(column());
   const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
   const std::string discretization = GENERATE("conforming", "equal_order");
   CAPTURE(scene["transfer"], scene["integrator"], discretization, mirror.axis, mirror.mirrored);
-  check_image<2>(with(scene, {R"(/discretization={"scheme": ")" + discretization + "\"}"}), mirror, 5, 1e-11);
+  scene["discretization"] = {{"scheme", discretization}};
+  // In the middles of cells particles lie where dual cells meet, and rounding says to which they count (E53).
+  if (discretization == "equal_order") scene["particles"][0]["per_cell"] = 2;
+  check_image<2>(scene, mirror, 5, 1e-11);
 }
 
 TEST_CASE("every solver of the pressure is the same in the mirror", "[verification]") {
