@@ -72,10 +72,10 @@ double constant_force(const Scene& scene) {
   return std::sqrt(squared);
 }
 
-/// Longest step over sqrt(h/|b|), in which a particle that falls from rest crosses half a cell; 0: any.
+/// (E34)  Longest step over sqrt(h/|b|); 0: any.
 double share_of_fall(const Scene& scene) {
   constexpr double newmark = 0.125;
-  constexpr double equal_order = 0.5;
+  constexpr double equal_order = 1.0 / 3;
   if (scene.schemes.at("integrator") == "newmark") return newmark;
   return is_conforming(scene) ? 0 : equal_order;
 }
