@@ -53,7 +53,7 @@ class Run:
         folder = Path(FOLDER) / "run"
         file = folder.with_suffix(".json")  # beside the results, among which there is a scene.json
         file.write_text(json.dumps({**scene, "transfer": transfer}))
-        subprocess.run([PROGRAM, "run", file, "--out", folder, "--steps", str(steps), "--quiet"], check=True)
+        subprocess.run([PROGRAM, "run", file, "--out", folder, "--steps", str(steps), "--quiet", "--overwrite"], check=True)
         self.conserved = json.loads((folder / "summary.json").read_text())["conservation"]
         with open(folder / "history.csv", newline="") as history:
             self.kinetic_energy = [row["kinetic_energy"] for row in csv.DictReader(history)]

@@ -189,7 +189,8 @@ class Surfaces(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (2, message + "\n"))
         self.assertEqual(run_scene("dam_break_3d", "wet", coarse | {"/output/surface": "vtp"}), 0)
         done = figures("wet", "--render", "--times", "7")
-        self.assertEqual((done.returncode, done.stderr), (2, "wet: no frame at t = 7 s; expected one of: 0, 0.01\n"))
+        self.assertEqual((done.returncode, done.stderr), (2, "wet: t = 7 s is outside the run; expected: between 0 and 0.01 s; "
+                                                           "nearest: 0.01 s\n"))
         done = figures("wet", "--render", path=WORK)
         self.assertEqual((done.returncode, done.stderr),
                          (2, "blender, which renders, is not installed: sudo apt-get install blender\n"))

@@ -30,7 +30,7 @@ struct MeasureEnergy {
 };
 
 /// (E59)  E - W: the energy of the liquid and the work that it has done on bodies (E90), less what came in through
-/// openings (E100), the work of forces without a potential (E133), and what systems say that they have given. A column
+/// openings (E100), the work of forces without a potential (E128), and what systems say that they have given. A column
 /// of the history, energy_balance, where that is not K + U.
 template <int Dim>
 struct MeasureEnergyBalance {

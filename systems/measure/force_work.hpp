@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E133) Work of forces per unit mass that have no potential, whoever adds them: without it the energy of the liquid
+/// (E128) Work of forces per unit mass that have no potential, whoever adds them: without it the energy of the liquid
 /// would rise where they drive it. (E59)
 
 #include "components/energy_given.hpp"
@@ -19,7 +19,7 @@ namespace minamo {
 
 struct Scene;
 
-/// The systems that a scene needs for (E133).
+/// The systems that a scene needs for (E128).
 struct ForceWork {
   bool is_given = false;     ///< whether anything gives energy
   bool is_by_force = false;  ///< whether a force does
@@ -35,20 +35,20 @@ struct BeginEnergyGiven {
   void operator()(Write<EnergyGiven> given) const;
 };
 
-/// (E133)  W = sum_I m_I (b_I - b) . u_I, b the part with a potential: constant, or zero.
+/// (E128)  W = sum_I m_I (b_I - b) . u_I, b the part with a potential: constant, or zero.
 template <int Dim>
 struct CountForceWork {
-  static constexpr std::string_view doc = "(E133) work of forces without a potential";
+  static constexpr std::string_view doc = "(E128) work of forces without a potential";
   void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Optional<Read<NewmarkParameters>> newmark, Read<Rates> rates,
                   Optional<Read<ode::AtBalances>> ode, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
                   Read<node::Displacement<Dim>> u_i, Update<EnergyGiven> given) const;
 };
 
-/// (E133)  W = sum_f m_f (b_f - b) . u_f on faces that nothing holds; where no part of the body force has a potential
+/// (E128)  W = sum_f m_f (b_f - b) . u_f on faces that nothing holds; where no part of the body force has a potential
 /// also sum_p m_p b_p . (d_p + s_p) of what moves particles without a velocity, so that a shift that lifts is seen.
 template <int Dim>
 struct CountFaceForceWork {
-  static constexpr std::string_view doc = "(E133) work of forces without a potential";
+  static constexpr std::string_view doc = "(E128) work of forces without a potential";
   void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Optional<Read<NewmarkParameters>> newmark, Read<Rates> rates,
                   Optional<Read<ode::AtBalances>> ode, Optional<Read<particle::BodyForce<Dim>>> b_p,
                   Read<particle::Mass> m_p, Optional<Read<particle::Shift<Dim>>> d_p,

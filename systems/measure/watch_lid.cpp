@@ -60,8 +60,9 @@ Lids<Dim> lids_of(const Vec<Dim>& body_force, World& world) {
     const auto d = static_cast<Eigen::Index>(axis);
     const Lid<Dim> lid{axis, is_high, is_high ? grid.high[d] : grid.low[d]};
     const auto& x_p = world.column<particle::Position<Dim>>();
-    const bool is_meant =
+    const bool is_near =
         std::any_of(x_p.begin(), x_p.end(), [&](const Vec<Dim>& x) { return distance<Dim>(lid, x) < grid.spacing; });
+    const bool is_meant = largest_over_ranks(is_near ? 1 : 0) > 0;
     if (!is_meant && holds_liquid<Dim>(axis, is_high, world)) lids.lids.push_back(lid);
   }
   return lids;

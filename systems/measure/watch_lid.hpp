@@ -28,7 +28,7 @@ struct Lids {
 
 /// A side is above the liquid where its outward normal n has n . b < -|b| / 2, b a constant body force. It holds what
 /// touches it unless it is periodic, separating, or has an opening. Liquid within a cell of it at the start means it.
-/// \pre particles, walls and openings are seeded
+/// On several ranks all call it. \pre particles, walls and openings are seeded
 template <int Dim>
 Lids<Dim> lids_of(const Vec<Dim>& body_force, World& world);
 

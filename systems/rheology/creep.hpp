@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E134) How fast a liquid with a yield stress creeps below it, because its law is regularized.
+/// (E129) How fast a liquid with a yield stress creeps below it, because its law is regularized.
 
 #include "components/rheology.hpp"
 #include "engine/world.hpp"
@@ -26,7 +26,7 @@ struct Creep {
   std::optional<double> unyielding;
 };
 
-/// (E134)  Surface speed, the integral of the rate at which the law has the stress rho b y; of grains on a slope of
+/// (E129)  Surface speed, the integral of the rate at which the law has the stress rho b y; of grains on a slope of
 /// their friction at rest. A film that its force shears beyond the yield stress is taken as deep as rests.
 /// \return none of laws without yield stress, or without force
 std::optional<Creep> creep_of(const rheology::Law& law, const Film& film);

@@ -11,7 +11,7 @@ double read_index(Input& in) {
                              .at_most = 3,
                              .above = 0});
 }
-/// 1e5 keeps creep (E134) below a thousandth of the speed of the Newtonian liquid, and the solves are hardly dearer.
+/// 1e5 keeps creep (E129) below a thousandth of the speed of the Newtonian liquid, and the solves are hardly dearer.
 double read_regularization(Input& in) {
   return in.number("regularization",
                    {.doc = "a yield stress grows to its value within 1/regularization of the rate at which the viscous "

@@ -100,7 +100,8 @@ TEST_CASE("a command line that cannot be is refused", "[error]") {
        "the following argument was not expected: again.json\n  options are shown by --help\n"},
       {{"run", "scene.json", "--thread", "1"},
        "minamo run: unknown option\n  expected  one of [\"--help\", \"--out\", \"--threads\", \"--set\", \"--steps\", "
-       "\"--resume\", \"--profile\", \"--quiet\"]\n  got       \"--thread\" (string)\n  closest   \"--threads\"\n"},
+       "\"--resume\", \"--overwrite\", \"--profile\", \"--quiet\"]\n  got       \"--thread\" (string)\n  closest   "
+       "\"--threads\"\n"},
       {{"study", "--qiet"},
        "minamo study: unknown option\n  expected  one of [\"--help\", \"--out\", \"--threads\", \"--quiet\"]\n"
        "  got       \"--qiet\" (string)\n  closest   \"--quiet\"\n"},

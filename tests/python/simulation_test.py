@@ -170,7 +170,7 @@ class Errors(unittest.TestCase):
     def test_what_is_no_json(self):
         with self.assertRaisesRegex(TypeError, "a scene has numbers"):
             minamo.Simulation(scene(title=object()))
-        with self.assertRaisesRegex(minamo.InputError, "scene: line 1, column .*: invalid literal"):
+        with self.assertRaisesRegex(minamo.InputError, "scene: line 1, column .*: NaN, which is no number of JSON"):
             minamo.Simulation(scene(body_force=[0, float("nan")]))
 
     def test_threads(self):

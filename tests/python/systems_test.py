@@ -273,7 +273,8 @@ class Fails(unittest.TestCase):
 
 class Cost(unittest.TestCase):
     def test_an_empty_system_costs_less_than_20_us(self):
-        small = scene(grid={"low": [0, 0], "high": [1, 1], "cells": [3, 3]}, time={"end": 1e6, "step": 1e-3})
+        small = scene(grid={"low": [0, 0], "high": [1, 1], "cells": [3, 3]}, time={"end": 1e6, "step": 1e-3},
+                      output={"every": 1e3})
         small["body_force"] = [0, 0]
 
         @minamo.system(slot="g2p", reads=["particle.position", "particle.mass"], updates=["particle.velocity"])

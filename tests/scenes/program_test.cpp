@@ -339,5 +339,5 @@ TEST_CASE("a run that keeps its energy says nothing of it", "[scene]") {
   const ProgramEnd end = run_program(dam_break(folder / "out", {"--set", "/time/step=0.01", "--steps", "60"}));
   CHECK(end.code == 0);
   CHECK(json_of(folder / "out/summary.json")["conservation"]["energy_rise"] < 0.01);
-  CHECK(end.output.empty());
+  CHECK_THAT(end.output, !Catch::Contains("energy rose"));
 }

@@ -102,7 +102,7 @@ std::vector<std::string> shown_at_end(const std::string& printed, std::size_t co
         lines.emplace_back();
         at = 0;
       }
-      lines.back().resize(std::max(lines.back().size(), at + 1), ' ');
+      if (lines.back().size() <= at) lines.back().resize(at + 1, ' ');
       lines.back()[at++] = printed[k];
     }
   }
@@ -120,9 +120,9 @@ std::vector<std::string> progress_lines(const std::string& printed) {
 }
 
 std::size_t longest_line(const std::vector<std::string>& lines) {
-  std::size_t length = 0;
-  for (const std::string& line : lines) length = std::max(length, line.size());
-  return length;
+  const auto is_shorter = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
+  const auto longest = std::max_element(lines.begin(), lines.end(), is_shorter);
+  return longest == lines.end() ? 0 : longest->size();
 }
 
 /// Some seconds of a dam break.

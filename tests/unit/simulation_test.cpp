@@ -343,7 +343,7 @@ TEST_CASE("a scene without step or CFL number has one", "[unit]") {
 TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {
   const auto [v, b] = GENERATE(std::pair{"0", "-9.81"}, std::pair{"2", "-9.81"}, std::pair{"2", "0"});
   CAPTURE(v, b);
-  Json json = scene_run::with(scene_run::scene_of_file("paper/dam_break_tpic.json"),
+  Json json = scene_run::with(scene_run::scene_of_file("dam_break.json"),
                               {R"(/time={"end": 5, "cfl": 0.4})", std::string("/body_force=[0, ") + b + "]"});
   json["particles"][0]["velocity"] = {std::atof(v), 0};
   const Scene scene = scene_run::read(json);
@@ -358,7 +358,7 @@ TEST_CASE("the step from a CFL number solves (v + b dt) dt = cfl h", "[unit]") {
 TEST_CASE("the step from a CFL number sees the force where the particles are", "[unit]") {
   // None in the middle of the box, where there is no liquid.
   const Scene scene = scene_run::read(
-      scene_run::with(scene_run::scene_of_file("paper/dam_break_tpic.json"),
+      scene_run::with(scene_run::scene_of_file("dam_break.json"),
                       {R"(/time={"end": 5, "cfl": 0.4})", R"b(/body_force=["100*(x - 0.292)", "100*(y - 0.292)"])b"}));
   World world;
   world.resize<Particles>(2);
@@ -367,6 +367,23 @@ TEST_CASE("the step from a CFL number sees the force where the particles are", "
   world.column<particle::Position<2>>()[1] = {0.292, 0.092};
   const double dt = make_time_plan(scene).choose_step(world);
   CHECK(20 * dt * dt == Approx(0.4 * 0.0146).epsilon(4e-15));
+}
+
+TEST_CASE("steps from a CFL number are short for the body force where waves would grow", "[unit]") {
+  Json json = scene_run::with(scene_run::scene_of_file("dam_break.json"), {R"(/time={"end": 5})"});
+  World world;
+  world.resize<Particles>(1);
+  world.column<particle::Velocity<2>>()[0] = {0, 0};
+  world.column<particle::Position<2>>()[0] = {0.1, 0.1};
+  const auto of_fall = [&](const std::vector<std::string>& method) {
+    const Scene scene = scene_run::read(scene_run::with(json, method));
+    return make_time_plan(scene).choose_step(world) / std::sqrt(0.0146 / 9.81);
+  };
+  CHECK(of_fall({}) == Approx(1).epsilon(1e-14));
+  CHECK(of_fall({R"(/integrator={"scheme": "newmark"})"}) == Approx(1.0 / 8).epsilon(1e-14));
+  const std::string on_nodes = R"(/discretization={"scheme": "equal_order"})";
+  CHECK(of_fall({on_nodes, R"(/integrator={"scheme": "midpoint"})"}) == Approx(1.0 / 3).epsilon(1e-14));
+  CHECK(of_fall({on_nodes, R"(/integrator={"scheme": "newmark"})"}) == Approx(1.0 / 8).epsilon(1e-14));
 }
 
 TEST_CASE("no step is chosen from a force that is not finite", "[unit]") {

@@ -102,7 +102,7 @@ TEST_CASE("a drop that steps beyond the capillary limit make unstable is told", 
   Json scene = drop<2>(24, 0.25, 0.5, 90);
   scene["fluid"]["viscosity"] = 0;
   scene["time"]["step"] = 12 * scene["time"]["step"].get<double>();
-  CHECK(rise_after(scene, 60) > told);
+  CHECK(rise_after(scene, 5) > told);  // a sixth is taken back: a node moves by more than ten cells
 }
 
 TEMPLATE_TEST_CASE_SIG("forces in time and space give the energy that they bring, and no more", "[verification]",
