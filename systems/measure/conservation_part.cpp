@@ -1,3 +1,4 @@
+#include "engine/communicator.hpp"
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/measure/conservation.hpp"
 #include "systems/measure/force_work.hpp"
@@ -16,11 +17,11 @@ namespace minamo {
 
 namespace {
 
-/// A lid is above: where there is a weight.
+/// A lid is above: where there is a weight. Not on several ranks, each of which sees its own liquid alone.
 void watch_lid(const Scene& scene, Recipe& recipe) {
   const auto& force = scene.facts.get<BodyForce>().of_place_and_time;
   const bool is_constant = std::all_of(force.begin(), force.end(), [](const auto& b) { return b.is_constant(); });
-  if (!is_constant || scene.facts.get<BodyForce>().is_zero()) return;
+  if (!is_constant || scene.facts.get<BodyForce>().is_zero() || all_ranks() != nullptr) return;
   recipe.add("boundaries", "watch_lid", When::step);
   recipe.seed([force](const Scene& of, World& world, SeedProblems&) {
     with_dimension(of.dimension, [&](auto dim) {

@@ -60,9 +60,8 @@ Lids<Dim> lids_of(const Vec<Dim>& body_force, World& world) {
     const auto d = static_cast<Eigen::Index>(axis);
     const Lid<Dim> lid{axis, is_high, is_high ? grid.high[d] : grid.low[d]};
     const auto& x_p = world.column<particle::Position<Dim>>();
-    const bool is_near =
+    const bool is_meant =
         std::any_of(x_p.begin(), x_p.end(), [&](const Vec<Dim>& x) { return distance<Dim>(lid, x) < grid.spacing; });
-    const bool is_meant = largest_over_ranks(is_near ? 1 : 0) > 0;
     if (!is_meant && holds_liquid<Dim>(axis, is_high, world)) lids.lids.push_back(lid);
   }
   return lids;
@@ -71,14 +70,11 @@ Lids<Dim> lids_of(const Vec<Dim>& body_force, World& world) {
 template <int Dim>
 void WatchLid<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Lids<Dim>> lids,
                                Optional<Read<OccupiedCells<Dim>>> dual_cells, Optional<Read<GridCells<Dim>>> cells,
-                               Read<particle::Position<Dim>> x_p, Optional<Read<Ranks>> ranks,
-                               Update<Warnings> warnings) const {
+                               Read<particle::Position<Dim>> x_p, Update<Warnings> warnings) const {
   if (warnings->has(kind)) return;
   const OccupiedCells<Dim>& occupied = cells ? static_cast<const OccupiedCells<Dim>&>(*cells) : *dual_cells;
   for (const Lid<Dim>& lid : lids->lids) {
-    bool is_touched = touches<Dim>(lid, *grid, occupied, x_p.span());
-    if (ranks) is_touched = (*ranks)->largest(is_touched ? 1 : 0) > 0;
-    if (!is_touched) continue;
+    if (!touches<Dim>(lid, *grid, occupied, x_p.span())) continue;
     warnings->add(kind,
                   fmt::format("liquid touches the lid, the {} side of {}, at t = {:.6g} s: the box is closed, and "
                               "its walls hold what touches them; for an open tank make this side "

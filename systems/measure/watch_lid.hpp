@@ -6,7 +6,6 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "engine/clock.hpp"
-#include "engine/communicator.hpp"
 #include "engine/system.hpp"
 #include "engine/warnings.hpp"
 
@@ -28,7 +27,7 @@ struct Lids {
 
 /// A side is above the liquid where its outward normal n has n . b < -|b| / 2, b a constant body force. It holds what
 /// touches it unless it is periodic, separating, or has an opening. Liquid within a cell of it at the start means it.
-/// On several ranks all call it. \pre particles, walls and openings are seeded
+/// \pre particles, walls and openings are seeded
 template <int Dim>
 Lids<Dim> lids_of(const Vec<Dim>& body_force, World& world);
 
@@ -38,7 +37,7 @@ struct WatchLid {
   static constexpr std::string_view doc = "warn when liquid touches the lid of a tank for the first time";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Lids<Dim>> lids,
                   Optional<Read<OccupiedCells<Dim>>> dual_cells, Optional<Read<GridCells<Dim>>> cells,
-                  Read<particle::Position<Dim>> x_p, Optional<Read<Ranks>> ranks, Update<Warnings> warnings) const;
+                  Read<particle::Position<Dim>> x_p, Update<Warnings> warnings) const;
 };
 
 }  // namespace minamo

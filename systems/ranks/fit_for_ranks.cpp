@@ -31,8 +31,8 @@ const std::set<std::string, std::less<>> fit{
     "find_mobility", "find_mobility_mixed", "shear_particles", "find_cell_viscosity_by_particles",
     "find_cell_viscosity_of_fluids", "keep_balance_velocity", "keep_pressure", "assemble_multipliers", "face_source",
     "damp_face_divergence", "face_volume_source", "project_faces", "correct_faces_midpoint", "correct_faces_newmark",
-    "watch_turns_of_faces", "watch_move", "watch_lid", "correct_faces_backward_euler", "g2p_faces_pic",
-    "g2p_faces_flip", "g2p_faces_tpic", "g2p_faces_tpic2", "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm",
+    "watch_turns_of_faces", "watch_move", "correct_faces_backward_euler", "g2p_faces_pic", "g2p_faces_flip",
+    "g2p_faces_tpic", "g2p_faces_tpic2", "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm",
     "g2p_face_acceleration_pic", "g2p_face_acceleration_tpic", "g2p_face_acceleration_apic", "limit_gradient",
     "carry_gradient_by_faces", "g2p_face_force_gradient", "advect_by_faces", "stir_particles", "gather_face_shift",
     "apply_particle_shift", "soak_velocity", "soak_gradient", "note_step"};
