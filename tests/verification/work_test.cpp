@@ -49,9 +49,9 @@ Json half_full_box() {
 /// A drop with sigma = rho = 1, whole or cut off by the floor, in a box of 1 m.
 template <int Dim>
 Json drop(int cells, double radius, double height, double angle) {
-  Json scene =
-      Json::parse(R"({"walls": "slip", "fluid": {"density": 1, "viscosity": 0.02}, "transfer": {"scheme": "tpic"},
-    "surface_tension": {"coefficient": 1}, "time": {"end": 1, "cfl": 0.5}})");
+  Json scene = Json::parse(R"({"walls": "slip", "fluid": {"density": 1, "viscosity": 0.02},
+    "transfer": {"scheme": "tpic"}, "surface_tension": {"coefficient": 1}, "time": {"end": 10}, "particles": [
+    {"arrangement": "cut", "per_cell": 3, "shape": {"intersection": [{"ball": {}}, {"box": {}}]}}]})");
   std::vector<double> centre(Dim, 0.5);
   centre[Dim - 1] = height;
   scene["dimension"] = Dim;
@@ -59,14 +59,13 @@ Json drop(int cells, double radius, double height, double angle) {
                    {"high", std::vector<double>(Dim, 1)},
                    {"cells", std::vector<int>(Dim, cells)}};
   scene["surface_tension"]["contact_angle"] = angle;
-  scene["particles"] = {
-      {{"arrangement", "cut"},
-       {"per_cell", 3},
-       {"shape",
-        {{"intersection", {{{"ball", {{"center", centre}, {"radius", radius}}}}, {{"box", scene["grid"]}}}}}}}};
-  scene["particles"][0]["shape"]["intersection"][1]["box"].erase("cells");
+  Json& parts = scene["particles"][0]["shape"]["intersection"];
+  parts[0]["ball"]["center"] = centre;
+  parts[0]["ball"]["radius"] = radius;
+  parts[1]["box"]["low"] = scene["grid"]["low"];
+  parts[1]["box"]["high"] = scene["grid"]["high"];
   const double h = 1.0 / cells;
-  scene["time"] = {{"end", 10}, {"step", 0.5 * std::sqrt(h * h * h / 6.3)}};
+  scene["time"]["step"] = 0.5 * std::sqrt(h * h * h / 6.3);
   return scene;
 }
 
