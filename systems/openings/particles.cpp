@@ -98,6 +98,28 @@ class Columns {
     }
     return true;
   }
+  /// How a value of the columns at rest changes along the side at one of them: from those beside it that are on the
+  /// side, zero along an axis without any. [unit/m]
+  Vec<Dim> slope(std::span<const double> values, std::size_t k) const {
+    Vec<Dim> slope = Vec<Dim>::Zero();
+    std::size_t stride = 1;
+    for (std::size_t e = 0; e < Dim; stride *= count_[e++]) {
+      if (e == axis_) continue;
+      const std::size_t own = k / stride % count_[e];
+      std::size_t low = own > first_on_side(e) ? own - 1 : own;
+      std::size_t high = own + 1 < count_[e] - first_on_side(e) ? own + 1 : own;
+      double distance = static_cast<double>(high - low) * spacing_;
+      if (grid_.periodic[e]) {
+        low = (own + count_[e] - 1) % count_[e];
+        high = (own + 1) % count_[e];
+        distance = 2 * spacing_;
+      }
+      if (distance == 0) continue;
+      const std::size_t base = k - own * stride;
+      slope[static_cast<Eigen::Index>(e)] = (values[base + high * stride] - values[base + low * stride]) / distance;
+    }
+    return slope;
+  }
   /// Takes whole spacings from the drift, so that columns change their numbers: it is at most half of one.
   void renumber(Vec<Dim>& drift, std::span<double> values) const {
     for (std::size_t e = 0; e < Dim; ++e) {
@@ -113,6 +135,8 @@ class Columns {
     const auto d = static_cast<Eigen::Index>(e);
     return grid_.low[d] + spacing_ * (static_cast<double>(number) + (grid_.periodic[e] ? 0.5 : -0.5)) + drift[d];
   }
+  /// Number of the first column along an axis that is on the side while the columns do not drift.
+  std::size_t first_on_side(std::size_t e) const { return grid_.periodic[e] ? 0 : 1; }
   /// Column k gets the value of column k + by along an axis.
   void shift(std::size_t e, std::int64_t by, std::span<double> values) const {
     const std::vector<double> old(values.begin(), values.end());
@@ -216,6 +240,7 @@ class Emission {
         Arrival<Dim> arrival{o, x, a, {Vec<Dim>::Zero(), Mat<Dim>::Zero()}};
         arrival.x[axis] += side.inward() * depth;
         arrival.velocity.value[axis] = side.inward() * speed[k];
+        arrival.velocity.gradient.row(axis) = side.inward() * columns.slope(speed, k).transpose();
         arrivals_.push_back(arrival);
       }
     }

@@ -408,6 +408,24 @@ TEST_CASE("static pressures drive plane Poiseuille flow in space", "[verificatio
   CHECK(share_of_flow(with_static_pressures(scene), 20) == Approx(1).epsilon(0.02));
 }
 
+TEMPLATE_TEST_CASE_SIG("what comes in under a pressure brings the shear of the flow", "[verification]",
+                       ((int Dim), Dim), 2, 3) {
+  SceneRun run(with_static_pressures(pressure_channel(Dim, 1)));
+  double largest = 0;
+  for (int step = 0; step < 12; ++step) {
+    run.step();
+    for (const Mat<Dim>& gradient : run.world().resource<opening::Arrivals<Dim>>().velocity_gradient) {
+      largest = std::max(largest, std::abs(gradient(0, 1)));
+      Mat<Dim> others = gradient;
+      others(0, 1) = 0;
+      CHECK(others.cwiseAbs().maxCoeff() < 1e-3);
+    }
+  }
+  // 0.5/s at the walls. The columns nearest to them, 3 or 2 in a cell of 0.1 m, are one or one and a half spacings away
+  // from the point where their difference is the profile's slope.
+  CHECK(largest == Approx(Dim == 2 ? 0.5 - 0.1 / 3 : 0.45).epsilon(0.05));
+}
+
 TEST_CASE("inflow without a way out is told", "[verification]") {
   Json scene = stream<2>(Vec<2>(1, 0), 0.01, 2);
   scene["openings"].erase(1);
