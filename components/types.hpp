@@ -2,6 +2,8 @@
 /// \file
 /// Small fixed-size vectors and matrices, and powers known at compile time.
 
+#include "engine/world.hpp"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -55,5 +57,14 @@ inline constexpr std::size_t stencil_size = power(5, Dim);
 /// Components of an angular momentum: 1 in the plane, 3 in space.
 template <int Dim>
 inline constexpr int rotations = Dim == 2 ? 1 : 3;
+
+// Columns of these are compiled once, in types.cpp.
+extern template class ColumnStorage<Vec<1>>;
+extern template class ColumnStorage<Vec<2>>;
+extern template class ColumnStorage<Vec<3>>;
+extern template class ColumnStorage<Mat<2>>;
+extern template class ColumnStorage<Mat<3>>;
+extern template class ColumnStorage<Index<2>>;
+extern template class ColumnStorage<Index<3>>;
 
 }  // namespace minamo

@@ -60,15 +60,8 @@ T zero() {
 }
 
 namespace detail {
+/// 0, 1, 2, ...
 std::size_t next_component_id();
-}
-
-/// A small number per component type, the same for the life of the program. Out of line: systems of the largest parts
-/// take a fifth less time to compile.
-template <Described C>
-[[gnu::noinline]] std::size_t component_id() {
-  static const std::size_t id = detail::next_component_id();
-  return id;
-}
+}  // namespace detail
 
 }  // namespace minamo

@@ -85,16 +85,19 @@ class SystemRegistry {
 
   template <class Kernel>
   static constexpr Entry::Kernel erased() {
-    constexpr bool bare = std::is_empty_v<Kernel> && !std::is_constructible_v<Kernel, Input&>;
-    return {&detail::Declared<Kernel>::erased, bare ? nullptr : &make_kernel<Kernel>};
+    if constexpr (std::is_empty_v<Kernel> && !std::is_constructible_v<Kernel, Input&>) {
+      return {&detail::Declared<Kernel>::erased, nullptr};
+    } else {
+      return {&detail::Declared<Kernel>::erased, &make_kernel<Kernel>};
+    }
   }
   template <class Kernel>
   static std::shared_ptr<const void> make_kernel(Input* options) {
     if constexpr (std::is_constructible_v<Kernel, Input&>) {
-      if (options) return std::make_shared<const Kernel>(*options);
+      if (options) return detail::owned(new Kernel(*options));
     }
     (void)options;
-    return std::make_shared<const Kernel>();
+    return detail::owned(new Kernel());
   }
   void insert(std::string_view name, std::string_view doc, const Entry::Kernel& plane, const Entry::Kernel& space);
 

@@ -6,6 +6,17 @@ namespace {
 
 using Kernel = std::shared_ptr<const void>;
 
+/// What is optional is not created for the sake of a reader.
+void create(std::span<const Access> accesses, World& world) {
+  for (const Access& access : accesses) {
+    if (access.mode == Mode::resize) {
+      world.add_table(access.table);
+    } else if (!access.optional) {
+      world.stored(*access.type);
+    }
+  }
+}
+
 std::function<void(World&)> run_without(const Absent& absent, const Erased& erased, const Kernel& kernel) {
   return [run = erased.run, kernel, absent](World& world) { run(kernel.get(), world, absent); };
 }
@@ -15,9 +26,7 @@ std::function<void(World&)> run_without(const Absent& absent, const Erased& eras
 System make_system(std::string name, const Erased& erased, Kernel kernel) {
   System system{std::move(name),
                 {erased.access.begin(), erased.access.end()},
-                [create = erased.create](World& world) {
-                  for (const auto create_one : create) create_one(world);
-                },
+                [access = erased.access](World& world) { create(access, world); },
                 run_without({}, erased, kernel)};
   system.without = [erased, kernel = std::move(kernel), rest = system](const Absent& absent) {
     System less = rest;

@@ -34,6 +34,7 @@ struct Access {
   std::string_view table;      ///< whose rows it has or, as a resource, belongs to; empty for other resources
   const ComponentInfo* info;   ///< null for Mode::resize
   bool optional = false;       ///< a read of what need not be there
+  const detail::ComponentType* type = nullptr;  ///< from which a world makes it; null for Mode::resize
 };
 
 /// Names of optional components that no system of a list writes.
@@ -44,11 +45,11 @@ namespace detail {
 template <Described C>
 constexpr Access access_to(Mode mode) {
   if constexpr (ColumnComponent<C>) {
-    return {mode, C::info.name, C::table::name, &C::info};
+    return {mode, C::info.name, C::table::name, &C::info, false, &component_type<C>};
   } else if constexpr (requires { typename C::rows_of; }) {
-    return {mode, C::info.name, C::rows_of::name, &C::info};
+    return {mode, C::info.name, C::rows_of::name, &C::info, false, &component_type<C>};
   } else {
-    return {mode, C::info.name, {}, &C::info};
+    return {mode, C::info.name, {}, &C::info, false, &component_type<C>};
   }
 }
 
@@ -140,6 +141,13 @@ class Optional<Read<C>> {
   std::optional<Read<C>> view_;
 };
 
+namespace detail {
+template <class Arg>
+inline constexpr bool is_optional = false;
+template <class Reader>
+inline constexpr bool is_optional<Optional<Reader>> = true;
+}  // namespace detail
+
 /// The right to change the rows of a table.
 /// Views of its columns follow; spans taken from them before do not.
 template <class Table>
@@ -176,24 +184,24 @@ namespace detail {
 
 template <class Arg>
 Arg view(World& world, const Absent& absent) {
-  if constexpr (std::is_constructible_v<Arg, World&, const Absent&>) {
+  if constexpr (is_optional<Arg>) {
     return Arg(world, absent);
   } else {
     return Arg(world);
   }
 }
 
-template <class Arg>
-void create(World& world) {
-  if constexpr (!std::is_constructible_v<Arg, World&, const Absent&>) (void)Arg(world);
-}
-
-/// A system without its types: all that is compiled for each is these constants, `run` and the creators.
+/// A system without its types: all that is compiled for each is its declaration and `run`.
 struct Erased {
   std::span<const Access> access;
-  std::span<void (*const)(World&)> create;  ///< by access
   void (*run)(const void* kernel, World& world, const Absent& absent);
 };
+/// \param kernel  made with new; a deleter of one type for all is compiled once
+template <class Kernel>
+std::shared_ptr<const void> owned(const Kernel* kernel) {
+  return {static_cast<const void*>(kernel), +[](const void* one) { delete static_cast<const Kernel*>(one); }};
+}
+
 /// \param kernel  may be null if it has no members
 System make_system(std::string name, const Erased& erased, std::shared_ptr<const void> kernel);
 
@@ -209,8 +217,7 @@ struct Declared<Kernel, void (Kernel::*)(Args...) const> {
     }
   }
   static constexpr std::array<Access, sizeof...(Args)> access{Args::access()...};
-  static constexpr std::array<void (*)(World&), sizeof...(Args)> creators{&create<Args>...};
-  static constexpr Erased erased{access, creators, &run};
+  static constexpr Erased erased{access, &run};
 };
 
 }  // namespace detail
@@ -219,7 +226,7 @@ struct Declared<Kernel, void (Kernel::*)(Args...) const> {
 template <class Kernel>
 System make_system(std::string name, Kernel kernel = {}) {
   std::shared_ptr<const void> members;
-  if constexpr (!std::is_empty_v<Kernel>) members = std::make_shared<const Kernel>(std::move(kernel));
+  if constexpr (!std::is_empty_v<Kernel>) members = detail::owned(new Kernel(std::move(kernel)));
   return detail::make_system(std::move(name), detail::Declared<Kernel>::erased, std::move(members));
 }
 

@@ -13,6 +13,41 @@ std::size_t detail::next_component_id() {
   return next++;
 }
 
+template class ColumnStorage<double>;
+template class ColumnStorage<std::uint8_t>;
+template class ColumnStorage<std::int32_t>;
+template class ColumnStorage<std::uint32_t>;
+template class ColumnStorage<std::int64_t>;
+
+std::size_t detail::number_of_component(const ComponentType& type) {
+  const std::size_t known = type.numbered_from_1;
+  if (known > 0) return known - 1;
+  // Who asks at the same time for the first time may have taken a number, too: the first one stays.
+  std::size_t none = 0;
+  const std::size_t own = next_component_id() + 1;
+  return type.numbered_from_1.compare_exchange_strong(none, own) ? own - 1 : none - 1;
+}
+
+std::unique_ptr<Storage> detail::make_resource(const ComponentType& type) {
+  return std::make_unique<ResourceStorage>(*type.info, *type.resource);
+}
+
+ResourceStorage::ResourceStorage(const ComponentInfo& info, const detail::ResourceType& type)
+    : Storage(info, {}), type_(&type), value_(type.make()), kept_(type.assign ? type.make() : nullptr) {}
+
+ResourceStorage::~ResourceStorage() {
+  type_->destroy(value_);
+  if (kept_) type_->destroy(kept_);
+}
+
+void ResourceStorage::mark() {
+  if (kept_) type_->assign(kept_, value_);
+}
+
+void ResourceStorage::roll_back() {
+  if (kept_) type_->assign(value_, kept_);
+}
+
 namespace {
 
 /// `size` is known when this is compiled where it is a constant there: copies are then of registers.
@@ -78,8 +113,19 @@ void World::insert(std::size_t id, std::unique_ptr<Storage> storage) {
   by_id_[id] = std::move(storage);
 }
 
-void World::insert(std::size_t id, MakeStorage make, const ComponentInfo& info, std::string_view table) {
-  insert(id, make(info, table));
+Storage& World::stored(const detail::ComponentType& type) {
+  const std::size_t id = detail::number_of_component(type);
+  if (id >= by_id_.size() || !by_id_[id]) insert(id, type.make(type));
+  return *by_id_[id];
+}
+
+bool World::has(const detail::ComponentType& type) const {
+  const std::size_t id = detail::number_of_component(type);
+  return id < by_id_.size() && by_id_[id] != nullptr;
+}
+
+void World::add_table(std::string_view name) {
+  if (!rows_.contains(name)) rows_.emplace(name, 0);
 }
 
 void World::resize(std::string_view table, std::size_t rows) {

@@ -6,6 +6,7 @@
 #include "engine/component.hpp"
 
 #include <array>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -154,71 +155,35 @@ enum class Keeping {
 
 }  // namespace detail
 
-/// Columns of the same type of value share its code.
+/// Columns of the same type of value share its code. What is longer than a line stands below, so that a source compiles
+/// none of it for the types that are compiled elsewhere once.
 template <class T>
 class ColumnStorage final : public Storage {
  public:
   ColumnStorage(const ComponentInfo& info, std::string_view table) : Storage(info, table) {}
   std::span<T> values() { return values_; }
-  void resize(std::size_t rows) override {
-    keep(Old::needed);
-    values_.resize(rows, zero<T>());
-  }
-  void reorder(std::span<const std::uint32_t> order) override { gather(order); }
-  void renumber(std::span<const std::optional<std::uint32_t>> from) override { gather(from); }
-  void mark() override { keeping_ = detail::Keeping::due; }
+  void resize(std::size_t rows) override;
+  void reorder(std::span<const std::uint32_t> order) override;
+  void renumber(std::span<const std::optional<std::uint32_t>> from) override;
+  void mark() override;
   void keep(Old old) override {
     if (keeping_ == detail::Keeping::due) keep_now(old);
   }
-  void roll_back() override {
-    if (keeping_ == detail::Keeping::done) values_.swap(kept_);
-    keeping_ = detail::Keeping::off;
-  }
+  void roll_back() override;
   std::size_t rows() const override { return values_.size(); }
-  const std::type_info& value_type() const override { return typeid(T); }
-  std::size_t value_bytes() const override { return detail::bytes_are_value<T> ? sizeof(T) : 0; }
-  std::span<std::byte> bytes() override { return detail::bytes_of(std::span<T>(values_)); }
-  std::size_t doubles_per_value() const override { return detail::doubles_in<T>(); }
-  ValueLayout layout() const override { return detail::layout_of<T>(); }
-  std::shared_ptr<void> give_away(const void* buffer) override {
-    for (std::vector<T>* values : {&values_, &spare_, &kept_}) {
-      if (values->data() != buffer || values->empty()) continue;
-      auto given = std::make_shared<std::vector<T>>(std::move(*values));
-      *values = *given;
-      return given;
-    }
-    return nullptr;
-  }
+  const std::type_info& value_type() const override;
+  std::size_t value_bytes() const override;
+  std::span<std::byte> bytes() override;
+  std::size_t doubles_per_value() const override;
+  ValueLayout layout() const override;
+  std::shared_ptr<void> give_away(const void* buffer) override;
 
  private:
-  [[gnu::noinline]] void keep_now(Old old) {
-    keeping_ = detail::Keeping::done;
-    if (old == Old::needed) {
-      kept_ = values_;
-    } else {
-      kept_.swap(values_);
-      values_.resize(kept_.size(), zero<T>());
-    }
-  }
+  void keep_now(Old old);
   /// Rows become what others were. Until something has been kept the buffer for that is free: the new ones go there,
   /// and the old ones, if they are to be kept, stay where they are, which costs nothing.
   template <class Row>
-  void gather(std::span<const Row> from) {
-    std::vector<T>& to = keeping_ == detail::Keeping::done ? spare_ : kept_;
-    to.resize(from.size(), zero<T>());
-    const T none = zero<T>();
-    if constexpr (detail::bytes_are_value<T>) {
-      detail::gather_rows(std::as_writable_bytes(std::span(to)), std::as_bytes(std::span(values_)), from,
-                          std::as_bytes(std::span(&none, 1)));
-    } else {
-      for (std::size_t k = 0; k != from.size(); ++k) {
-        const std::optional<std::uint32_t> row = from[k];
-        to[k] = row ? values_[*row] : none;
-      }
-    }
-    values_.swap(to);
-    if (keeping_ == detail::Keeping::due) keeping_ = detail::Keeping::done;
-  }
+  void gather(std::span<const Row> from);
 
   std::vector<T> values_;
   std::vector<T> kept_;   // from before the first change since mark()
@@ -226,35 +191,182 @@ class ColumnStorage final : public Storage {
   detail::Keeping keeping_ = detail::Keeping::off;
 };
 
+template <class T>
+void ColumnStorage<T>::resize(std::size_t rows) {
+  keep(Old::needed);
+  values_.resize(rows, zero<T>());
+}
+
+template <class T>
+void ColumnStorage<T>::reorder(std::span<const std::uint32_t> order) {
+  gather(order);
+}
+
+template <class T>
+void ColumnStorage<T>::renumber(std::span<const std::optional<std::uint32_t>> from) {
+  gather(from);
+}
+
+template <class T>
+void ColumnStorage<T>::mark() {
+  keeping_ = detail::Keeping::due;
+}
+
+template <class T>
+void ColumnStorage<T>::roll_back() {
+  if (keeping_ == detail::Keeping::done) values_.swap(kept_);
+  keeping_ = detail::Keeping::off;
+}
+
+template <class T>
+const std::type_info& ColumnStorage<T>::value_type() const {
+  return typeid(T);
+}
+
+template <class T>
+std::size_t ColumnStorage<T>::value_bytes() const {
+  return detail::bytes_are_value<T> ? sizeof(T) : 0;
+}
+
+template <class T>
+std::span<std::byte> ColumnStorage<T>::bytes() {
+  return detail::bytes_of(std::span<T>(values_));
+}
+
+template <class T>
+std::size_t ColumnStorage<T>::doubles_per_value() const {
+  return detail::doubles_in<T>();
+}
+
+template <class T>
+ValueLayout ColumnStorage<T>::layout() const {
+  return detail::layout_of<T>();
+}
+
+template <class T>
+std::shared_ptr<void> ColumnStorage<T>::give_away(const void* buffer) {
+  for (std::vector<T>* values : {&values_, &spare_, &kept_}) {
+    if (values->data() != buffer || values->empty()) continue;
+    auto given = std::make_shared<std::vector<T>>(std::move(*values));
+    *values = *given;
+    return given;
+  }
+  return nullptr;
+}
+
+template <class T>
+void ColumnStorage<T>::keep_now(Old old) {
+  keeping_ = detail::Keeping::done;
+  if (old == Old::needed) {
+    kept_ = values_;
+  } else {
+    kept_.swap(values_);
+    values_.resize(kept_.size(), zero<T>());
+  }
+}
+
+template <class T>
+template <class Row>
+void ColumnStorage<T>::gather(std::span<const Row> from) {
+  std::vector<T>& to = keeping_ == detail::Keeping::done ? spare_ : kept_;
+  to.resize(from.size(), zero<T>());
+  const T none = zero<T>();
+  if constexpr (detail::bytes_are_value<T>) {
+    detail::gather_rows(std::as_writable_bytes(std::span(to)), std::as_bytes(std::span(values_)), from,
+                        std::as_bytes(std::span(&none, 1)));
+  } else {
+    for (std::size_t k = 0; k != from.size(); ++k) {
+      const std::optional<std::uint32_t> row = from[k];
+      to[k] = row ? values_[*row] : none;
+    }
+  }
+  values_.swap(to);
+  if (keeping_ == detail::Keeping::due) keeping_ = detail::Keeping::done;
+}
+
+extern template class ColumnStorage<double>;
+extern template class ColumnStorage<std::uint8_t>;
+extern template class ColumnStorage<std::int32_t>;
+extern template class ColumnStorage<std::uint32_t>;
+extern template class ColumnStorage<std::int64_t>;
+
+namespace detail {
+
+/// What a resource's storage needs to know of its type, so that it is compiled once, not for every resource.
+struct ResourceType {
+  const std::type_info& type;
+  std::size_t bytes;  ///< 0 if it is not trivially copyable
+  void* (*make)();
+  void (*destroy)(void* value);
+  void (*assign)(void* to, const void* from);  ///< null if it is no state: nothing is taken back
+};
+
 template <ResourceComponent C>
+constexpr auto assignment_of() -> void (*)(void*, const void*) {
+  if constexpr (C::info.lifetime == Lifetime::state) {
+    return [](void* to, const void* from) { *static_cast<C*>(to) = *static_cast<const C*>(from); };
+  } else {
+    return nullptr;
+  }
+}
+
+template <ResourceComponent C>
+inline const ResourceType resource_type{typeid(C), bytes_are_value<C> ? sizeof(C) : 0,
+                                        []() -> void* { return new C{}; },
+                                        [](void* value) { delete static_cast<C*>(value); }, assignment_of<C>()};
+
+}  // namespace detail
+
 class ResourceStorage final : public Storage {
  public:
-  ResourceStorage(const ComponentInfo& info, std::string_view table) : Storage(info, table) {}
-  C& value() { return value_; }
+  ResourceStorage(const ComponentInfo& info, const detail::ResourceType& type);
+  ~ResourceStorage() override;
+  void* value() { return value_; }
   void resize(std::size_t) override {}
   void reorder(std::span<const std::uint32_t>) override {}
   void renumber(std::span<const std::optional<std::uint32_t>>) override {}
-  void mark() override {
-    if constexpr (is_state) kept_ = value_;
-  }
-  void roll_back() override {
-    if constexpr (is_state) value_ = kept_;
-  }
+  void mark() override;
+  void roll_back() override;
   std::size_t rows() const override { return 1; }
-  const std::type_info& value_type() const override { return typeid(C); }
-  std::size_t value_bytes() const override { return detail::bytes_are_value<C> ? sizeof(C) : 0; }
-  std::span<std::byte> bytes() override { return detail::bytes_of(std::span<C>(&value_, 1)); }
+  const std::type_info& value_type() const override { return type_->type; }
+  std::size_t value_bytes() const override { return type_->bytes; }
+  std::span<std::byte> bytes() override { return {static_cast<std::byte*>(value_), type_->bytes}; }
   std::size_t doubles_per_value() const override { return 0; }
   ValueLayout layout() const override { return {}; }
   void keep(Old) override {}  // mark() has copied it
   std::shared_ptr<void> give_away(const void*) override { return nullptr; }
 
  private:
-  static constexpr bool is_state = C::info.lifetime == Lifetime::state;
-  struct Nothing {};
-  C value_{};
-  std::conditional_t<is_state, C, Nothing> kept_{};
+  const detail::ResourceType* type_;
+  void* value_;
+  void* kept_;  // null if nothing is taken back
 };
+
+namespace detail {
+
+/// What stands for a component's type in a world. It is small on purpose: there are hundreds, in many sources each.
+struct ComponentType {
+  const ComponentInfo* info;
+  std::string_view table;  ///< empty for a resource
+  std::unique_ptr<Storage> (*make)(const ComponentType& type);
+  const ResourceType* resource;                         ///< null for a column
+  mutable std::atomic<std::size_t> numbered_from_1{0};  ///< 0 until it is first asked for
+};
+/// A small number, the same for the life of the program.
+std::size_t number_of_component(const ComponentType& type);
+
+template <class T>
+std::unique_ptr<Storage> make_column(const ComponentType& type) {
+  return std::make_unique<ColumnStorage<T>>(*type.info, type.table);
+}
+std::unique_ptr<Storage> make_resource(const ComponentType& type);
+
+template <Described C>
+inline const ComponentType component_type{&C::info, {}, &make_resource, &resource_type<C>};
+template <ColumnComponent C>
+inline const ComponentType component_type<C>{&C::info, C::table::name, &make_column<typename C::value_type>, nullptr};
+
+}  // namespace detail
 
 /// The data of one run. Components come into being on first use, filled with zeros.
 /// Not thread safe while components are being created; `System::prepare` creates them before anything runs.
@@ -269,7 +381,7 @@ class World {
 
   template <ColumnComponent C>
   ColumnStorage<typename C::value_type>& storage() {
-    return stored<C, ColumnStorage<typename C::value_type>>(C::table::name);
+    return static_cast<ColumnStorage<typename C::value_type>&>(stored(detail::component_type<C>));
   }
 
   /// A column that no type stands for: who adds it describes it, and finds it again by its name.
@@ -285,13 +397,16 @@ class World {
 
   template <ResourceComponent C>
   C& resource() {
-    return stored<C, ResourceStorage<C>>({}).value();
+    return *static_cast<C*>(static_cast<ResourceStorage&>(stored(detail::component_type<C>)).value());
   }
 
   template <Described C>
   bool has() const {
-    return component_id<C>() < by_id_.size() && by_id_[component_id<C>()] != nullptr;
+    return has(detail::component_type<C>);
   }
+
+  /// For who has a component's description alone. \throws std::logic_error if another component has the same name
+  Storage& stored(const detail::ComponentType& type);
 
   template <class Table>
   std::size_t rows() const {
@@ -302,8 +417,9 @@ class World {
   /// Makes the table known, with no rows, if it is not. Afterwards different tables may be resized at the same time.
   template <class Table>
   void add_table() {
-    if (!rows_.contains(Table::name)) rows_.emplace(Table::name, 0);
+    add_table(Table::name);
   }
+  void add_table(std::string_view name);
 
   /// Gives every column of the table this many rows; new ones are zero.
   template <class Table>
@@ -340,18 +456,7 @@ class World {
   const std::map<std::string, Storage*, std::less<>>& components() const { return by_name_; }
 
  private:
-  template <class C, class StorageType>
-  StorageType& stored(std::string_view table) {
-    const std::size_t id = component_id<C>();
-    if (id >= by_id_.size() || !by_id_[id]) insert(id, make_storage<StorageType>, C::info, table);
-    return static_cast<StorageType&>(*by_id_[id]);
-  }
-  template <class StorageType>
-  static std::unique_ptr<Storage> make_storage(const ComponentInfo& info, std::string_view table) {
-    return std::make_unique<StorageType>(info, table);
-  }
-  using MakeStorage = std::unique_ptr<Storage> (*)(const ComponentInfo& info, std::string_view table);
-  void insert(std::size_t id, MakeStorage make, const ComponentInfo& info, std::string_view table);
+  bool has(const detail::ComponentType& type) const;
   void insert(std::size_t id, std::unique_ptr<Storage> storage);
   void reorder(std::string_view table, std::span<const std::uint32_t> order);
   void renumber(std::string_view table, std::span<const std::optional<std::uint32_t>> from);
