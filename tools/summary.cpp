@@ -9,6 +9,7 @@
 #include "engine/step_control.hpp"
 #include "systems/measure/acceptance.hpp"
 #include "systems/output/history.hpp"
+#include "systems/time/body_force.hpp"
 #include "systems/time/turns.hpp"
 #include "tools/version.hpp"
 
@@ -65,16 +66,6 @@ Json last_errors(const RunTotals& totals) {
   return errors;
 }
 
-/// |b|, where it is constant. [m/s^2]
-double constant_force(const BodyForce& b) {
-  double squared = 0;
-  for (const Expression& component : b.of_place_and_time) {
-    if (!component.is_constant()) return 0;
-    squared += component({}) * component({});
-  }
-  return std::sqrt(squared);
-}
-
 /// Over all ranks. [kg]
 double total_mass(World& world) {
   double mass = 0;
@@ -89,7 +80,7 @@ double energy_rise(World& world) {
   const bool in_plane = world.has<Grid<2>>();
   const double h = in_plane ? world.resource<Grid<2>>().spacing : world.resource<Grid<3>>().spacing;
   const double slow = 1e-6 * h / world.resource<Clock>().step;
-  double weight = mass * constant_force(world.resource<BodyForce>());
+  double weight = mass * size_of_constant_force(world.resource<BodyForce>());
   if (world.has<EnergyGiven>()) weight = std::max(weight, world.resource<EnergyGiven>().weight);
   return totals_of_all_rows(world).energy.share(mass * slow * slow + 0.01 * h * weight);
 }

@@ -9,6 +9,7 @@
 #include "systems/pipeline.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/surface_tension/capillary_step.hpp"
+#include "systems/time/body_force.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
@@ -63,15 +64,6 @@ double step_of_bodies(const Scene& scene, World& world, double dt) {
                                                                           : dt;
 }
 
-/// |b| of the components that are constant. [m/s^2]
-double constant_force(const Scene& scene) {
-  double squared = 0;
-  for (const Expression& force : scene.facts.get<BodyForce>().of_place_and_time) {
-    squared += force.is_constant() ? std::pow(force({}), 2) : 0;
-  }
-  return std::sqrt(squared);
-}
-
 /// (E34)  Longest step over sqrt(h/|b|); 0: any.
 double share_of_fall(const Scene& scene) {
   constexpr double newmark = 0.125;
@@ -90,7 +82,7 @@ std::optional<double> gravity_step(const Scene& scene, double largest_force) {
 
 std::vector<std::string> warnings_of_gravity(const Scene& scene) {
   constexpr double much_longer = 2;  // what grows within some thousand steps
-  const auto longest = gravity_step(scene, constant_force(scene));
+  const auto longest = gravity_step(scene, size_of_constant_force(scene.facts.get<BodyForce>()));
   if (!longest || !scene.time.step || *scene.time.step <= much_longer * *longest) return {};
   return {
       fmt::format("a step of {:.3g} s is more than twice as long as the body force allows, {:.3g} s: waves grow in a "
@@ -106,7 +98,7 @@ double step_of_cfl(const Scene& scene, double largest_speed, double largest_forc
 
 double longest_step(const Scene& scene) {
   if (scene.time.step) return *scene.time.step;
-  return step_of_cfl(scene, 0, constant_force(scene));
+  return step_of_cfl(scene, 0, size_of_constant_force(scene.facts.get<BodyForce>()));
 }
 
 TimePlan make_time_plan(const Scene& scene) {

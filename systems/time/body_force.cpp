@@ -7,6 +7,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 
+#include <cmath>
+
 namespace minamo {
 
 namespace {
@@ -17,6 +19,14 @@ namespace {
 }
 
 }  // namespace
+
+double size_of_constant_force(const BodyForce& b) {
+  double squared = 0;
+  for (const Expression& component : b.of_place_and_time) {
+    if (component.is_constant()) squared += std::pow(component({}), 2);
+  }
+  return std::sqrt(squared);
+}
 
 template <int Dim>
 Vec<Dim> uniform_force(const BodyForce& b, const Instant& now) {

@@ -19,6 +19,9 @@ namespace minamo {
 template <int Dim>
 Vec<Dim> uniform_force(const BodyForce& b, const Instant& now);
 
+/// |b| of the components that are constant. [m/s^2]
+double size_of_constant_force(const BodyForce& b);
+
 /// Whether there is a potential of a force: it is constant, and pulls along no periodic axis, where things never stop
 /// falling.
 /// \param periodic  by axis

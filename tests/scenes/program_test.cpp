@@ -334,6 +334,14 @@ TEST_CASE("a run that loses volume says so while it goes on, and what to change"
   CHECK(summary["warnings"].size() >= 3);
 }
 
+TEST_CASE("a sound run says nothing", "[scene]") {
+  const Folder folder;
+  const ProgramEnd end = run_program(dam_break(folder / "out", {"--steps", "10"}));
+  CHECK(end.code == 0);
+  CHECK_THAT(end.output, Catch::Equals(""));
+  CHECK(json_of(folder / "out/summary.json")["warnings"].empty());
+}
+
 TEST_CASE("a run that keeps its energy says nothing of it", "[scene]") {
   const Folder folder;
   const ProgramEnd end = run_program(dam_break(folder / "out", {"--set", "/time/step=0.01", "--steps", "60"}));
