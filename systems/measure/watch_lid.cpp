@@ -45,7 +45,7 @@ bool touches(const Lid<Dim>& lid, const Grid<Dim>& grid, const OccupiedCells<Dim
   });
 }
 
-constexpr std::string_view kind = "lid";
+constexpr std::string_view lid_is_wet = "lid";
 
 }  // namespace
 
@@ -71,11 +71,11 @@ template <int Dim>
 void WatchLid<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Lids<Dim>> lids,
                                Optional<Read<OccupiedCells<Dim>>> dual_cells, Optional<Read<GridCells<Dim>>> cells,
                                Read<particle::Position<Dim>> x_p, Update<Warnings> warnings) const {
-  if (warnings->has(kind)) return;
+  if (warnings->has(lid_is_wet)) return;
   const OccupiedCells<Dim>& occupied = cells ? static_cast<const OccupiedCells<Dim>&>(*cells) : *dual_cells;
   for (const Lid<Dim>& lid : lids->lids) {
     if (!touches<Dim>(lid, *grid, occupied, x_p.span())) continue;
-    warnings->add(kind,
+    warnings->add(lid_is_wet,
                   fmt::format("liquid touches the lid, the {} side of {}, at t = {:.6g} s: the box is closed, and "
                               "its walls hold what touches them; for an open tank make this side "
                               "\"separating\", give it an opening, or make the box higher",

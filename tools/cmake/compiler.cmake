@@ -10,14 +10,26 @@ endif()
 # Options that code which includes our headers must share.
 # Contraction off: an expression rounds in the same way wherever it is inlined, and a*b - c*d is zero where the products
 # are equal. It costs 2 % of a gather kernel in 2-D and nothing in 3-D (g++ 12, Zen 4).
-# Native: with other instructions Eigen lays out and frees memory differently. AVX-512 is left out: with it the same
-# kernel was as fast in 2-D and 20 % slower in 3-D, and g++ 12 warns of Eigen's use of it.
+# The processor: with other instructions Eigen lays out and frees memory differently. AVX-512 is left out: with it the
+# same kernel was as fast in 2-D and 20 % slower in 3-D, and g++ 12 warns of Eigen's use of it. What is left of an
+# x86-64 is x86-64-v3: a program for that is as fast as one for the machine that compiles it.
 set(minamo_public_options -ffp-contract=off)
-if(MINAMO_NATIVE)
-  list(APPEND minamo_public_options -march=native)
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+if(MINAMO_PROCESSOR)
+  list(APPEND minamo_public_options -march=${MINAMO_PROCESSOR})
+  if(MINAMO_PROCESSOR STREQUAL "native" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND minamo_public_options -mno-avx512f)
   endif()
+endif()
+
+# Says at the start of a program what its processor lacks. It runs on any x86-64 itself.
+set(minamo_processor_check ${PROJECT_SOURCE_DIR}/tools/processor_check.cpp)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_FLAGS "-march=${MINAMO_PROCESSOR}")
+  check_cxx_source_compiles("#if !defined __AVX2__ || !defined __FMA__\n#error\n#endif\nint main() {}" minamo_uses_avx2)
+  unset(CMAKE_REQUIRED_FLAGS)
+  set_source_files_properties(${minamo_processor_check} PROPERTIES COMPILE_OPTIONS -march=x86-64
+    COMPILE_DEFINITIONS "$<$<BOOL:${minamo_uses_avx2}>:MINAMO_USES_AVX2>")
 endif()
 
 # Nobody reads errno after sqrt; without it the call becomes one instruction.
@@ -34,7 +46,8 @@ function(minamo_compile_options target)
   target_compile_options(${target} PUBLIC ${minamo_public_options})
   target_compile_options(${target} PRIVATE ${minamo_private_options})
   if(NOT MINAMO_SANITIZE)
-    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+    # With -Wconversion clang looks at signs, too.
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
       $<$<BOOL:${MINAMO_DEVELOPER}>:-Werror>)
   else()
     # No warnings here: the sanitizers' own code sets off false ones, sources compiled together others, and the ordinary

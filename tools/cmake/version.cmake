@@ -13,16 +13,23 @@ endif()
 
 # As they are given to CMake.
 set(minamo_options "")
-foreach(option NATIVE MPI PYTHON OPENVDB SANITIZE DEVELOPER)
+foreach(option PROCESSOR MPI PYTHON OPENVDB SANITIZE DEVELOPER)
   list(APPEND minamo_options "MINAMO_${option}=${MINAMO_${option}}")
 endforeach()
 string(JOIN " " minamo_options ${minamo_options})
 
-# What -march=native means here; other compilers than GCC do not tell.
+# What -march=native means here.
 set(minamo_processor "")
-execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${minamo_public_options} -Q --help=target
-  OUTPUT_VARIABLE minamo_target_options ERROR_QUIET)
-if(minamo_target_options MATCHES "-march=[\t ]+([^\n\t ]+)[\t ]*\n")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${minamo_public_options} -Q --help=target
+    OUTPUT_VARIABLE minamo_target_options ERROR_QUIET)
+  set(minamo_target "-march=[\t ]+([^\n\t ]+)[\t ]*\n")
+else()
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${minamo_public_options} "-###" -E -x c++ /dev/null
+    ERROR_VARIABLE minamo_target_options OUTPUT_QUIET)
+  set(minamo_target "\"-target-cpu\" \"([^\"]+)\"")
+endif()
+if(minamo_target_options MATCHES "${minamo_target}")
   set(minamo_processor ${CMAKE_MATCH_1})
 endif()
 
