@@ -6,8 +6,9 @@
 #include "systems/bodies/room.hpp"
 #include "systems/conforming/incidence.hpp"
 #include "systems/shapes/rotation.hpp"
+#include "systems/solve/dense.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <spdlog/fmt/fmt.h>
 
 #include <optional>
@@ -153,11 +154,11 @@ Enclosures enclosures_of(const Fluxes& fluxes, std::span<const double> n_l, cons
 /// zero where it reaches over faces, and in a splash that may be more than all that it carries along: a light body
 /// would have no inertia left.
 Eigen::MatrixXd at_least(const Eigen::MatrixXd& own, const Eigen::MatrixXd& G) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> carried(G - own, own);
-  if (carried.eigenvalues().minCoeff() >= 0) return G;
+  const Modes carried = modes_of(G - own, own);
+  if (carried.lambda.minCoeff() >= 0) return G;
   // V^T own V = 1, so that own = V^-T V^-1.
-  const Eigen::MatrixXd scaled = own * carried.eigenvectors();
-  return own + scaled * carried.eigenvalues().cwiseMax(0).asDiagonal() * scaled.transpose();
+  const Eigen::MatrixXd scaled = own * carried.V;
+  return own + scaled * carried.lambda.cwiseMax(0).asDiagonal() * scaled.transpose();
 }
 
 /// How far the points of every body may go within a step, with a margin. [m]
@@ -345,10 +346,10 @@ void CoupleFreeBodies<Dim>::operator()(
   const auto squeezed = [&](Which which) {
     return enclosures.sums(null_vector.span(), closed_parts, [&](std::size_t l) { return source[l][which]; });
   };
-  const Eigen::MatrixXd inverse = (G + balances.springs).inverse();
+  const Eigen::MatrixXd inverse = inverse_of(G + balances.springs);
 
   const Eigen::VectorXd damping =
-      -G.ldlt().solve(transposed_times(unknown::damping) + stiffness * squeezed(unknown::damping));
+      -solve_symmetric(G, transposed_times(unknown::damping) + stiffness * squeezed(unknown::damping));
   correct(unknown::damping, damping, pressures(damping, squeezed(unknown::damping)));
   const Eigen::VectorXd start = motions.gather(V, omega) + damping;
   const Eigen::VectorXd change =
