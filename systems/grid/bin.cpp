@@ -4,6 +4,7 @@
 #include "systems/grid/cell_blocks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace minamo {
 
@@ -74,6 +75,15 @@ void sort_particles(const Grid<Dim>& grid, const Index<Dim>& cell_counts, const 
   particles.reorder(place);
 }
 
+/// dual_cell(), and where two meet to rounding, as where particles are in the middles of cells, the one nearer to the
+/// middle of the box: in the mirror it is the image of that.
+template <int Dim>
+Index<Dim> inner_dual_cell(const Grid<Dim>& grid, Vec<Dim> y) {
+  const double meet = 1e-9 * grid.spacing;
+  for (int d = 0; d < Dim; ++d) y[d] += std::copysign(meet, 0.5 * (grid.low[d] + grid.high[d]) - y[d]);
+  return dual_cell<Dim>(grid, y);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -82,7 +92,7 @@ void Bin<Dim>::operator()(Read<Grid<Dim>> grid, Read<particle::QuadraturePositio
                           Update<BinBuffer> buffer) const {
   Index<Dim> counts;
   for (int d = 0; d < Dim; ++d) counts[static_cast<std::size_t>(d)] = grid->nodes(d);
-  const auto cell_of = [&](const Vec<Dim>& y) { return dual_cell<Dim>(*grid, y); };
+  const auto cell_of = [&](const Vec<Dim>& y) { return inner_dual_cell<Dim>(*grid, y); };
   sort_particles<Dim>(*grid, counts, cell_of, y_p.span(), particles, *cells, rows, *buffer);
 }
 
