@@ -40,7 +40,7 @@ void add_friction(const Scene& scene, Recipe& recipe) {
   if (friction == Friction::none) return;
   const auto* rheology = scene.facts.find<Rheology>();
   if (rheology != nullptr) recipe.add("material", "shear_particles");
-  recipe.add("material", cell_viscosity_of(scene));
+  recipe.add("assemble", cell_viscosity_of(scene));  // behind fill_beside_bodies
   if (rheology != nullptr && depends_on_pressure(rheology->laws)) {
     recipe.add("accept", "recover_pressure");
     recipe.add("accept", "keep_pressure");

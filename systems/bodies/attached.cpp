@@ -19,11 +19,18 @@ void FindAttachedMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
   const SitePlaces<Dim> places(*grid, *splines);
   const double cell_volume = std::pow(grid->spacing, Dim);
   const FaceDensity<Dim> density{fluid->density, rho_f.span()};
-  // Of the two multipliers of a face the one that bodies leave more of tells whether there is liquid.
+  // Of the two multipliers of a face the one that bodies leave more of tells whether there is liquid; both, where they
+  // leave as much but for rounding.
   const auto fill = [&](std::size_t i, std::size_t d) {
+    constexpr double rounding = 1e-9;
     const std::int32_t below = neighbour[i][2 * d];
-    const bool is_below = below != staggered::none && share[static_cast<std::size_t>(below)] > share[i];
-    return std::min(1.0, 2 * phi[is_below ? static_cast<std::size_t>(below) : i]);
+    const double own = std::min(1.0, 2 * phi[i]);
+    const double of_below = below == staggered::none ? 0 : std::min(1.0, 2 * phi[static_cast<std::size_t>(below)]);
+    if (!splines->has_multiplier(site[i])) return of_below;
+    if (splines->ends_at(site[i], 2 * d)) return own;
+    const double more_below = 2 * (open_volume[i][static_cast<Eigen::Index>(d)] - share[i]);
+    if (std::abs(more_below) < rounding) return 0.5 * (own + of_below);
+    return more_below > 0 ? of_below : own;
   };
   for_each_row(site.size(), [&](std::size_t i) {
     mass[i].setZero();

@@ -104,7 +104,10 @@ double volume_share(const SitePlaces<Dim>& places, const Index<Dim>& site, bool 
       }
     }
   }
-  return open / all;
+  // Bodies take nothing, or all, whatever rounding says.
+  constexpr double rounding = 1e-9;
+  const double share = open / all;
+  return share < rounding ? 0 : share > 1 - rounding ? 1 : share;
 }
 
 /// The middle of a box that may reach beyond the grid, where the last sites have faces but no multiplier.
@@ -113,21 +116,35 @@ Vec<Dim> middle(const Bounds<Dim>& box) {
   return 0.5 * (box.low + box.high);
 }
 
-/// Unit vector along the gradient of a distance. By forward differences: in the middle of a plate, too, it points to a
-/// side.
+/// Unit vectors along the gradient of a distance, by differences to either side along every axis. They are the same but
+/// where two surfaces are equally near: in the middle of a plate they point to both of its sides.
 template <int Dim, class Distance>
-Vec<Dim> normal_at(const Vec<Dim>& x, double at_x, double over, const Distance& distance) {
-  Vec<Dim> gradient;
-  for (int d = 0; d < Dim; ++d) gradient[d] = distance(x + over * Vec<Dim>::Unit(d)) - at_x;
-  return gradient.stableNormalized();
+std::array<Vec<Dim>, power(2, Dim)> normals_at(const Vec<Dim>& x, double at_x, double over, const Distance& distance) {
+  Vec<Dim> forward;
+  Vec<Dim> backward;
+  for (int d = 0; d < Dim; ++d) {
+    forward[d] = distance(x + over * Vec<Dim>::Unit(d)) - at_x;
+    backward[d] = at_x - distance(x - over * Vec<Dim>::Unit(d));
+  }
+  std::array<Vec<Dim>, power(2, Dim)> normals;
+  for (std::size_t k = 0; k < normals.size(); ++k) {
+    Vec<Dim> gradient = forward;
+    for (int d = 0; d < Dim; ++d) {
+      if ((k >> static_cast<unsigned>(d) & 1U) != 0) gradient[d] = backward[d];
+    }
+    normals[k] = gradient.stableNormalized();
+  }
+  return normals;
 }
 
 /// Whether a point inside lies in something that is much thinner than a cell.
 template <int Dim, class Distance>
 bool is_in_plate(const Vec<Dim>& x, double at_x, double h, const Distance& distance) {
   if (at_x > 0 || at_x < -0.25 * h) return false;
-  const Vec<Dim> away = 0.25 * h * normal_at<Dim>(x, at_x, 1e-6 * h, distance);
-  return distance(x + away) > 0 && distance(x - away) > 0;
+  const auto normals = normals_at<Dim>(x, at_x, 1e-6 * h, distance);
+  return std::any_of(normals.begin(), normals.end(), [&](const Vec<Dim>& n) {
+    return distance(x + 0.25 * h * n) > 0 && distance(x - 0.25 * h * n) > 0;
+  });
 }
 
 /// Whether a plate, or an edge sharper than 60 degrees, parts the multipliers of a face: one lies in it, or it lies
@@ -150,22 +167,30 @@ bool is_parted(const SitePlaces<Dim>& places, const Index<Dim>& site, std::size_
     return false;
   if (is_in_plate<Dim>(low, at_low, h, distance) || is_in_plate<Dim>(high, at_high, h, distance)) return true;
   const double over = 1e-6 * h;
-  return normal_at<Dim>(low, at_low, over, distance).dot(normal_at<Dim>(high, at_high, over, distance)) < -0.5;
+  const auto of_high = normals_at<Dim>(high, at_high, over, distance);
+  for (const Vec<Dim>& n : normals_at<Dim>(low, at_low, over, distance)) {
+    if (std::any_of(of_high.begin(), of_high.end(), [&](const Vec<Dim>& m) { return n.dot(m) < -0.5; })) return true;
+  }
+  return false;
 }
 
 /// Closes faces of gaps between a moving body and a wall, or another body: what flows through one that is thinner than
 /// a fraction of a cell is so fast, and weighs so little, that particles beside the gap would gain energy from it.
-/// \param by_rest  cut of a row by the bodies at rest, whose gaps stay
-template <int Dim, class ByRest>
-void close_gaps(const ByRest& by_rest, std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
-                std::span<Vec<Dim>> open) {
+/// Gaps beside bodies at rest stay.
+template <int Dim>
+void close_gaps(const SiteCuts<Dim>& cuts, std::span<const Index<Dim>> site,
+                std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour, std::span<Vec<Dim>> open) {
+  const Splines<Dim>& splines = cuts.places().splines();
   const auto is_gap = [&](std::size_t i, std::size_t d) {
     const auto axis = static_cast<Eigen::Index>(d);
-    if (open[i][axis] == 0 || open[i][axis] >= sliver || open[i][axis] == by_rest(i).open[axis]) return false;
+    if (open[i][axis] == 0 || open[i][axis] >= sliver || open[i][axis] == cuts.by_resting(site[i]).open[axis])
+      return false;
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      const auto beside = site_beside(splines, site[i], side);
+      if (side / 2 == d || !beside || !splines.has_face(*beside, d)) continue;
       const std::int32_t j = neighbour[i][side];
-      if (side / 2 == d || j == staggered::none) continue;
-      if (open[static_cast<std::size_t>(j)][axis] >= sliver) return false;
+      const double share = j == staggered::none ? cuts.at(*beside).open[axis] : open[static_cast<std::size_t>(j)][axis];
+      if (share >= sliver) return false;
     }
     return true;
   };
@@ -217,7 +242,14 @@ double SitePlaces<Dim>::reach() const {
 }
 
 template <int Dim, class Distance>
-SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded, const Distance& distance) {
+SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded,
+                      const Distance& exact_distance) {
+  // Bodies often have sides along the grid: on which side of them a point of it lies is not for rounding to say.
+  const auto distance = [&](const Vec<Dim>& x) {
+    constexpr double on_surface = 1e-9;  // [h]
+    const double exact = exact_distance(x);
+    return std::abs(exact) < on_surface * places.grid().spacing ? 0.0 : exact;
+  };
   const Bounds<Dim> box = places.box(site);
   SiteCut<Dim> cut;
   const bool has_multiplier = places.splines().has_multiplier(site);
@@ -309,6 +341,17 @@ bool PlacedBodies<Dim>::may_be_near(const Vec<Dim>& x, double reach) const {
 }
 
 template <int Dim>
+SiteCut<Dim> SiteCuts<Dim>::at(const Index<Dim>& site) const {
+  const SiteCut<Dim> of_resting = by_resting(site);
+  if (!bodies_.may_be_near(middle<Dim>(places_.box(site)), places_.reach())) return of_resting;
+  SiteCut<Dim> cut =
+      cut_site<Dim>(places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return bodies_.distance(x); });
+  cut.open = cut.open.cwiseMin(of_resting.open);
+  cut.share = std::min(cut.share, of_resting.share);
+  return cut;
+}
+
+template <int Dim>
 void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                                Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
                                Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b,
@@ -320,30 +363,21 @@ void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share,
                                Update<multiplier::Capacity> capacity) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
-  const SitePlaces<Dim> places(*grid, *splines);
-  const auto by_rest = [&](const Index<Dim>& at) { return at_rest->of.empty() ? SiteCut<Dim>{} : at_rest->at(at); };
-  const auto by_all = [&](const Index<Dim>& at) {
-    const SiteCut<Dim> by_resting = by_rest(at);
-    if (!bodies.may_be_near(middle<Dim>(places.box(at)), places.reach())) return by_resting;
-    SiteCut<Dim> cut =
-        cut_site<Dim>(places, at, bodies.bounded(), [&](const Vec<Dim>& x) { return bodies.distance(x); });
-    cut.open = cut.open.cwiseMin(by_resting.open);
-    cut.share = std::min(cut.share, by_resting.share);
-    return cut;
-  };
+  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
+  const SitePlaces<Dim>& places = cuts.places();
   for_each_row(site.size(), [&](std::size_t i) {
-    const SiteCut<Dim> cut = by_all(site[i]);
+    const SiteCut<Dim> cut = cuts.at(site[i]);
     open[i] = cut.open;
     share[i] = cut.share;
     capacity[i] *= cut.share;
   });
-  if (set->any_moves()) close_gaps<Dim>([&](std::size_t i) { return by_rest(site[i]); }, neighbour.span(), open.span());
+  if (set->any_moves()) close_gaps<Dim>(cuts, site.span(), neighbour.span(), open.span());
   for_each_row(site.size(), [&](std::size_t i) {
     flux[i].setZero();
     old_flux[i].setZero();
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const double by_resting = by_rest(site[i]).open[axis];
+      const double by_resting = cuts.by_resting(site[i]).open[axis];
       closed[i][d] = {1 - by_resting, by_resting - open[i][axis]};
       closer[i][d] = {-1, -1};
       if (open[i][axis] == 1) continue;
@@ -361,15 +395,11 @@ void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
   });
   for_each_row(site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
-      double of_below = share[i];
-      if (const std::int32_t below = neighbour[i][2 * d]; below != staggered::none) {
-        of_below = share[static_cast<std::size_t>(below)];
-      } else if (site[i][d] > 0) {  // where no particle is
-        Index<Dim> at = site[i];
-        --at[d];
-        of_below = by_all(at).share;
-      }
-      open_volume[i][static_cast<Eigen::Index>(d)] = 0.5 * (share[i] + of_below);
+      const auto share_of = [&](const Index<Dim>& at) {
+        const std::int32_t row = at == site[i] ? static_cast<std::int32_t>(i) : neighbour[i][2 * d];
+        return row == staggered::none ? cuts.at(at).share : share[static_cast<std::size_t>(row)];
+      };
+      open_volume[i][static_cast<Eigen::Index>(d)] = cuts.open_volume(site[i], d, share_of);
     }
   });
 }
@@ -378,6 +408,8 @@ template class SitePlaces<2>;
 template class SitePlaces<3>;
 template StaticCut<2> cut_by_bodies_at_rest<2>(const BodySet<2>&, const Grid<2>&, const Splines<2>&);
 template StaticCut<3> cut_by_bodies_at_rest<3>(const BodySet<3>&, const Grid<3>&, const Splines<3>&);
+template class SiteCuts<2>;
+template class SiteCuts<3>;
 template class PlacedBodies<2>;
 template class PlacedBodies<3>;
 template struct CutFaces<2>;

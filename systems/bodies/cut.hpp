@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
+#include "systems/conforming/sites_around.hpp"
 #include "systems/conforming/splines.hpp"
 
 namespace minamo {
@@ -13,8 +14,8 @@ namespace minamo {
 /// Faces less open than this are closed.
 inline constexpr double least_open = 1e-3;
 /// Less open ones are slivers: what flows through them weighs little and may be fast. Particles do not see them (E87),
-/// and gaps beside moving bodies made of nothing else are closed.
-inline constexpr double sliver = 0.2;
+/// and gaps beside moving bodies made of nothing else are closed. Rounding says nothing of one that is 0.2 open.
+inline constexpr double sliver = 0.2 - 1e-9;
 
 /// Place of an index among `count` per direction, x fastest, and the index at a place.
 template <int Dim>
@@ -144,6 +145,39 @@ class PlacedBodies {
   std::vector<Bounds<Dim>> moving_bounds_;
   bool bounded_ = true;
 };
+
+/// What all bodies leave open of sites, whether particles touch them or not.
+template <int Dim>
+class SiteCuts {
+ public:
+  SiteCuts(const Grid<Dim>& grid, const Splines<Dim>& splines, const StaticCut<Dim>& at_rest,
+           const PlacedBodies<Dim>& bodies)
+      : places_(grid, splines), at_rest_(at_rest), bodies_(bodies) {}
+
+  SiteCut<Dim> by_resting(const Index<Dim>& site) const {
+    return at_rest_.of.empty() ? SiteCut<Dim>{} : at_rest_.at(site);
+  }
+  SiteCut<Dim> at(const Index<Dim>& site) const;
+  /// Open share of the volume between the middles of the two multipliers of a face; at a wall there is one.
+  /// \param share  of a multiplier, by its site
+  template <class ShareOf>
+  double open_volume(const Index<Dim>& site, std::size_t d, const ShareOf& share) const;
+  const SitePlaces<Dim>& places() const { return places_; }
+
+ private:
+  SitePlaces<Dim> places_;
+  const StaticCut<Dim>& at_rest_;
+  const PlacedBodies<Dim>& bodies_;
+};
+
+template <int Dim>
+template <class ShareOf>
+double SiteCuts<Dim>::open_volume(const Index<Dim>& site, std::size_t d, const ShareOf& share) const {
+  const auto below = site_beside(places_.splines(), site, 2 * d);
+  if (!below) return share(site);
+  if (site[d] >= places_.splines().axis[d].multipliers()) return share(*below);
+  return 0.5 * (share(site) + share(*below));
+}
 
 /// (E85) of the sites of a step.
 template <int Dim>

@@ -3,6 +3,7 @@
 #include "systems/bodies/simplex_cut.hpp"
 #include "systems/conforming/friction_matrices.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace minamo {
@@ -175,29 +176,43 @@ void fill_cell(const Cutters<Dim>& cutters, const Grid<Dim>& grid, const Splines
         if (piece.volume > 0) friction.add_volume(piece.middle, piece.volume);
         matrices.share(number) += per_cell * piece.volume;
       });
-  const double distance = seen_from * grid.spacing;
-  const auto add_wall = [&](const SurfacePiece<Dim>& piece) {
-    const int nearest = cutters.seen_wall(piece.middle).body;
-    if (matrices.wall(number) < 0) matrices.wall(number) = nearest;
-    if (matrices.wall(number) != nearest) return;  // one wall in a cell
-    const auto& body = cutters.set.bodies[static_cast<std::size_t>(nearest)];
-    const Placement<Dim>& placement = cutters.bodies.placement(static_cast<std::size_t>(nearest));
-    const Vec<Dim> normal = placement.gradient(*body.shape, piece.middle).stableNormalized();
-    const Vec<Dim> on_wall = piece.middle - distance * normal;
-    // The surface at a distance is larger than the wall by its curvature.
-    const double spread = divergence_of_normals<Dim>(*body.shape, placement, piece.middle, 0.1 * grid.spacing);
-    const double area = std::clamp(1 - distance * spread, 0.0, 2.0) * piece.area;
-    friction.add_wall(piece.middle, distance, normal, on_wall - placement.position, area / body.wall.slip_length);
-  };
   if (!cutters.set.any_has_slip_length()) {
     friction.complete();
     return;
   }
+  struct Seen {
+    SurfacePiece<Dim> piece;
+    std::size_t body;
+  };
+  std::vector<Seen> seen;
+  std::vector<double> area_of(cutters.set.bodies.size(), 0);
   for_each_piece_of_box<Dim>(
       boxes, pieces, [&](const Vec<Dim>& x) { return cutters.seen_wall(x).distance; },
       [&](const CutPiece<Dim>& piece) {
-        for (const SurfacePiece<Dim>& of_surface : piece.surface) add_wall(of_surface);
+        for (const SurfacePiece<Dim>& of_surface : piece.surface) {
+          seen.push_back({of_surface, static_cast<std::size_t>(cutters.seen_wall(of_surface.middle).body)});
+          area_of[seen.back().body] += of_surface.area;
+        }
       });
+  // One wall in a cell, the one with most of the surface, or of two with as much but for rounding the first.
+  const double largest = *std::max_element(area_of.begin(), area_of.end());
+  const auto wall = static_cast<std::size_t>(
+      std::find_if(area_of.begin(), area_of.end(), [&](double area) { return area >= (1 - 1e-9) * largest; }) -
+      area_of.begin());
+  if (largest > 0) matrices.wall(number) = static_cast<std::int32_t>(wall);
+  const double distance = seen_from * grid.spacing;
+  for (const auto& [piece, body] : seen) {
+    if (body != wall) continue;
+    const Shape<Dim>& shape = *cutters.set.bodies[body].shape;
+    const Placement<Dim>& placement = cutters.bodies.placement(body);
+    const Vec<Dim> normal = placement.gradient(shape, piece.middle).stableNormalized();
+    const Vec<Dim> on_wall = piece.middle - distance * normal;
+    // The surface at a distance is larger than the wall by its curvature.
+    const double spread = divergence_of_normals<Dim>(shape, placement, piece.middle, 0.1 * grid.spacing);
+    const double area = std::clamp(1 - distance * spread, 0.0, 2.0) * piece.area;
+    friction.add_wall(piece.middle, distance, normal, on_wall - placement.position,
+                      area / cutters.set.bodies[body].wall.slip_length);
+  }
   friction.complete();
 }
 

@@ -18,11 +18,9 @@ constexpr int rows_across = 2 * rings + 1;
 
 /// Faces nearer than this to a wall that liquid sticks to have velocities between the wall's and those farther away, or
 /// what lies between a wall and the first free face would slip wherever a cell has both: flow in a channel of 11 cells
-/// across the grid is up to 14 % off with 0.75, 1.2 % with 1.1. Flow between cylinders is best with 1 at most. [h]
-constexpr double held_by_wall = 1.1;
-
-/// Liquid that a face has at least, as far as it counts beside others. [1]
-constexpr double some = 1e-6;
+/// across the grid is up to 14 % off with 0.75, 1.2 % with 1.1. Flow between cylinders is best with 1 at most. One at
+/// that distance is nearer, whatever rounding says. [h]
+constexpr double held_by_wall = 1.1 + 1e-9;
 
 /// Open faces around a closed one.
 template <int Dim>
@@ -91,13 +89,12 @@ Vec<Dim> nearest_of_surface(const Shape<Dim>& shape, const Placement<Dim>& place
   return x;
 }
 
-/// What of the cells that a face covers its particles fill, by row and direction, of wanted rows; some of it at least.
-/// [1]
+/// What of the cells that a face covers its particles fill, by row and direction, of wanted rows. [1]
 template <int Dim>
 std::vector<Vec<Dim>> filled_around_faces(const Grid<Dim>& grid, const Splines<Dim>& splines,
                                           const OccupiedCells<Dim>& cells, const CellSites& sites,
                                           std::span<const double> V_p, std::span<const std::uint8_t> is_wanted) {
-  std::vector<Vec<Dim>> filled(is_wanted.size(), Vec<Dim>::Constant(some));
+  std::vector<Vec<Dim>> filled(is_wanted.size(), Vec<Dim>::Zero());
   with_degree(splines.degree, [&](auto degree) {
     constexpr int K = degree();
     const double per_volume = std::pow(grid.spacing, -Dim) * Dim / static_cast<double>(cell_faces<Dim, K>);
@@ -119,7 +116,7 @@ std::vector<Vec<Dim>> liquid_around_faces(const Grid<Dim>& grid, const Splines<D
                                           const OccupiedCells<Dim>& cells, const CellSites& sites,
                                           std::span<const double> V_p, std::span<const Vec<Dim>> y_p,
                                           std::span<const Index<Dim>> site) {
-  std::vector<Vec<Dim>> filled(site.size(), Vec<Dim>::Constant(some));
+  std::vector<Vec<Dim>> filled(site.size(), Vec<Dim>::Zero());
   const double per_volume = std::pow(grid.spacing, -Dim);
   with_degree(splines.degree, [&](auto degree) {
     constexpr int K = degree();
@@ -218,6 +215,8 @@ void FindFaceExtension<Dim>::operator()(
     Around<Dim> around;
     for_each_row_around<Dim, rings>(*splines, *rows, own, [&](std::uint32_t row, const auto& at, const auto& steps) {
       if (!splines->has_face(at, direction) || (is_open[row] & (1U << direction)) == 0) return;
+      // Faces without liquid have rows above it alone, and velocities that mean nothing.
+      if (filled[row][target.direction] == 0) return;
       const Vec<Dim> y = places.face(at, direction);
       Vec<Dim> offset;
       for (std::size_t d = 0; d < Dim; ++d) {

@@ -13,7 +13,8 @@ namespace minamo {
 namespace {
 
 /// Open share from which on a multiplier tells whether the liquid around it is full: in less few particles tell little.
-constexpr double telling_from = 0.4;
+/// Rounding says nothing of one that is 0.4.
+constexpr double telling_from = 0.4 - 1e-9;
 constexpr double least_open_liquid = 1e-2;
 /// Open share around a face from which on its own particles tell its mass. With those of faces beside it a thin layer
 /// along a wall is too light, and a front runs ahead: the energy of a dam break between walls of a body along faces of
@@ -21,33 +22,6 @@ constexpr double least_open_liquid = 1e-2;
 constexpr double enough_open = 0.3;
 /// Open share below which a multiplier lies inside a body.
 constexpr double inside_below = 1e-6;
-
-/// Open shares of sites that no particle touches.
-template <int Dim>
-class EmptySites {
- public:
-  EmptySites(const SitePlaces<Dim>& places, const StaticCut<Dim>& at_rest, const PlacedBodies<Dim>& bodies)
-      : places_(places), at_rest_(at_rest), bodies_(bodies) {}
-
-  /// Open volume of the neighbour of a site towards a side, over that of a cell. \pre there is one
-  double room(const Index<Dim>& of, std::size_t side) const {
-    return share(of, side) * places_.splines().widths(*site_beside(places_.splines(), of, side));
-  }
-  /// Open share of that neighbour.
-  double share(const Index<Dim>& of, std::size_t side) const {
-    const Index<Dim> site = *site_beside(places_.splines(), of, side);
-    const double by_resting = at_rest_.of.empty() ? 1 : at_rest_.at(site).share;
-    const Bounds<Dim> box = places_.box(site);
-    const Vec<Dim> x = 0.5 * (box.low + box.high);
-    if (!bodies_.may_be_near(x, places_.reach())) return by_resting;
-    return std::min(by_resting, bodies_.distance(x, true) < 0 ? 0.0 : 1.0);
-  }
-
- private:
-  const SitePlaces<Dim>& places_;
-  const StaticCut<Dim>& at_rest_;
-  const PlacedBodies<Dim>& bodies_;
-};
 
 }  // namespace
 
@@ -60,13 +34,31 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
                                        Update<multiplier::FillFraction> phi, Update<multiplier::FillAround> around,
                                        Update<multiplier::LeastFill> least) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
-  const SitePlaces<Dim> places(*grid, *splines);
-  const EmptySites<Dim> empty(places, *at_rest, bodies);
+  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const double cell_volume = std::pow(grid->spacing, Dim);
+  struct Beside {
+    Index<Dim> site;
+    std::int32_t row;
+    double share;  ///< of its volume, that bodies leave open
+  };
+  const auto beside = [&](std::size_t i, std::size_t side) -> Beside {
+    const Index<Dim> at = *site_beside(*splines, site[i], side);
+    const std::int32_t j = neighbour[i][side];
+    return {at, j, j == staggered::none ? cuts.at(at).share : share[static_cast<std::size_t>(j)]};
+  };
+  const auto has_cut_empty = [&](std::size_t i) {
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (splines->ends_at(site[i], side) || neighbour[i][side] != staggered::none) continue;
+      if (beside(i, side).share < 1) return true;
+    }
+    return false;
+  };
   for_each_row(phi.size(), [&](std::size_t i) {
-    if (share[i] == 1) return;
-    phi[i] = around[i] = 0;
-    if (v_l[i] == 0) return;  // not all of its faces have rows
+    if (v_l[i] == 0) {  // not all of its faces have rows
+      phi[i] = around[i] = 0;
+      return;
+    }
+    if (share[i] == 1 && !has_cut_empty(i)) return;
     if (share[i] < inside_below) {
       phi[i] = around[i] = 1;
       return;
@@ -75,62 +67,74 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
     double open = 2 * capacity[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
-      const std::int32_t j = neighbour[i][side];
-      if (j == staggered::none) {
-        open += cell_volume * empty.room(site[i], side);
+      const Beside other = beside(i, side);
+      if (other.row == staggered::none) {
+        open += cell_volume * other.share * splines->widths(other.site);
       } else {
-        filled += v_l[static_cast<std::size_t>(j)];
-        open += capacity[static_cast<std::size_t>(j)];
+        filled += v_l[static_cast<std::size_t>(other.row)];
+        open += capacity[static_cast<std::size_t>(other.row)];
       }
     }
-    phi[i] = around[i] = filled / open;
+    if (share[i] < 1) phi[i] = filled / open;
+    around[i] = std::max(phi[i], filled / open);
   });
   for_each_row(phi.size(), [&](std::size_t i) {
     if (!splines->has_multiplier(site[i])) return;
+    least[i] = 0;
+    if (v_l[i] == 0) return;
     least[i] = share[i] < telling_from ? 1 : around[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
-      const std::int32_t j = neighbour[i][side];
-      const bool is_empty = j == staggered::none;
-      const double open = is_empty ? empty.share(site[i], side) : share[static_cast<std::size_t>(j)];
-      if (open < telling_from) continue;
-      least[i] = std::min(least[i], is_empty ? 0 : around[static_cast<std::size_t>(j)]);
+      const Beside other = beside(i, side);
+      if (other.share < telling_from) continue;
+      least[i] = std::min(least[i], other.row == staggered::none ? 0 : around[static_cast<std::size_t>(other.row)]);
     }
   });
 }
 
 template <int Dim>
 void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                    Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
+                                    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
                                     Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                                     Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open_face,
                                     Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
                                     Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least,
                                     Read<face::Mass<Dim>> m_f, Optional<Read<face::Density<Dim>>> rho_f,
                                     Write<face::UncutMass<Dim>> uncut) const {
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {
     constexpr double of_empty = 1e-3;
-    double liquid = phi[i] + of_empty;
-    double open = liquid * share[i];
-    if (const std::int32_t below = neighbour[i][2 * d]; below != staggered::none) {
-      const double under = phi[static_cast<std::size_t>(below)] + of_empty;
-      liquid += under;
-      open += under * share[static_cast<std::size_t>(below)];
+    double liquid = 2 * of_empty;
+    double open = liquid * open_volume[i][static_cast<Eigen::Index>(d)];
+    for (const std::int32_t l : {static_cast<std::int32_t>(i), neighbour[i][2 * d]}) {
+      if (l == staggered::none) continue;
+      const auto row = static_cast<std::size_t>(l);
+      liquid += phi[row];
+      open += phi[row] * share[row];
     }
     return open / liquid;
+  };
+  // Where no particle is, no row.
+  const auto open_empty = [&](const Index<Dim>& at, std::size_t d) {
+    return cuts.open_volume(at, d, [&](const Index<Dim>& l) { return cuts.at(l).share; });
   };
   for_each_row(m_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       uncut[i][axis] = m_f[i][axis];
-      if (open_volume[i][axis] == 1) continue;
+      if (open_volume[i][axis] == 1 || !splines->has_face(site[i], d)) continue;
       double open = open_liquid(i, d);
       const double from_beside = std::max(0.0, 1 - open / enough_open);
-      for (std::size_t side = 0; side < 2 * Dim; ++side) {
-        if (side / 2 == d || neighbour[i][side] == staggered::none) continue;
-        const auto j = static_cast<std::size_t>(neighbour[i][side]);
-        open += from_beside * open_liquid(j, d);
-        uncut[i][axis] += from_beside * m_f[j][axis];
+      for (std::size_t side = 0; side < 2 * Dim && from_beside > 0; ++side) {
+        const auto beside = site_beside(*splines, site[i], side);
+        if (side / 2 == d || !beside || !splines->has_face(*beside, d)) continue;
+        const std::int32_t j = neighbour[i][side];
+        open +=
+            from_beside * (j == staggered::none ? open_empty(*beside, d) : open_liquid(static_cast<std::size_t>(j), d));
+        uncut[i][axis] += j == staggered::none ? 0 : from_beside * m_f[static_cast<std::size_t>(j)][axis];
       }
       // Of a face that is lighter than its particles, a pressure makes more energy than it takes.
       uncut[i][axis] = std::max(uncut[i][axis] / std::max(open, least_open_liquid),
@@ -142,14 +146,15 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
     const auto axis = static_cast<Eigen::Index>(d);
     std::vector<std::uint32_t> cut;
     for (std::size_t i = 0; i < m_f.size(); ++i) {
-      if (open_volume[i][axis] == 1 || open_face[i][axis] == 0 || !splines->has_face(site[i], d)) continue;
+      if (open_volume[i][axis] == 1 || open_face[i][axis] == 0 || m_f[i][axis] == 0) continue;
+      if (!splines->has_face(site[i], d)) continue;
       // Where the liquid fills the grid a face has the mass of a whole one, (E68).
       if (filled_indicator(least_fill_of_face<Dim>(*splines, site[i], neighbour[i], least.span(), i, d)) < 1)
         cut.push_back(static_cast<std::uint32_t>(i));
     }
-    level_with_surface<Dim>(
-        {*splines, *rows, site.span(), open_volume.span(), share.span(), d, std::pow(grid->spacing, Dim), density},
-        std::move(cut), uncut.span());
+    level_with_surface<Dim>({*splines, *rows, site.span(), open_volume.span(), share.span(), phi.span(), m_f.span(), d,
+                             std::pow(grid->spacing, Dim), density},
+                            std::move(cut), uncut.span());
   }
 }
 

@@ -30,11 +30,12 @@ struct FillBesideBodies {
 template <int Dim>
 struct FindUncutMass {
   static constexpr std::string_view doc = "(E86) mass of faces, were nothing cut away";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
-                  Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
-                  Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<BodySet<Dim>> set,
+                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open,
+                  Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+                  Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
                   Optional<Read<face::Density<Dim>>> rho_f, Write<face::UncutMass<Dim>> uncut) const;
 };
 

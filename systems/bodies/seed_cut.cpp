@@ -9,8 +9,8 @@ namespace minamo {
 
 namespace {
 
-/// Share of a part from which on it makes a particle.
-constexpr double least_share = 0.3;
+/// Share of a part from which on it makes a particle, but for rounding.
+constexpr double least_share = 0.3 - 1e-9;
 /// Samples of a part per direction.
 constexpr int samples = 8;
 

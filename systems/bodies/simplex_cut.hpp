@@ -1,13 +1,15 @@
 #pragma once
 /// \file
 /// What a distance leaves open of a box, and its surface in it, piece by piece: small boxes, and in those that are cut
-/// triangles or tetrahedra in which the distance is taken for linear.
+/// triangles or tetrahedra in which the distance is taken for linear, of two divisions that together prefer no
+/// diagonal.
 
 #include "systems/bodies/clip.hpp"
 #include "systems/shapes/simplices.hpp"
 
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -28,14 +30,16 @@ struct CutPiece {
   std::vector<SurfacePiece<Dim>> surface;
 };
 
-/// The surface in a simplex: between points on its edges.
+/// The surface in a simplex, between points on its edges: one piece, in a tetrahedron of up to two triangles.
+/// \param share  that its area counts with
 template <int Dim>
 void add_surface(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim) + 1>& corner,
-                 const std::array<double, static_cast<std::size_t>(Dim) + 1>& value,
+                 const std::array<double, static_cast<std::size_t>(Dim) + 1>& value, double share,
                  std::vector<SurfacePiece<Dim>>& surface) {
   std::array<std::size_t, static_cast<std::size_t>(Dim) + 1> order;
   std::iota(order.begin(), order.end(), std::size_t{0});
   const std::size_t open = put_inside_first(order, [&](std::size_t k) { return value[k] > 0; });
+  SurfacePiece<Dim> piece{Vec<Dim>::Zero(), 0};
   for_each_cut(order, open, [&](const auto& edges) {
     std::array<Vec<Dim>, static_cast<std::size_t>(Dim)> x;
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -43,12 +47,20 @@ void add_surface(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim) + 1>& 
       const double part = value[above] / (value[above] - value[below]);
       x[k] = corner[above] + part * (corner[below] - corner[above]);
     }
+    double area = 0;
+    Vec<Dim> sum = x[0] + x[1];
     if constexpr (Dim == 2) {
-      surface.push_back({0.5 * (x[0] + x[1]), (x[1] - x[0]).norm()});
+      area = (x[1] - x[0]).norm();
     } else {
-      surface.push_back({(x[0] + x[1] + x[2]) / 3, 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm()});
+      area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+      sum += x[2];
     }
+    piece.area += share * area;
+    piece.middle += share * area / Dim * sum;
   });
+  if (piece.area == 0) return;
+  piece.middle /= piece.area;
+  surface.push_back(piece);
 }
 
 /// A cube of small boxes.
@@ -72,7 +84,12 @@ void for_each_piece_of_box(const SmallBoxes<Dim>& boxes, int count, const Distan
     return x;
   };
   std::vector<double> at(power(nodes, Dim));
-  for (std::size_t k = 0; k < at.size(); ++k) at[k] = distance(node_at(k, nodes));
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    at[k] = distance(node_at(k, nodes));
+    // Of corners that all lie on a wall, rounding would make anything.
+    constexpr double on_wall = 1e-9;
+    if (std::abs(at[k]) < on_wall * boxes.width) at[k] = 0;
+  }
   const double whole = std::pow(boxes.width, Dim);
   CutPiece<Dim> piece;
   for (std::size_t k = 0; k < power(nodes - 1, Dim); ++k) {
@@ -101,16 +118,16 @@ void for_each_piece_of_box(const SmallBoxes<Dim>& boxes, int count, const Distan
     if (std::all_of(value.begin(), value.end(), is_open)) {
       piece.volume = whole;
     } else {
-      constexpr auto simplices = simplices_of_box<Dim>();
-      for (const auto& simplex : simplices) {
+      constexpr double per_division = 1.0 / divisions_of_box;
+      for (const auto& [simplex, share] : symmetric_simplices_of_box<Dim>()) {
         std::array<Vec<Dim>, static_cast<std::size_t>(Dim) + 1> x;
         std::array<double, static_cast<std::size_t>(Dim) + 1> v;
         for (std::size_t c = 0; c < x.size(); ++c) {
           x[c] = corner[simplex[c]];
           v[c] = value[simplex[c]];
         }
-        piece.volume += whole / static_cast<double>(simplices.size()) * positive_share(v);
-        add_surface<Dim>(x, v, piece.surface);
+        piece.volume += per_division * share * whole * positive_share(v);
+        add_surface<Dim>(x, v, per_division, piece.surface);
       }
     }
     use(piece);

@@ -14,7 +14,7 @@ constexpr int solid_samples = Dim == 2 ? 400 : 100;
 
 /// Volume, first and second moments about a point.
 template <int Dim>
-struct Moments {
+struct ShapeMoments {
   double volume = 0;
   Vec<Dim> first = Vec<Dim>::Zero();
   Mat<Dim> second = Mat<Dim>::Zero();
@@ -24,7 +24,7 @@ struct Moments {
     first += share * r;
     second += share * r * r.transpose();
   }
-  Moments operator+(const Moments& other) const {
+  ShapeMoments operator+(const ShapeMoments& other) const {
     return {volume + other.volume, first + other.first, second + other.second};
   }
 };
@@ -84,14 +84,14 @@ Solid<Dim> solid_of(const Shape<Dim>& shape) {
   const double size = std::pow(lattice.size.prod(), 1.0 / Dim);
   const Vec<Dim> middle = 0.5 * (bounds.low + bounds.high);
   const auto moments = reduce_rows(
-      lattice.points(), Moments<Dim>{},
+      lattice.points(), ShapeMoments<Dim>{},
       [&](std::size_t row) {
         const Vec<Dim> x = lattice.at(row);
-        Moments<Dim> of_sample;
+        ShapeMoments<Dim> of_sample;
         of_sample.add(std::clamp(0.5 - shape.distance(x) / size, 0.0, 1.0), x - middle);
         return of_sample;
       },
-      [](const Moments<Dim>& a, const Moments<Dim>& b) { return a + b; });
+      [](const ShapeMoments<Dim>& a, const ShapeMoments<Dim>& b) { return a + b; });
   Solid<Dim> solid;
   if (moments.volume == 0) return solid;
   const double of_sample = lattice.size.prod();

@@ -21,8 +21,8 @@ constexpr double error_across = 1;
 constexpr double least_slope = 0.02;
 /// Weight of known faces from which on they tell.
 constexpr double least_weight = 0.05;
-/// Open share of multipliers whose middle is outside of bodies for certain.
-constexpr double outside_from = 0.6;
+/// Open share of multipliers whose middle is outside of bodies for certain. Rounding says nothing of one that is 0.6.
+constexpr double outside_from = 0.6 - 1e-9;
 /// Faces farther from whole ones, in steps of the grid, keep what their own particles tell.
 constexpr int most_passes = 8;
 
@@ -89,14 +89,16 @@ RowsAround<Dim> rows_around(const FacesOnLevels<Dim>& faces, std::uint32_t row) 
 }
 
 /// Whether no body reaches into what a face covers. Samples of a volume do not see it in a corner; there lies the
-/// middle of another multiplier, of which a body that takes some of the corner takes half.
+/// middle of another multiplier, of which a body that takes some of the corner takes half. Of multipliers that
+/// particles touch: of others some have rows, on their high sides.
 template <int Dim>
 bool is_whole(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
-  if (faces.open_volume[row][static_cast<Eigen::Index>(faces.direction)] != 1) return false;
+  const auto axis = static_cast<Eigen::Index>(faces.direction);
+  if (faces.open_volume[row][axis] != 1 || faces.m_f[row][axis] == 0) return false;
   const auto nothing_reaches = [&](const Index<Dim>& site) {
     bool is_outside = true;
     for_each_row_around<Dim, 1>(faces.splines, faces.rows, site, [&](std::uint32_t i, const auto&, const auto&) {
-      is_outside &= !(faces.open_share[i] < outside_from);
+      is_outside &= !(faces.open_share[i] < outside_from && faces.phi[i] > 0);
     });
     return is_outside;
   };
@@ -192,7 +194,7 @@ class UnknownFaces {
     for (const std::uint32_t i : unknown_) is_[i] = unknown;
     // Faces of which a body takes next to nothing are unknown, too.
     for (const std::uint32_t i : look_around()) {
-      if (is_[i] != near || faces.open_volume[i][axis()] != 1) continue;
+      if (is_[i] != near || faces.open_volume[i][axis()] != 1 || faces.m_f[i][axis()] == 0) continue;
       is_[i] = unknown;
       unknown_.push_back(i);
     }

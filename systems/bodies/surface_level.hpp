@@ -19,6 +19,8 @@ struct FacesOnLevels {
   std::span<const Index<Dim>> site;
   std::span<const Vec<Dim>> open_volume;  ///< of faces [1]
   std::span<const double> open_share;     ///< of multipliers [1]
+  std::span<const double> phi;            ///< fill fraction of multipliers, zero where no particle is [1]
+  std::span<const Vec<Dim>> m_f;          ///< of the particles; a face without any tells nothing [kg]
   std::size_t direction;
   double cell_volume;  ///< [m^d]
   FaceDensity<Dim> density;

@@ -107,16 +107,25 @@ void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<
                                Write<multiplier::FillFraction> phi, Write<multiplier::FillAround> around,
                                Write<multiplier::LeastFill> least) const {
   for_each_row(phi.size(), [&](std::size_t i) { phi[i] = capacity[i] > 0 ? v_l[i] / capacity[i] : 0; });
+  // Of a neighbour that no particle touches, as if there were no bodies.
+  const auto empty_room = [&](std::size_t i, std::size_t side) {
+    const SplineAxis& along = splines->axis[side / 2];
+    const int own = site[i][side / 2];
+    const int beside = along.periodic() ? own : own + (side % 2 == 0 ? -1 : 1);
+    return capacity[i] * along.width(beside) / along.width(own);
+  };
   for_each_row(phi.size(), [&](std::size_t i) {
+    around[i] = phi[i];
+    if (v_l[i] == 0) return;  // neighbours below may have no rows
     double filled = 2 * v_l[i];
     double room = 2 * capacity[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
       const std::int32_t j = neighbour[i][side];
       filled += j == staggered::none ? 0 : v_l[static_cast<std::size_t>(j)];
-      room += j == staggered::none ? capacity[i] : capacity[static_cast<std::size_t>(j)];
+      room += j == staggered::none ? empty_room(i, side) : capacity[static_cast<std::size_t>(j)];
     }
-    around[i] = filled > phi[i] * room ? filled / room : phi[i];
+    if (filled > phi[i] * room) around[i] = filled / room;
   });
   // The least of neighbours is of neighbours of neighbours: farther than a rank knows volumes.
   if (shared) shared->copy_from_owner(around.span());

@@ -42,7 +42,8 @@ inline Friction friction_of(const Scene& scene) {
   if (scene.facts.find<Rheology>() != nullptr) return Friction::in_balances;
   if (scene.facts.get<Fluid>().viscosity == 0) return Friction::none;
   const double number = largest_diffusivity(scene) * longest_step(scene) / friction_area(scene);
-  return number <= largest_friction_at_start ? Friction::at_start : Friction::in_balances;
+  constexpr double rounding = 1e-9;  // says nothing of one that is as large
+  return number <= (1 + rounding) * largest_friction_at_start ? Friction::at_start : Friction::in_balances;
 }
 
 /// For the message where friction in the balances is not possible: the largest viscosity, and the longest step.

@@ -173,3 +173,58 @@ TEST_CASE("the lattice of a shape is the same in the mirror where its surface pa
         {{"shape", {{"box", {{"low", {0.05, -0.2}}, {"high", {0.25, 0.15}}}}}}, {"velocity", {0, 1}}});
   check_image<2>(scene, mirror, 0, 1e-12);
 }
+
+TEST_CASE("bodies are the same in the mirror", "[verification]") {
+  // At the edge of the liquid, at sides of the box, with sides and corners on points of the grid, and anywhere.
+  const std::string body = GENERATE(
+      R"({"shape": {"ball": {"center": [0.02, 0.06], "radius": 0.09}}})",
+      R"({"shape": {"box": {"low": [-0.33, -0.2], "high": [-0.21, 0.03]}}})",
+      R"({"shape": {"box": {"low": [-0.2, -0.1], "high": [-0.1, 0.1]}}})",
+      R"({"shape": {"box": {"low": [0.05, -0.3], "high": [0.25, 0.05]}}})",
+      R"({"shape": {"box": {"low": [0.13, -1], "high": [1, 1]}}})",
+      R"({"shape": {"box": {"low": [-1, -1], "high": [-0.21, 0.03]}}})",
+      R"({"shape": {"polygon": {"vertices": [[-0.4, -0.2], [0.05, -0.2], [-0.4, 0.11]]}}})",
+      R"({"shape": {"box": {"low": [-0.11, -1], "high": [-0.09, 1]}}, "motion": {"prescribed": {"velocity": ["-0.5", 0]}}})",
+      R"json({"shape": {"ball": {"center": [0, 0.05], "radius": 0.08}},
+              "motion": {"prescribed": {"velocity": ["-0.5", "-0.3*cos(3*t)"]}}})json",
+      R"({"shape": {"ball": {"center": [-0.1, 0.2], "radius": 0.08}}, "motion": {"free": {"density": 400}}})");
+  const std::string wall = GENERATE(R"("slip")", R"("no_slip")");
+  const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
+  CAPTURE(body, wall, mirror.axis, mirror.mirrored);
+  Json scene = column();
+  scene["bodies"] = Json::array({Json::parse(body)});
+  scene["bodies"][0].update(Json{{"name", "body"}, {"wall", Json::parse(wall)}});
+  check_image<2>(scene, mirror, 3, 1e-10);
+}
+
+TEST_CASE("walls of bodies are the same in the mirror, of two in a cell, too", "[verification]") {
+  const std::string wall = GENERATE(R"({"slip_length": 0.02})", R"("separating")", R"("no_slip")");
+  const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
+  CAPTURE(wall, mirror.axis, mirror.mirrored);
+  Json scene = column();
+  scene["bodies"] = Json::parse(R"([{"shape": {"ball": {"center": [-0.2, 0], "radius": 0.07}}, "name": "left"},
+                                    {"shape": {"ball": {"center": [-0.05, 0.03], "radius": 0.07}}, "name": "right"}])");
+  for (Json& body : scene["bodies"]) body["wall"] = Json::parse(wall);
+  check_image<2>(scene, mirror, 3, 1e-10);
+}
+
+TEST_CASE("bodies in space are the same in the mirror", "[verification]") {
+  // The viscosity is the largest that friction at the start of a step takes with this slip length.
+  const std::string body =
+      GENERATE(R"({"shape": {"ball": {"center": [0.05, 0.02, 0], "radius": 0.11}}, "wall": "no_slip"})",
+               R"({"shape": {"ball": {"center": [0.05, 0.02, 0], "radius": 0.11}}, "wall": {"slip_length": 0.02}})",
+               R"({"shape": {"box": {"low": [-0.13, -0.3, -0.3], "high": [0.03, 0.07, 0]}}, "wall": "slip"})",
+               R"({"shape": {"ball": {"center": [-0.05, 0.02, 0.1], "radius": 0.09}}, "wall": "no_slip",
+                   "motion": {"free": {"density": 400}}})");
+  const Mirror<3> mirror = GENERATE(in_z, exchanged_in_space);
+  CAPTURE(body, mirror.axis, mirror.mirrored);
+  Json scene = Json::parse(R"json({
+    "dimension": 3, "grid": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.3], "cells": [6, 4, 5]},
+    "fluid": {"density": 1000, "viscosity": 2}, "body_force": [0.5, 0.2, -9.81],
+    "particles": [{"shape": {"box": {"low": [-0.3, -0.2, -0.2], "high": [0.1, 0.2, 0.1]}}, "per_cell": 2,
+                   "velocity": ["0.3*sin(7*y)", "0.4*x", "0.2*y"]}],
+    "solver": {"scheme": "block", "tolerance": 1e-13}, "time": {"end": 1, "step": 0.01}})json");
+  scene["bodies"] = Json::array({Json::parse(body)});
+  scene["bodies"][0]["name"] = "body";
+  check_image<3>(scene, mirror, 2, 1e-9);
+}
