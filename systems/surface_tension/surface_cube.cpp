@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 
 namespace minamo {
@@ -108,10 +109,68 @@ void SurfaceCube<Dim>::find_bodies(const SurfaceBodies<Dim>& bodies) {
 template <int Dim>
 void SurfaceCube<Dim>::add_to(Piece& piece) const {
   if (is_beside_wall_) add_wetted(piece);
-  for (const auto& simplex : simplices_of_box<Dim>()) {
+  if (!is_cut_ && !has_body_) return;
+  if constexpr (Dim == 2) {
+    // Along the higher diagonal, as in the mirror. What lies along the one or the other changes from one to the other
+    // where both are as high, and the surface is straight.
+    switch (bend()) {
+    case Bend::along_first:
+      return add_along(simplices_of_box<2>(), piece);
+    case Bend::along_second:
+      return add_along(other_triangles_of_square(), piece);
+    case Bend::none:
+      return add_undivided(piece);
+    }
+  } else {
+    add_along(simplices_of_box<Dim>(), piece);
+  }
+}
+
+template <int Dim>
+void SurfaceCube<Dim>::add_along(const Simplices& simplices, Piece& piece) const {
+  for (const auto& simplex : simplices) {
     if (has_body_) add_wetted_of_body(simplex, piece);
     if (is_cut_) cut(simplex, piece);
   }
+}
+
+/// Of a square; of the distance from a body, if that is not straight.
+template <int Dim>
+typename SurfaceCube<Dim>::Bend SurfaceCube<Dim>::bend() const requires(Dim == 2) {
+  constexpr double rounding = 1e-9;
+  const auto of = [&](double Node::*value) {
+    const double first = node_[0].*value + node_[3].*value;
+    const double second = node_[1].*value + node_[2].*value;
+    double size = 0;
+    for (const Node& node : node_) size = std::max(size, std::abs(node.*value));
+    if (std::abs(first - second) <= rounding * size) return Bend::none;
+    return first > second ? Bend::along_first : Bend::along_second;
+  };
+  const Bend of_body = has_body_ ? of(&Node::solid) : Bend::none;
+  return of_body == Bend::none ? of(&Node::psi) : of_body;
+}
+
+/// Of a square in which all is linear: between points on its sides.
+template <int Dim>
+void SurfaceCube<Dim>::add_undivided(Piece& piece) const requires(Dim == 2) {
+  if (has_body_) {
+    for (const auto& simplex : simplices_of_box<Dim>()) add_wetted_of_body(simplex, piece);
+  }
+  if (!is_cut_) return;
+  constexpr std::array<std::array<std::size_t, 2>, 4> sides{{{0, 1}, {2, 3}, {0, 2}, {1, 3}}};
+  Corners ends;
+  std::size_t count = 0;
+  for (const auto& [a, b] : sides) {
+    const bool a_is_in = node_[a].psi > 0;
+    if (a_is_in == (node_[b].psi > 0) || count == ends.size()) continue;
+    ends[count++] = a_is_in ? between(a, b) : between(b, a);
+  }
+  if (count < ends.size()) return;
+  // Of a plane, by the triangle of the corners 0, 1 and 2.
+  Slopes directions{-gradient({0, 1, 2}, &Node::psi)};
+  if (!has_body_) return add(piece, directions, ends);
+  directions.off_body = gradient({0, 1, 2}, &Node::solid).stableNormalized();
+  add_outside_of_bodies(piece, directions, ends);
 }
 
 /// What of the sides of the box is wet in this cube.

@@ -1,10 +1,12 @@
 #pragma once
 /// \file
 /// (E112) (E121) What of the free surface lies in a cube of the lattice that it is found on: between the nodes, linear
-/// in triangles or tetrahedra, and outside of bodies, whose distance is linear there, too.
+/// in triangles or tetrahedra, and outside of bodies, whose distance is linear there, too. Triangles prefer no side, so
+/// that a drop in the plane is the same in the mirror; tetrahedra lie along the same diagonal of every cube.
 
 #include "components/surface_tension.hpp"
 #include "systems/bodies/cut.hpp"
+#include "systems/shapes/simplices.hpp"
 #include "systems/surface_tension/beside_bodies.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"
 
@@ -47,6 +49,9 @@ class SurfaceCube {
 
  private:
   using Simplex = std::array<std::size_t, static_cast<std::size_t>(Dim) + 1>;
+  using Simplices = decltype(simplices_of_box<Dim>());
+  /// Which diagonal of a square is higher, psi in the middle of it.
+  enum class Bend { none, along_first, along_second };
   struct Node {
     Vec<Dim> x;
     Index<Dim> at;
@@ -67,6 +72,9 @@ class SurfaceCube {
   };
 
   void find_bodies(const SurfaceBodies<Dim>& bodies);
+  Bend bend() const requires(Dim == 2);
+  void add_along(const Simplices& simplices, Piece& piece) const;
+  void add_undivided(Piece& piece) const requires(Dim == 2);
   void add_wetted(Piece& piece) const;
   void add_wetted(const Simplex& simplex, SidesOfBox side, Piece& piece) const;
   void add_wetted_of_body(Simplex corner, Piece& piece) const;

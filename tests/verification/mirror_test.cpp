@@ -228,3 +228,19 @@ TEST_CASE("bodies in space are the same in the mirror", "[verification]") {
   scene["bodies"][0]["name"] = "body";
   check_image<3>(scene, mirror, 2, 1e-9);
 }
+
+TEST_CASE("drops in the plane are the same in the mirror", "[verification]") {
+  const std::string drop = GENERATE(R"({"ball": {"center": [0.03, 0.05], "radius": 0.16}})",
+                                    R"({"ball": {"center": [0.1, 0.1], "radius": 0.17}})",  // in the middle of the box
+                                    R"({"intersection": [{"ball": {"center": [0.03, -0.17], "radius": 0.2}},
+                                                         {"box": {"low": [-0.4, -0.2], "high": [0.6, 0.4]}}]})");
+  const bool on_body = GENERATE(false, true);
+  const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
+  CAPTURE(drop, on_body, mirror.axis, mirror.mirrored);
+  Json scene = with(column(), {R"(/walls="slip")", "/body_force=[0, 0]", "/particles/0/shape=" + drop,
+                               R"(/surface_tension={"coefficient": 20, "contact_angle": 60})"});
+  if (on_body)
+    scene["bodies"] = Json::parse(
+        R"([{"name": "body", "shape": {"ball": {"center": [0.03, -0.1], "radius": 0.1}}, "wall": "slip"}])");
+  check_image<2>(scene, mirror, 5, 1e-10);
+}
