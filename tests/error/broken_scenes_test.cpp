@@ -50,18 +50,55 @@ class SceneFolder : public Folder {
   SceneFolder() { std::ofstream(*this / "scene.json") << scene; }
 };
 
-}  // namespace
-
-TEST_CASE("a broken scene is refused with every problem told, and nothing is run", "[error]") {
-  const std::string name = GENERATE(from_range(names()));
-  CAPTURE(name);
-  const Folder folder;
+/// The scene and its mesh, if there is one. \return the names of the files
+std::set<std::string> copy_scene(const std::string& name, const fs::path& folder) {
   std::set<std::string> files;
   for (const char* kind : {".json", ".obj"}) {
     if (!fs::exists(broken_scenes / (name + kind))) continue;
     fs::copy_file(broken_scenes / (name + kind), folder / (name + kind));
     files.insert(name + kind);
   }
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("a broken scene is refused with every problem told", "[error]") {
+  // In one start, which takes longer than to read a scene.
+  const Folder folder;
+  std::vector<std::string> arguments{"check"};
+  std::set<std::string> files;
+  for (const std::string& name : names()) {
+    if (fs::exists(broken_scenes / (name + ".args"))) continue;
+    const auto copied = copy_scene(name, folder / "");
+    files.insert(copied.begin(), copied.end());
+    arguments.push_back(name + ".json");
+  }
+  const ProgramOutput check = output_of_program(folder / "", arguments);
+  std::size_t at = 0;
+  for (std::size_t k = 1; k < arguments.size(); ++k) {
+    const std::string text = text_of(broken_scenes / fs::path(arguments[k]).replace_extension(".txt"));
+    CAPTURE(arguments[k]);
+    REQUIRE(check.err.substr(std::min(at, check.err.size()), text.size()) == text);
+    at += text.size();
+  }
+  CHECK(at == check.err.size());
+  CHECK(check.code == 2);
+  CHECK(check.out.empty());
+  CHECK(files_in(folder / "") == files);
+}
+
+TEST_CASE("of a broken scene nothing is run", "[error]") {
+  // What is told is tested above: here are those with arguments, and a sample of the others.
+  std::vector<std::string> tried;
+  const std::vector<std::string> all = names();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (k % 8 == 0 || fs::exists(broken_scenes / (all[k] + ".args"))) tried.push_back(all[k]);
+  }
+  const std::string name = GENERATE_COPY(from_range(tried));
+  CAPTURE(name);
+  const Folder folder;
+  const std::set<std::string> files = copy_scene(name, folder / "");
   std::vector<std::string> arguments{"run", name + ".json"};
   for (std::string& argument : lines_of(broken_scenes / (name + ".args"))) arguments.push_back(std::move(argument));
 

@@ -42,6 +42,12 @@ class StudyRun : public Folder {
   ProgramOutput output;
 };
 
+/// The small study as it is, run once for all tests that look at what it leaves.
+const StudyRun& plain_study() {
+  static const StudyRun study(small_study());
+  return study;
+}
+
 bool has_matplotlib() {
   return std::system(
              "python3 -c 'import matplotlib' 2> /dev/null || /usr/bin/python3 -c 'import matplotlib' 2> /dev/null") ==
@@ -51,7 +57,7 @@ bool has_matplotlib() {
 }  // namespace
 
 TEST_CASE("a study runs every combination as `minamo run` does", "[scene]") {
-  const StudyRun study(small_study());
+  const StudyRun& study = plain_study();
   CHECK(study.output.code == 0);
   for (const std::string variant : {"pic_cells6", "pic_cells12", "tpic_cells6", "tpic_cells12"}) {
     CAPTURE(variant);
@@ -63,7 +69,7 @@ TEST_CASE("a study runs every combination as `minamo run` does", "[scene]") {
 }
 
 TEST_CASE("study.csv has the errors of the summaries, and finer is more accurate and slower", "[scene]") {
-  const StudyRun study(small_study());
+  const StudyRun& study = plain_study();
   const auto csv = study.csv();
   REQUIRE(csv.size() == 5);
   CHECK(csv[0][0] == "/transfer/scheme");
@@ -77,7 +83,7 @@ TEST_CASE("study.csv has the errors of the summaries, and finer is more accurate
 }
 
 TEST_CASE("the table of a study has a line per variant", "[scene]") {
-  const StudyRun study(small_study());
+  const StudyRun& study = plain_study();
   CHECK_THAT(study.output.out, Catch::StartsWith("Small\ntransfer  cells  error [1]  order  wall [s]  steps"));
   CHECK(std::count(study.output.out.begin(), study.output.out.end(), '\n') == 8);
 }
@@ -93,7 +99,7 @@ TEST_CASE("repeated runs leave the errors, and points of others stand beside", "
   CHECK_THAT(text_of(folder / "out/others.csv"),
              Catch::StartsWith("code,setting,transfer,cells,their error,our error,their cost,our cost,ratio\n"
                                "Abc,coarse,"));
-  const StudyRun once(small_study());
+  const StudyRun& once = plain_study();
   std::istringstream again(text_of(folder / "out/study.csv"));
   const auto csv = once.csv();
   for (std::size_t k = 0; k < csv.size(); ++k) {
@@ -108,7 +114,7 @@ TEST_CASE("a study draws its picture", "[scene]") {
     WARN("not tested: python3 has no matplotlib (python3-matplotlib)");
     return;
   }
-  const StudyRun study(small_study());
+  const StudyRun& study = plain_study();
   const std::string picture = text_of(study / "out/study.png");
   CHECK_THAT(picture, Catch::StartsWith("\x89PNG"));
   CHECK(picture.size() > 10000);

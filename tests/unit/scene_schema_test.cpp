@@ -21,13 +21,17 @@ Input::Document described() {
   return document;
 }
 
+const Json& schema_of_scenes() {
+  static const Json schema = described().schema();
+  return schema;
+}
+
 /// The schemas that say something of a key: of the object itself, and of the alternatives that bring it.
 std::vector<Json> schemas_of(const Json& schema, const std::string& key) {
   std::vector<Json> found;
   if (!schema.is_object()) return found;
   if (schema.contains("$ref")) {  // a shape made of shapes
-    static const Json root = described().schema();
-    return schemas_of(root.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1))), key);
+    return schemas_of(schema_of_scenes().at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1))), key);
   }
   if (schema.contains("properties") && schema["properties"].value(key, Json(false)).is_object()) {
     found.push_back(schema["properties"][key]);
@@ -92,22 +96,21 @@ std::vector<std::string> scene_files() {
 TEST_CASE("every key of every scene is in the schema", "[unit]") {
   const std::string file = GENERATE(from_range(scene_files()));
   CAPTURE(file);
-  CHECK(unknown_keys({described().schema()}, read_json(file), "").empty());
+  CHECK(unknown_keys({schema_of_scenes()}, read_json(file), "").empty());
 }
 
 TEST_CASE("the schema does not know every key", "[unit]") {
   const Json scene = Json::parse(R"({"transfer": {"scheme": "flip", "blend": 1, "blond": 1}, "particles": [{"bal": {}}],
                                      "walls": {"x": "slip", "w": "slip"}})");
-  CHECK(unknown_keys({described().schema()}, scene, "") ==
+  CHECK(unknown_keys({schema_of_scenes()}, scene, "") ==
         std::vector<std::string>{"/transfer/blond", "/particles/0/bal", "/walls/w"});
 }
 
 TEST_CASE("the schema holds in two and in three dimensions", "[unit]") {
-  const auto schema = described().schema();
   const std::string list = GENERATE("/properties/grid/properties/low", "/properties/grid/properties/cells",
                                     "/properties/body_force", "/properties/particles/items/properties/velocity");
   CAPTURE(list);
-  const Json lengths = schema.at(Json::json_pointer(list));
+  const Json lengths = schema_of_scenes().at(Json::json_pointer(list));
   CHECK(lengths["minItems"] == 2);
   CHECK(lengths["maxItems"] == 3);
   CHECK_FALSE(lengths.contains("default"));
@@ -116,7 +119,7 @@ TEST_CASE("the schema holds in two and in three dimensions", "[unit]") {
 TEST_CASE("the defaults of the schema are those of a scene that names none", "[unit]") {
   const std::string part = GENERATE("discretization", "transfer", "integrator", "quadrature", "solver", "volume");
   CAPTURE(part);
-  const Json properties = described().schema()["properties"][part]["properties"];
+  const Json properties = schema_of_scenes().at("properties").at(part).at("properties");
   const Json echo = as_run(R"("fluid": {"density": 1000, "viscosity": 0})")[part];
   CHECK(properties["scheme"]["default"] == echo["scheme"]);
 }

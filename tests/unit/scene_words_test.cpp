@@ -140,12 +140,20 @@ std::string expression_with(const std::string& word) {
   return constants.contains(word) ? "x < 2*" + word : "x < " + word + "(y)";
 }
 
+/// Of how many words one is tried: all of them, but a sample where the sanitizers make each ten times dearer.
+#ifdef MINAMO_ADDRESS_SANITIZER
+constexpr std::size_t stride = 7;
+#else
+constexpr std::size_t stride = 1;
+#endif
+
 }  // namespace
 
 TEST_CASE("a key of another program is answered with ours, and a missing key is not told besides", "[unit]") {
   const std::vector<OtherWord> words = words_of(Of::key);
   REQUIRE(words.size() > 300);
-  for (const OtherWord& other : words) {
+  for (std::size_t k = 0; k < words.size(); k += stride) {
+    const OtherWord& other = words[k];
     const std::string word(other.word);
     const Place place = place_of(other);
     const std::string key = last_step(std::string(other.means));
