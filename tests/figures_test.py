@@ -15,6 +15,10 @@ from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "tools")]
+import figuring.__main__  # noqa: E402, F401  for call()
+from forked import call  # noqa: E402
+
 PROGRAM = os.environ["PROGRAM"]
 WORK = Path(os.environ["WORK"])
 SHORT = {"/time/end": 0.1, "/time/step": 0.005, "/output/every": 0.01}
@@ -43,8 +47,7 @@ def figures(*arguments, path=None):
     environment = os.environ | {"PYTHONPATH": str(ROOT / "tools"), "MINAMO": PROGRAM}
     if path is not None:
         environment["PATH"] = str(path)
-    return subprocess.run([sys.executable, "-P", "-B", "-m", "figuring", *map(str, arguments)], cwd=WORK, text=True,
-                          env=environment, capture_output=True, check=False)
+    return call("figuring", list(map(str, arguments)), WORK, environment)
 
 
 def size_of_png(path):

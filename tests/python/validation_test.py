@@ -1,7 +1,6 @@
 """tools/validate: its gauges and figures against hand calculation, a run with stand-ins for the data, wrong input."""
 
 import json
-import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -10,11 +9,12 @@ import numpy as np
 from support import ROOT, WORK
 
 TOOL = ROOT / "tools/validation"
-sys.path.insert(0, str(TOOL))
+sys.path[:0] = [str(TOOL), str(ROOT / "tests/support")]
 
 import figures_of as figure  # noqa: E402
 from case import Points  # noqa: E402
 from cases import CASES  # noqa: E402
+from forked import call  # noqa: E402
 from gauges import front, height  # noqa: E402
 from page import page  # noqa: E402
 from runs import scene_file, scene_of, smoothed  # noqa: E402
@@ -23,8 +23,7 @@ import minamo  # noqa: E402
 
 
 def validate(*arguments):
-    return subprocess.run([sys.executable, "-B", str(TOOL), *map(str, arguments)], capture_output=True, text=True,
-                          check=False)
+    return call(TOOL, list(map(str, arguments)))
 
 
 def stand_ins(folder):

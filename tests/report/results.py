@@ -33,8 +33,7 @@ class Results:
 
     def report(self, *arguments: object) -> subprocess.CompletedProcess[str]:
         """tools/report with these arguments, the graph drawn by the program under test."""
-        command = [sys.executable, self.source / "tools/report", "--program", self.program, *arguments]
-        return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
+        return call(self.source / "tools/report", [str(part) for part in ("--program", self.program, *arguments)])
 
     def page(self, *folders: Path, name: str = "") -> Path:
         """The page on these folders; under another name than report.html of the first folder if one is given."""
@@ -50,4 +49,7 @@ def summary(folder: Path) -> dict[str, Any]:
 
 
 RESULTS = Results(Path(os.environ["PROGRAM"]), Path(os.environ["WORK"]))
-sys.path.insert(0, str(RESULTS.source / "tools"))
+sys.path[:0] = [str(RESULTS.source / "tests/support"), str(RESULTS.source / "tools")]
+
+import reporting.page  # noqa: E402, F401  for call()
+from forked import call  # noqa: E402
