@@ -28,6 +28,14 @@ std::size_t detail::number_of_component(const ComponentType& type) {
   return type.numbered_from_1.compare_exchange_strong(none, own) ? own - 1 : none - 1;
 }
 
+void* detail::zeroed_memory(std::size_t bytes, std::size_t alignment) {
+  return std::memset(::operator new(bytes, std::align_val_t(alignment)), 0, bytes);
+}
+
+void detail::free_memory(void* memory, std::size_t alignment) {
+  ::operator delete(memory, std::align_val_t(alignment));
+}
+
 std::unique_ptr<Storage> detail::make_resource(const ComponentType& type) {
   return std::make_unique<ResourceStorage>(*type.info, *type.resource);
 }

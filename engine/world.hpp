@@ -9,6 +9,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -310,10 +311,18 @@ constexpr auto assignment_of() -> void (*)(void*, const void*) {
   }
 }
 
+/// Memory of zeros, so that bytes between the members of a resource, which checkpoints have, are always the same.
+void* zeroed_memory(std::size_t bytes, std::size_t alignment);
+void free_memory(void* memory, std::size_t alignment);
+
 template <ResourceComponent C>
 inline const ResourceType resource_type{typeid(C), bytes_are_value<C> ? sizeof(C) : 0,
-                                        []() -> void* { return new C{}; },
-                                        [](void* value) { delete static_cast<C*>(value); }, assignment_of<C>()};
+                                        []() -> void* { return new (zeroed_memory(sizeof(C), alignof(C))) C{}; },
+                                        [](void* value) {
+                                          static_cast<C*>(value)->~C();
+                                          free_memory(value, alignof(C));
+                                        },
+                                        assignment_of<C>()};
 
 }  // namespace detail
 

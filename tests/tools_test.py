@@ -72,7 +72,7 @@ class Commands(unittest.TestCase):
         facts = dict(line.split(maxsplit=1) for line in lines)
         self.assertIn("minamo", facts)
         self.assertRegex(facts["commit"], "^[0-9a-f]{40}$|^unknown: ")
-        for option in ("NATIVE", "MPI", "PYTHON", "OPENVDB", "SANITIZE", "DEVELOPER"):
+        for option in ("PROCESSOR", "MPI", "PYTHON", "OPENVDB", "SANITIZE", "DEVELOPER"):
             self.assertRegex(facts["options"], rf"\bMINAMO_{option}=\w+")
 
 
@@ -88,7 +88,7 @@ class Configuring(unittest.TestCase):
         cmake.write_text(f"#!/bin/sh\necho \"$@\" >> {self.tree}/calls\n")
         cmake.chmod(0o755)
 
-    def configure(self, home, folder, *made):
+    def configure(self, home, folder, *made, compiler="c++"):
         """What cmake is called with for a folder whose cache names these places."""
         build = self.tree / "build"
         shutil.rmtree(build, ignore_errors=True)
@@ -101,7 +101,7 @@ class Configuring(unittest.TestCase):
             (build / name).touch()
         path = f"{self.tree / 'bin'}:{os.environ['PATH']}"
         subprocess.run(["bash", "-c", f"source {self.tree}/tools/setup; configure {build} -D A=B"], check=True,
-                       env=os.environ | {"PATH": path}, stderr=subprocess.DEVNULL)
+                       env=os.environ | {"PATH": path, "CXX": compiler}, stderr=subprocess.DEVNULL)
         calls = self.tree / "calls"
         return calls.read_text() if calls.is_file() else ""
 
@@ -114,6 +114,11 @@ class Configuring(unittest.TestCase):
         self.assertEqual(self.configure("/nowhere", "/nowhere/build", "build.ninja"), "--fresh " + usual)
         self.assertEqual(self.configure(here, here / "tools", "build.ninja"), "--fresh " + usual)
         self.assertEqual(self.configure(here, build), usual)
+
+    @unittest.skipUnless(shutil.which("clang++-14"), "no clang++-14")
+    def test_the_compiler_is_clang_unless_another_is_asked_for(self):
+        self.assertIn("-D CMAKE_CXX_COMPILER=clang++-14 -D A=B", self.configure(None, None, compiler=""))
+        self.assertNotIn("clang", self.configure(None, None, compiler="g++"))
 
     def test_another_name_of_the_same_folder_is_the_same(self):
         other = self.tree / "other"

@@ -34,6 +34,12 @@ struct SameNameAsAmount {
   static constexpr ComponentInfo info{"total", "T", "1", Lifetime::state};
 };
 
+struct Padded {
+  double value = 3;
+  bool is_set = true;
+  static constexpr ComponentInfo info{"padded", "P", "1", Lifetime::state};
+};
+
 /// As a system changes a value.
 void update(World& world, std::size_t row, double height) {
   const Update<Height> h(world);
@@ -238,6 +244,19 @@ TEST_CASE("a column that is described at run time is one like all others", "[uni
   CHECK(std::vector(tag.values().begin(), tag.values().end()) == std::vector<double>{30, 10, 20});
   CHECK(world.components().at("row.tag") == &tag);
   CHECK_THROWS_AS(world.add_column<double>(info, Rows::name), std::logic_error);
+}
+
+TEST_CASE("bytes between the members of a resource are zero, whatever was in its memory before", "[unit]") {
+  for (int k = 0; k < 100; ++k) {
+    auto* const before = new std::array<unsigned char, sizeof(Padded)>;
+    before->fill(0xff);
+    delete before;
+    World world;
+    world.resource<Padded>();
+    const auto bytes = world.components().at("padded")->bytes();
+    REQUIRE(bytes.size() == sizeof(Padded));
+    for (std::size_t b = sizeof(double) + 1; b < bytes.size(); ++b) REQUIRE(bytes[b] == std::byte{0});
+  }
 }
 
 TEST_CASE("a value that owns memory has no bytes to store", "[unit]") {
