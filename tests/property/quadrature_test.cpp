@@ -177,8 +177,8 @@ TEMPLATE_TEST_CASE_SIG("where nothing is full, mixed quadrature is that of the p
 }
 
 TEST_CASE("the integral ends where dual cells hold no particle", "[property]") {
-  // One particle in the middle of every cell lies in the corner of a dual cell, that nearer to the middle of the box; the
-  // outermost are moved towards the walls: nodes one cell off a wall have none.
+  // One particle in the middle of every cell lies in the corner of a dual cell, that nearer to the middle of the box;
+  // the outermost are moved towards the walls: nodes one cell off a wall have none.
   SceneRun run(with(tank<2>(), {R"(/particles=[{"shape": {"where": "1"}, "per_cell": 1}])", "/grid/high=[0.7, 0.7]",
                                 "/grid/cells=[7, 7]"}));
   run.step();
