@@ -11,10 +11,9 @@ namespace {
 [[gnu::constructor(101)]] void require_processor() {
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return;
-  std::fputs(
-      "minamo: this program is compiled for processors with AVX2 and FMA (x86-64-v3), and this one has not both; "
-      "build it from its sources on this machine\n",
-      stderr);
+  std::fputs("minamo: this program is compiled for processors with AVX2 and FMA (x86-64-v3), and this one lacks them; "
+             "build it from its sources on this machine\n",
+             stderr);
   std::_Exit(2);
 }
 

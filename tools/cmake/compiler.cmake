@@ -26,10 +26,10 @@ set(minamo_processor_check ${PROJECT_SOURCE_DIR}/tools/processor_check.cpp)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   include(CheckCXXSourceCompiles)
   set(CMAKE_REQUIRED_FLAGS "-march=${MINAMO_PROCESSOR}")
-  check_cxx_source_compiles("#if !defined __AVX2__ || !defined __FMA__\n#error\n#endif\nint main() {}" minamo_uses_avx2)
+  check_cxx_source_compiles("#if !defined __AVX2__ || !defined __FMA__\n#error\n#endif\nint main() {}" minamo_uses_avx2_${MINAMO_PROCESSOR})
   unset(CMAKE_REQUIRED_FLAGS)
   set_source_files_properties(${minamo_processor_check} PROPERTIES COMPILE_OPTIONS -march=x86-64
-    COMPILE_DEFINITIONS "$<$<BOOL:${minamo_uses_avx2}>:MINAMO_USES_AVX2>")
+    COMPILE_DEFINITIONS "$<$<BOOL:${minamo_uses_avx2_${MINAMO_PROCESSOR}}>:MINAMO_USES_AVX2>")
 endif()
 
 # Nobody reads errno after sqrt; without it the call becomes one instruction.
