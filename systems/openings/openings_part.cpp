@@ -338,7 +338,7 @@ Contribution read_openings(Input& input, Scene& scene) {
 }
 
 /// What comes before the bodies: they extend velocities to faces that nothing holds.
-Contribution read_nothing_before_bodies(Input&, Scene&) {
+Contribution opening_faces(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
     if (!scene.facts.find<OpeningsOfScene>()) return;
     recipe.add("sort", "open_faces");
@@ -347,7 +347,7 @@ Contribution read_nothing_before_bodies(Input&, Scene&) {
 }
 
 /// What comes behind the systems of other parts in a slot.
-Contribution read_nothing(Input&, Scene&) {
+Contribution behind_openings(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
     if (!scene.facts.find<OpeningsOfScene>()) return;
     recipe.seed(number_on);
@@ -367,7 +367,7 @@ Contribution read_nothing(Input&, Scene&) {
 void add_opening_faces(SystemRegistry& registry) {
   registry.add<OpenFaces>("open_faces");
   registry.add<HoldInflow>("hold_inflow");
-  registry.add(Part{"opening_faces", "faces that openings hold, or leave open; no key", read_nothing_before_bodies});
+  registry.add(Part{"opening_faces", "faces that openings hold, or leave open; no key", opening_faces});
 }
 
 void add_openings(SystemRegistry& registry) {
@@ -387,7 +387,7 @@ void add_behind_openings(SystemRegistry& registry) {
   registry.add<LetOut>("let_out");
   registry.add<MeasureOpenings>("measure_openings");
   registry.add<MeasureOpeningsAtStart>("measure_openings_at_start");
-  registry.add(Part{"behind_openings", "pressure outside openings, what leaves, balances; no key", read_nothing});
+  registry.add(Part{"behind_openings", "pressure outside openings, what leaves, balances; no key", behind_openings});
 }
 
 }  // namespace minamo

@@ -91,7 +91,7 @@ void check_scene(const Scene& scene, SeedProblems& problems) {
     note("/solver/scheme", "not with separating walls", R"("block")", R"("umfpack")");
 }
 
-Contribution read_nothing(Input&, Scene&) {
+Contribution separating_walls(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
     if (scene.facts.find<RepeatsBalances>() == nullptr || !is_conforming(scene)) return;
     add_contact(scene, recipe);
@@ -119,8 +119,8 @@ void add_separating(SystemRegistry& registry) {
   registry.add<KeepContactOfSides>("keep_contact_of_sides");
   registry.add<StopNewVelocityAtSides>("stop_new_velocity_at_sides");
   registry.add<MeasureContact>("measure_contact");
-  registry.add(
-      Part{"separating", "walls that the liquid may leave; no key, \"wall\" and \"walls\" say which", read_nothing});
+  registry.add(Part{"separating", "walls that the liquid may leave; no key, \"wall\" and \"walls\" say which",
+                    separating_walls});
 }
 
 }  // namespace minamo
