@@ -68,7 +68,7 @@ nlohmann::json summary_with(const std::string& systems, const std::string& discr
   const std::vector<const char*> arguments{"minamo",    "run",     scene.c_str(), "--out",
                                            out.c_str(), "--steps", "60",          "--quiet"};
   spdlog::drop("minamo");  // the program makes it, once per process
-  REQUIRE(run(static_cast<int>(arguments.size()), arguments.data(), [](SystemRegistry& registry) {
+  REQUIRE(minamo::run(static_cast<int>(arguments.size()), arguments.data(), [](SystemRegistry& registry) {
             registry.add<Blow>("blow");
             registry.add<BlowAtNodes>("blow_at_nodes");
             registry.add<Kick>("kick");
