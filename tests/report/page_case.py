@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import unittest
+from functools import cache
 from pathlib import Path
 
 from browser import Browser, find_browser
@@ -34,12 +35,18 @@ REDS = """((data) => {
 })(%s)"""
 
 
+@cache
+def the_browser() -> Browser:
+    """One for all tests: its start takes longer than most of them."""
+    return unittest.enterModuleContext(Browser())
+
+
 class PageTest(unittest.TestCase):
     """Every test opens its page anew, in the one browser, and fails if the console complains."""
 
     @classmethod
     def setUpClass(cls) -> None:
-        cls.browser = cls.enterClassContext(Browser())
+        cls.browser = the_browser()
 
     def open(self, page: Path, **how: object) -> None:
         self.browser.complaints.clear()
