@@ -8,6 +8,7 @@ import subprocess
 import sys
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
 import h5py
 import numpy as np
@@ -17,7 +18,10 @@ from matplotlib.image import imread
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "tools")]
 import figuring.__main__  # noqa: E402, F401  for call()
+from figuring.layout import png  # noqa: E402
+from figuring.plots import draw_history  # noqa: E402
 from forked import call  # noqa: E402
+from reporting.runs import Run  # noqa: E402
 
 PROGRAM = os.environ["PROGRAM"]
 WORK = Path(os.environ["WORK"])
@@ -48,6 +52,12 @@ def figures(*arguments, path=None):
     if path is not None:
         environment["PATH"] = str(path)
     return call("figuring", list(map(str, arguments)), WORK, environment)
+
+
+def strips(*arguments):
+    """The same without movies and without the plots, which take half of the time: for who looks at panels alone."""
+    with patch("figuring.plots.draw_history", return_value=None), patch("figuring.plots.draw_systems", return_value=None):
+        return figures(*arguments, "--no-movie")
 
 
 def size_of_png(path):
@@ -89,6 +99,7 @@ class Figures(unittest.TestCase):
         for scene in ("dam_break_tpic", "dam_break_flip"):
             assert run_scene(f"paper/{scene}", scene, SHORT) == 0
         assert run_scene("dam_break_3d", "space", COARSE) == 0
+        png(draw_history([Run(WORK / "dam_break_tpic")]))  # fonts and signs are read once, here, not in every call
 
     def expect_files(self, done, *paths):
         self.assertEqual(done.stderr, "")
@@ -113,8 +124,8 @@ class Figures(unittest.TestCase):
         self.assertEqual((movie["codec_name"], movie["pix_fmt"]), ("h264", "yuv420p"))  # what every player shows
 
     def test_particles_are_drawn_where_they_are(self):
-        done = figures("dam_break_tpic", "--times", "0", "--field", "pressure", "--no-movie", "--out", "start")
-        self.expect_files(done, "start/pressure.png", "start/history.png", "start/systems.png")
+        done = strips("dam_break_tpic", "--times", "0", "--field", "pressure", "--out", "start")
+        self.expect_files(done, "start/pressure.png")
         panel = panel_of(WORK / "start/pressure.png")
         where = np.argwhere(np.ptp(panel, axis=2) > 0.1)
         # The column takes a quarter of the width and half of the height of the tank; particles and walls have a width.
@@ -125,8 +136,8 @@ class Figures(unittest.TestCase):
         call = ("dam_break_tpic", "dam_break_flip", "--times", "0.1", "--field", "speed")
         red = (0.84, 0.15, 0.16)
         reference = ROOT / "scenes/reference/dam_break_interfoam"
-        for out, more in (("bare", ["--no-movie"]), ("both", ["--reference", reference])):
-            self.assertEqual(figures(*call, "--out", out, *more).stderr, "")
+        self.assertEqual(strips(*call, "--out", "bare").stderr, "")
+        self.assertEqual(figures(*call, "--out", "both", "--reference", reference).stderr, "")
         self.assertFalse(close_to(imread(WORK / "bare/speed.png")[:, :, :3], red).any())
         self.assertGreater(close_to(imread(WORK / "both/speed.png")[:, :, :3], red).sum(), 200)
         self.assertEqual(int(stream_of(WORK / "both/speed.mp4")["nb_read_frames"]), 11)
@@ -157,7 +168,7 @@ class Figures(unittest.TestCase):
         ball = {"name": "ball", "shape": {"ball": {"center": [0.4, 0.05, 0.1], "radius": 0.04}}}
         assert run_scene("dam_break_3d", "ball", COARSE | {"/bodies": [ball]}) == 0
         for more in ([], ["--slice", "y=0.05"]):
-            self.assertEqual(figures("ball", "--times", "0", "--no-movie", *more).stderr, "")
+            self.assertEqual(strips("ball", "--times", "0", "--field", "speed", *more).stderr, "")
         panel = panel_of(WORK / "ball/figures/speed_y0.05.png")[5:-5, 5:-5]
         share = close_to(panel, (0.725, 0.745, 0.769), 0.01).sum() / panel.shape[0]**2
         self.assertAlmostEqual(share, np.pi * 0.04**2 / 0.584**2, delta=0.1 * share)  # its line takes 5 %
@@ -184,7 +195,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(int(stream_of(WORK / "tap/figures/speed.mp4")["nb_read_frames"]), frames_of("tap"))
         # The jet, which comes in from above, between 1/6 and 5/24 of the width, is there at the end and not before.
         for time, expected in (("0", False), ("0.3", True)):
-            self.assertEqual(figures("tap", "--times", time, "--field", "speed", "--no-movie").stderr, "")
+            self.assertEqual(strips("tap", "--times", time, "--field", "speed").stderr, "")
             panel = panel_of(WORK / "tap/figures/speed.png")
             height, width = panel.shape[:2]
             jet = panel[height // 10:height // 2, width // 6:5 * width // 24]
@@ -192,17 +203,17 @@ class Figures(unittest.TestCase):
 
     def test_frames_without_particles_are_drawn_empty(self):
         dry = {"/particles/0/shape": {"box": {"low": [0.25, 0.25], "high": [0.5, 0.5]}},
-               "/particles/0/velocity": ["u", "0"],
+               "/particles/0/velocity": ["u", "0"], "/output/every": 0.4,
                "/openings": [{"name": "right", "side": "x_high", "outflow": "free"}]}
         self.assertEqual(run_scene("uniform_stream", "dry", dry), 0)
         self.assertEqual(figures("dry", "--field", "speed").stderr, "")
-        self.assertEqual(figures("dry", "--field", "speed", "--times", "2", "--no-movie").stderr, "")
+        self.assertEqual(strips("dry", "--field", "speed", "--times", "2").stderr, "")
         panel = panel_of(WORK / "dry/figures/speed.png")
         left = panel[:, :panel.shape[1] // 2]  # beside a square panel the bar of colours is as long as a wall
         self.assertFalse((np.ptp(left, axis=2) > 0.1).any())
 
     def test_a_slice_shows_nothing_where_there_is_no_liquid(self):
-        self.assertEqual(figures("space", "--slice", "x=0.5", "--times", "0", "--no-movie", "--out", "dry").stderr, "")
+        self.assertEqual(strips("space", "--slice", "x=0.5", "--times", "0", "--out", "dry").stderr, "")
         self.assertFalse((np.ptp(panel_of(WORK / "dry/speed_x0.5.png"), axis=2) > 0.1).any())
 
     def test_a_run_that_failed_gives_figures_of_what_is_there(self):
@@ -222,7 +233,7 @@ class Figures(unittest.TestCase):
             file["particles/10/velocity"][0] = np.inf
             file["particles/10/velocity"][1] = np.nan
             file["particles/10/velocity"][2] = 1e200  # its square is beyond
-        done = figures("diverged", "--field", "speed,velocity_x", "--times", "0.1", "--no-movie")
+        done = strips("diverged", "--field", "speed,velocity_x", "--times", "0.1")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         panel = panel_of(WORK / "diverged/figures/speed.png")
         self.assertGreater(close_to(panel, (1, 0, 1)).sum(), 50)
@@ -274,7 +285,7 @@ class Figures(unittest.TestCase):
         for name in names:
             scene = json.loads((ROOT / f"scenes/{name}.json").read_text())
             cells = 40 if "rotating" in name else 16
-            scene["grid"]["cells"], scene["time"]["step"] = [cells, cells], 0.025  # frames at all times that are shown
+            scene["grid"]["cells"], scene["time"]["step"] = [cells, cells], 0.05  # frames at all times that are shown
             last = scenes / f"{Path(name).name}.json"
             last.write_text(json.dumps(scene))
         command = (call, "--scenes", scenes, "--results", results, "--out", out)
@@ -283,9 +294,11 @@ class Figures(unittest.TestCase):
             self.assertAlmostEqual(size_of_png(out / picture)[0], 1440, delta=1)
         written = {path: path.stat().st_mtime_ns for path in results.glob("*/summary.json")}
         self.assertEqual(len(written), len(names))
-        scene["time"]["step"] = 0.05
+        scene["time"]["step"] = 0.025
         last.write_text(json.dumps(scene))
-        self.assertEqual(figures(*command).returncode, 0)
+        with patch("figuring.documents.draw_strip"), patch("figuring.documents.draw_frontier"), \
+                patch("figuring.documents.png", return_value=b""):  # what is run again is asked for, not how it looks
+            self.assertEqual(figures(*command).returncode, 0)
         again = [path.parent.name for path, time in written.items() if path.stat().st_mtime_ns != time]
         self.assertEqual(again, [last.stem])
 
