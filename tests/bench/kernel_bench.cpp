@@ -30,12 +30,15 @@ struct Box {
   std::size_t per_cell;  ///< particles, on average
 };
 template <int Dim>
-constexpr Box box = Dim == 2 ? Box{100, 16} : Box{30, 8};
+Box box() {
+  if (roofline::is_quick()) return Dim == 2 ? Box{20, 16} : Box{8, 8};
+  return Dim == 2 ? Box{100, 16} : Box{30, 8};
+}
 
 /// Particles at random places with a velocity gradient, sorted, and nodes with mass and rows.
 template <int Dim>
 void fill(World& world) {
-  const auto [cells, per_cell] = box<Dim>;
+  const auto [cells, per_cell] = box<Dim>();
   auto& grid = world.resource<Grid<Dim>>();
   grid.spacing = 1.0 / cells;
   grid.cells.fill(cells);
@@ -162,13 +165,16 @@ TEST_CASE("matrices in two dimensions", "[!benchmark][roofline][assembly]") { me
 TEST_CASE("matrices in three dimensions", "[!benchmark][roofline][assembly]") { measure_matrices<3>(); }
 
 TEST_CASE("block solve in two dimensions", "[!benchmark][roofline][solve]") {
-  measure_solve<2>("paper/dam_break_tpic.json", {"/grid/cells=[160,160]", "/particles/0/per_cell=4", "/time/step=5e-4"},
+  measure_solve<2>("paper/dam_break_tpic.json",
+                   {roofline::is_quick() ? "/grid/cells=[40,40]" : "/grid/cells=[160,160]", "/particles/0/per_cell=4",
+                    "/time/step=5e-4"},
                    10);
 }
 
 TEST_CASE("block solve in three dimensions", "[!benchmark][roofline][solve]") {
   // A tolerance that the pressure of the step before does not meet.
-  measure_solve<3>(
-      "dam_break_3d.json",
-      {R"(/discretization={"scheme": "equal_order"})", R"(/solver={"scheme": "block", "tolerance": 1e-11})"}, 5);
+  std::vector<std::string> settings{R"(/discretization={"scheme": "equal_order"})",
+                                    R"(/solver={"scheme": "block", "tolerance": 1e-11})"};
+  if (roofline::is_quick()) settings.emplace_back("/grid/cells=[16,8,16]");
+  measure_solve<3>("dam_break_3d.json", settings, 5);
 }

@@ -15,6 +15,9 @@ namespace minamo::roofline {
 /// One, and two where the machine has them.
 std::vector<int> thread_counts();
 
+/// With `--benchmark-samples 1`: a look whether all of it works, on small boxes, whose figures mean nothing.
+bool is_quick();
+
 /// Median wall time of a call, over as many calls as `--benchmark-samples` says. [s]
 double median_seconds(const std::function<void()>& body);
 
