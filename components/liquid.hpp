@@ -26,9 +26,10 @@ struct NearLiquid : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.near_liquid", "w_l", "1", Lifetime::scratch};
 };
 
-/// Whether the cell whose low corner is at the site of a row lies below the surface, and then whether all cells that
-/// the faces of the row touch do. [1]
-struct Submerged : Column<Staggered, std::uint8_t> {
+/// [0]: whether the cell whose low corner is at the site of a row lies below the surface; [d + 1]: whether those that
+/// its faces reach along the axes up to d do. [1]
+template <int Dim>
+struct Submerged : Column<Staggered, std::array<std::uint8_t, static_cast<std::size_t>(Dim) + 1>> {
   static constexpr ComponentInfo info{"multiplier.submerged", "", "1", Lifetime::scratch};
 };
 

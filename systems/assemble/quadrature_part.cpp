@@ -20,7 +20,7 @@ LatticePlaces places_of(const Discretization& conforming) {
 
 /// Pressure on exact integrals over the liquid, inertia by particles.
 void add_exact_pressure(Recipe& recipe) {
-  for (const char* system : {"find_mobility", "find_pressure_acceleration", "find_liquid_surface", "find_exact_volume",
+  for (const char* system : {"find_mobility_mixed", "find_pressure_acceleration", "find_liquid_surface", "find_exact_volume",
                              "add_exact_pressure"})
     recipe.add("assemble", system);
 }

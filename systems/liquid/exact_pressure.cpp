@@ -12,6 +12,26 @@ namespace {
 constexpr double least_mass = 1e-3;
 /// Largest rho V^_f/m_f: a face that no particle is near has next to no inertia.
 constexpr double largest_ratio = 10;
+/// Froude number of a cell, h |grad v|/sqrt(h |q|), up to which forces are those of a liquid at rest, and from which on
+/// those of the particles: in a flow that strains, exact integrals are no better, and let particles gain energy.
+constexpr double still_to = 0.05;
+constexpr double moving_from = 0.2;
+
+/// 1 where the liquid is all but at rest, 0 where it moves; `fall` is h |q|.
+template <int Dim>
+double stillness(const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const Vec<Dim>> v_f,
+                 std::size_t i, Eigen::Index axis, double fall) {
+  double squares = 0;
+  for (std::size_t e = 0; e < Dim; ++e) {
+    double most = 0;
+    for (const std::int32_t j : {neighbour[2 * e], neighbour[2 * e + 1]}) {
+      if (j != staggered::none) most = std::max(most, std::abs(v_f[static_cast<std::size_t>(j)][axis] - v_f[i][axis]));
+    }
+    squares += most * most;
+  }
+  if (!(fall > 0)) return 0;
+  return std::clamp((moving_from - std::sqrt(squares / fall)) / (moving_from - still_to), 0.0, 1.0);
+}
 
 }  // namespace
 
@@ -62,7 +82,8 @@ void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Spline
 }
 
 template <int Dim>
-void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Fluid> fluid, Read<staggered::Neighbour<Dim>> neighbour,
+void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Fluid> fluid,
+                                       Read<face::Velocity<Dim>> v_f, Read<staggered::Neighbour<Dim>> neighbour,
                                        Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
                                        Read<multiplier::NearLiquid> near, Read<face::PressureAcceleration<Dim>> q_f,
                                        Optional<Read<face::Density<Dim>>> rho_f,
@@ -74,9 +95,11 @@ void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Fluid> fluid, Rea
       const std::int32_t below = neighbour[i][2 * d];
       if (mobility[i][axis] == 0 || below == staggered::none) continue;
       const double w = std::min(near[i], near[static_cast<std::size_t>(below)]);
+      const double still = stillness<Dim>(neighbour[i], v_f.span(), i, axis, grid->spacing * q_f[i].norm());
+      if (w * still == 0) continue;
       const double rho = rho_f ? rho_f[i][axis] : fluid->density;
       const double ratio = std::min(rho * volume[i][axis] * mobility[i][axis], largest_ratio);
-      predictor[i][axis] += tau * w * (ratio - 1) * q_f[i][axis];
+      predictor[i][axis] += tau * w * still * (ratio - 1) * q_f[i][axis];
     }
   });
 }

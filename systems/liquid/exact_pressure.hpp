@@ -28,10 +28,11 @@ struct FindPressureAcceleration {
 template <int Dim>
 struct AddExactPressure {
   static constexpr std::string_view doc = "(E133) pressure acts on exact integrals over the liquid";
-  void operator()(Read<Rates> rates, Read<Fluid> fluid, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
-                  Read<multiplier::NearLiquid> near, Read<face::PressureAcceleration<Dim>> q_f,
-                  Optional<Read<face::Density<Dim>>> rho_f, Update<face::Predictor<Dim>> predictor) const;
+  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<face::Velocity<Dim>> v_f,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
+                  Read<face::ExactVolume<Dim>> volume, Read<multiplier::NearLiquid> near,
+                  Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Density<Dim>>> rho_f,
+                  Update<face::Predictor<Dim>> predictor) const;
 };
 
 }  // namespace minamo

@@ -17,7 +17,7 @@ struct FindExactVolume {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<multiplier::FillFraction> phi, Optional<Read<SiteExchange>> shared,
-                  Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged> submerged,
+                  Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
                   Write<SurfaceCells<Dim>> cells, Update<face::ExactVolume<Dim>> volume) const;
 };
 

@@ -11,6 +11,12 @@ constexpr double along_plane = 4e-3;
 constexpr double tolerance = 1e-9;
 constexpr int most_iterations = 60;
 
+double power_of(double base, int exponent) {
+  double product = base;
+  for (int k = 1; k < exponent; ++k) product *= base;
+  return product;
+}
+
 }  // namespace
 
 // The share is the probability that y = -sum_d n_d (x_d - x_ld) is less than psi, x_d distributed as the spline of axis
@@ -34,7 +40,7 @@ SplineFraction<Dim>::SplineFraction(const Splines<Dim>& splines, const Index<Dim
     for (std::size_t t = 0; t < along.count; ++t) {
       const TruncatedPowers::Term& term = along.terms[t];
       const double mirrored = term.power % 2 == 0 ? -1 : 1;
-      of_axis[t] = {m * term.at, (m > 0 ? 1 : mirrored) * term.jump / std::pow(scale, term.power + 1), term.power + 1};
+      of_axis[t] = {m * term.at, (m > 0 ? 1 : mirrored) * term.jump / power_of(scale, term.power + 1), term.power + 1};
       least = std::min(least, term.at);
       most = std::max(most, term.at);
     }
