@@ -23,7 +23,12 @@ struct SurfaceNormal : Column<Staggered, Vec<Dim>> {
 
 /// 1 near multipliers that are full, 0 in spray. [1]
 struct NearLiquid : Column<Staggered, double> {
-  static constexpr ComponentInfo info{"multiplier.near_liquid", "w_l", "1", Lifetime::scratch};
+  static constexpr ComponentInfo info{"multiplier.near_liquid", "", "1", Lifetime::scratch};
+};
+
+/// The largest share w_f of exact integrals at the faces around: where there is none, nobody asks for the surface. [1]
+struct NearExact : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.near_exact", "", "1", Lifetime::scratch};
 };
 
 /// [0]: whether the cell whose low corner is at the site of a row lies below the surface; [d + 1]: whether those that
@@ -37,7 +42,14 @@ struct Submerged : Column<Staggered, std::array<std::uint8_t, static_cast<std::s
 
 namespace face {
 
-/// Integral of N_f over the liquid. [m^3; m^2 in 2-D]
+/// Share w_f with which forces of a face are those on exact integrals over the liquid. [1]
+template <int Dim>
+struct ExactShare : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"face.exact_share", "w_f", "1", Lifetime::scratch};
+};
+
+/// Volume V^_f of the liquid around a face on which pressure acts: with the share w_f the integral of N_f over the
+/// liquid, else m_f/rho_f. [m^3; m^2 in 2-D]
 template <int Dim>
 struct ExactVolume : Column<Staggered, Vec<Dim>> {
   // State, because the pressure of the last step acted on that of the last step.

@@ -20,8 +20,8 @@ LatticePlaces places_of(const Discretization& conforming) {
 
 /// Pressure on exact integrals over the liquid, inertia by particles.
 void add_exact_pressure(Recipe& recipe) {
-  for (const char* system : {"find_mobility_mixed", "find_pressure_acceleration", "find_liquid_surface", "find_exact_volume",
-                             "add_exact_pressure"})
+  for (const char* system : {"find_mobility_mixed", "find_pressure_acceleration", "find_exact_share",
+                             "find_liquid_surface", "find_exact_volume", "add_exact_pressure"})
     recipe.add("assemble", system);
 }
 
@@ -46,6 +46,7 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add<FindLiquidSurface>("find_liquid_surface");
   registry.add<FindExactVolume>("find_exact_volume");
   registry.add<FindPressureAcceleration>("find_pressure_acceleration");
+  registry.add<FindExactShare>("find_exact_share");
   registry.add<AddExactPressure>("add_exact_pressure");
   registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});

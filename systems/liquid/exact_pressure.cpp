@@ -1,6 +1,7 @@
 #include "systems/liquid/exact_pressure.hpp"
 
 #include "systems/conforming/incidence.hpp"
+#include "systems/liquid/spread.hpp"
 
 #include <cmath>
 
@@ -10,6 +11,10 @@ namespace {
 
 /// Least mass around a face of which an acceleration is told, as a share of that of a full grid.
 constexpr double least_mass = 1e-3;
+/// phi of a multiplier from which on liquid is near, and from which on it is so in full; multipliers from it.
+constexpr double liquid_from = 0.8;
+constexpr double liquid_to = 0.95;
+constexpr int liquid_reach = 2;
 /// Largest rho V^_f/m_f: a face that no particle is near has next to no inertia.
 constexpr double largest_ratio = 10;
 /// Froude number of a cell, h |grad v|/sqrt(h |q|), up to which forces are those of a liquid at rest, and from which on
@@ -82,30 +87,53 @@ void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Spline
 }
 
 template <int Dim>
-void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Fluid> fluid,
-                                       Read<face::Velocity<Dim>> v_f, Read<staggered::Neighbour<Dim>> neighbour,
-                                       Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
-                                       Read<multiplier::NearLiquid> near, Read<face::PressureAcceleration<Dim>> q_f,
+void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<staggered::Neighbour<Dim>> neighbour,
+                                     Read<multiplier::FillFraction> phi, Read<face::Mobility<Dim>> mobility,
+                                     Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f,
+                                     Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
+                                     Write<multiplier::NearExact> buffer, Write<face::ExactShare<Dim>> share) const {
+  for_each_row(phi.size(), [&](std::size_t i) { near[i] = phi[i]; });
+  spread_largest<Dim>(neighbour.span(), liquid_reach, shared, near.span(), buffer.span());
+  for_each_row(phi.size(), [&](std::size_t i) {
+    const double t = std::clamp((near[i] - liquid_from) / (liquid_to - liquid_from), 0.0, 1.0);
+    near[i] = t * t * (3 - 2 * t);
+  });
+  for_each_row(share.size(), [&](std::size_t i) {
+    const double fall = grid->spacing * q_f[i].norm();
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const std::int32_t below = neighbour[i][2 * d];
+      share[i][axis] = 0;
+      if (mobility[i][axis] == 0 || below == staggered::none) continue;
+      const double liquid = std::min(near[i], near[static_cast<std::size_t>(below)]);
+      if (liquid > 0) share[i][axis] = liquid * stillness<Dim>(neighbour[i], v_f.span(), i, axis, fall);
+    }
+  });
+  if (shared) shared->copy_from_owner(share.span());
+}
+
+template <int Dim>
+void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Fluid> fluid, Read<face::Mobility<Dim>> mobility,
+                                       Read<face::ExactShare<Dim>> share, Read<face::ExactVolume<Dim>> volume,
+                                       Read<face::PressureAcceleration<Dim>> q_f,
                                        Optional<Read<face::Density<Dim>>> rho_f,
                                        Update<face::Predictor<Dim>> predictor) const {
   const double tau = rates->velocity / rates->acceleration;
   for_each_row(predictor.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const std::int32_t below = neighbour[i][2 * d];
-      if (mobility[i][axis] == 0 || below == staggered::none) continue;
-      const double w = std::min(near[i], near[static_cast<std::size_t>(below)]);
-      const double still = stillness<Dim>(neighbour[i], v_f.span(), i, axis, grid->spacing * q_f[i].norm());
-      if (w * still == 0) continue;
+      if (share[i][axis] == 0) continue;
       const double rho = rho_f ? rho_f[i][axis] : fluid->density;
       const double ratio = std::min(rho * volume[i][axis] * mobility[i][axis], largest_ratio);
-      predictor[i][axis] += tau * w * still * (ratio - 1) * q_f[i][axis];
+      predictor[i][axis] += tau * (ratio - 1) * q_f[i][axis];
     }
   });
 }
 
 template struct FindPressureAcceleration<2>;
 template struct FindPressureAcceleration<3>;
+template struct FindExactShare<2>;
+template struct FindExactShare<3>;
 template struct AddExactPressure<2>;
 template struct AddExactPressure<3>;
 

@@ -24,13 +24,23 @@ struct FindPressureAcceleration {
                   Write<face::PressureAcceleration<Dim>> q_f) const;
 };
 
-/// (E133)  v*_f += tau w_f (rho_f V^_f/m_f - 1) q_f.
+/// (E133)  w_f: 1 where the liquid is nearly at rest, 0 where it moves, and in spray.
+template <int Dim>
+struct FindExactShare {
+  static constexpr std::string_view doc = "(E133) where forces are those on exact integrals over the liquid";
+  void operator()(Read<Grid<Dim>> grid, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                  Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
+                  Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
+                  Write<face::ExactShare<Dim>> share) const;
+};
+
+/// (E134)  v*_f += tau (rho_f V^_f/m_f - 1) q_f.
 template <int Dim>
 struct AddExactPressure {
-  static constexpr std::string_view doc = "(E133) pressure acts on exact integrals over the liquid";
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<face::Velocity<Dim>> v_f,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
-                  Read<face::ExactVolume<Dim>> volume, Read<multiplier::NearLiquid> near,
+  static constexpr std::string_view doc = "(E134) pressure acts on exact integrals over the liquid";
+  void operator()(Read<Rates> rates, Read<Fluid> fluid, Read<face::Mobility<Dim>> mobility,
+                  Read<face::ExactShare<Dim>> share, Read<face::ExactVolume<Dim>> volume,
                   Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Density<Dim>>> rho_f,
                   Update<face::Predictor<Dim>> predictor) const;
 };

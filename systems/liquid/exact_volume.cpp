@@ -62,6 +62,7 @@ struct Liquid {
   std::span<const Index<Dim>> site;
   std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
   std::span<const double> phi;
+  std::span<const double> near;
   std::span<double> psi;
   SurfaceCells<Dim>& cells;
 
@@ -71,6 +72,7 @@ struct Liquid {
 /// Whether the surface may pass a cell of a multiplier.
 template <int Dim>
 bool is_at_surface(const Liquid<Dim>& of, std::size_t i) {
+  if (!(of.near[i] > 0)) return false;
   if (!of.is_full(i)) return liquid::is_cut(of.phi[i]);
   for (std::size_t side = 0; side < 2 * Dim; ++side) {
     if (of.splines.ends_at(of.site[i], side)) continue;
@@ -122,7 +124,7 @@ void hold_measured_volume(const Liquid<Dim>& of) {
   integrate<Dim, K>(of, of.cells.multipliers, per_cell,
                     [](const auto& integrals, std::span<double> sum) { integrals.add_multipliers(sum); });
   for_each_row(of.psi.size(), [&](std::size_t i) {
-    if (!liquid::is_cut(of.phi[i])) return;
+    if (!(of.near[i] > 0) || !liquid::is_cut(of.phi[i])) return;
     double held = 0;
     typename SiteRows<Dim>::Finder find(of.cells.rows);
     for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_multiplier<Dim, K>(),
@@ -190,13 +192,16 @@ double volume_at_surface(const Liquid<Dim>& of, std::size_t i, std::size_t d, st
 }  // namespace
 
 template <int Dim>
-void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                                      Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                      Read<multiplier::FillFraction> phi, Optional<Read<SiteExchange>> shared,
-                                      Update<multiplier::SurfaceDistance> psi,
+void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                      Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                                      Read<multiplier::NearExact> near, Read<face::ExactShare<Dim>> share,
+                                      Read<face::Mobility<Dim>> mobility, Optional<Read<face::Density<Dim>>> rho_f,
+                                      Optional<Read<SiteExchange>> shared, Update<multiplier::SurfaceDistance> psi,
                                       Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells,
                                       Update<face::ExactVolume<Dim>> volume) const {
-  const Liquid<Dim> of{*grid, *splines, *rows, site.span(), neighbour.span(), phi.span(), psi.span(), *cells};
+  const Liquid<Dim> of{*grid,      *splines,    *rows,      site.span(), neighbour.span(),
+                       phi.span(), near.span(), psi.span(), *cells};
   const double cell_volume = std::pow(grid->spacing, Dim);
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
@@ -209,11 +214,17 @@ void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
     find_submerged<Dim, K>(of, submerged.span());
     for_each_row(volume.size(), [&](std::size_t i) {
       for (std::size_t d = 0; d < Dim; ++d) {
-        const double share =
+        const auto axis = static_cast<Eigen::Index>(d);
+        const double rho = rho_f ? rho_f[i][axis] : fluid->density;
+        const double of_particles = mobility[i][axis] > 0 ? 1 / (rho * mobility[i][axis]) : 0;
+        const double w = share[i][axis];
+        volume[i][axis] = of_particles;
+        if (w == 0) continue;
+        const double below =
             submerged[i][Dim] != 0
                 ? splines->face_integral(site[i], d)
                 : volume_at_surface<Dim, K>(of, i, d, d * Integrals::faces_of_direction, submerged.span());
-        volume[i][static_cast<Eigen::Index>(d)] = cell_volume * share;
+        volume[i][axis] += w * (cell_volume * below - of_particles);
       }
     });
     if (shared) shared->copy_from_owner(volume.span());

@@ -2,6 +2,9 @@
 
 #include "systems/conforming/sites_around.hpp"
 #include "systems/liquid/spline_fraction.hpp"
+#include "systems/liquid/spread.hpp"
+
+#include <cmath>
 
 namespace minamo {
 
@@ -11,11 +14,10 @@ using liquid::is_cut;
 namespace {
 
 /// Times planes are fitted to the distances around.
-constexpr int fits = 2;
-/// phi of a multiplier from which on liquid is near, and from which on it is so in full.
-constexpr double liquid_from = 0.8;
-constexpr double liquid_to = 0.95;
-constexpr int near_reach = 2;
+constexpr int fits = 1;
+
+/// psi of a surface along the grid, degree 2: a first guess.
+double distance_along_axis(double phi) { return phi < 0.5 ? std::sqrt(2 * phi) - 1 : 1 - std::sqrt(2 * (1 - phi)); }
 
 /// Differences of phi, weighed 1 2 1 across; what lies beyond walls is what is beside them.
 template <int Dim>
@@ -90,58 +92,34 @@ Vec<Dim> unit(const Vec<Dim>& slope) {
                        : Vec<Dim>(Vec<Dim>::Constant(1 / std::sqrt(static_cast<double>(Dim))));
 }
 
-/// The largest value within some steps along every axis, over rows that know each other.
-template <int Dim>
-void spread_largest(std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour, int reach,
-                    const Optional<Read<SiteExchange>>& shared, std::span<double> value, std::span<double> buffer) {
-  for (std::size_t d = 0; d < Dim; ++d) {
-    for_each_row(value.size(), [&](std::size_t i) {
-      double most = value[i];
-      for (std::size_t side = 2 * d; side < 2 * d + 2; ++side) {
-        auto j = static_cast<std::int32_t>(i);
-        for (int k = 0; k < reach; ++k) {
-          j = neighbour[static_cast<std::size_t>(j)][side];
-          if (j == staggered::none) break;
-          most = std::max(most, value[static_cast<std::size_t>(j)]);
-        }
-      }
-      buffer[i] = most;
-    });
-    for_each_row(value.size(), [&](std::size_t i) { value[i] = buffer[i]; });
-    if (shared) shared->copy_from_owner(value);
-  }
-}
-
 }  // namespace
 
 template <int Dim>
 void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                        Read<multiplier::FillFraction> phi, Optional<Read<SiteExchange>> shared,
-                                        Write<multiplier::SurfaceDistance> psi,
+                                        Read<multiplier::FillFraction> phi, Read<face::ExactShare<Dim>> share,
+                                        Optional<Read<SiteExchange>> shared, Write<multiplier::SurfaceDistance> psi,
                                         Write<multiplier::SurfaceNormal<Dim>> n_l,
-                                        Write<multiplier::NearLiquid> near) const {
-  for_each_row(phi.size(), [&](std::size_t i) { near[i] = phi[i]; });
-  spread_largest<Dim>(neighbour.span(), near_reach, shared, near.span(), psi.span());
-  for_each_row(phi.size(), [&](std::size_t i) {
-    const double t = std::clamp((near[i] - liquid_from) / (liquid_to - liquid_from), 0.0, 1.0);
-    near[i] = t * t * (3 - 2 * t);
-  });
+                                        Write<multiplier::NearExact> near) const {
+  // Of the faces that have a share of it the integrals reach K multipliers far, and planes are fitted to those around.
+  for_each_row(phi.size(), [&](std::size_t i) { near[i] = share[i].maxCoeff(); });
+  spread_largest<Dim>(neighbour.span(), splines->degree + 1, shared, near.span(), psi.span());
+  const auto is_wanted = [&](std::size_t i) { return near[i] > 0 && is_cut(phi[i]); };
   const auto find_distances = [&] {
     for_each_row(phi.size(), [&](std::size_t i) {
-      if (!is_cut(phi[i])) return;
+      if (!is_wanted(i)) return;
       psi[i] = SplineFraction<Dim>(*splines, site[i], n_l[i]).inverse(phi[i], psi[i]);
     });
     if (shared) shared->copy_from_owner(psi.span());
   };
   for_each_row(phi.size(), [&](std::size_t i) {
-    psi[i] = liquid::is_full(phi[i]) ? farthest : is_cut(phi[i]) ? phi[i] - 0.5 : -farthest;
-    n_l[i] = is_cut(phi[i]) ? unit<Dim>(slope_of_fill<Dim>(*splines, *rows, site[i], phi.span())) : Vec<Dim>::Zero();
+    psi[i] = liquid::is_full(phi[i]) ? farthest : is_cut(phi[i]) ? distance_along_axis(phi[i]) : -farthest;
+    n_l[i] = is_wanted(i) ? unit<Dim>(slope_of_fill<Dim>(*splines, *rows, site[i], phi.span())) : Vec<Dim>::Zero();
   });
   find_distances();
   for (int k = 0; k < fits; ++k) {
     for_each_row(phi.size(), [&](std::size_t i) {
-      if (!is_cut(phi[i])) return;
+      if (!is_wanted(i)) return;
       if (const auto slope = slope_of_plane<Dim>(*splines, *rows, site[i], phi.span(), psi.span()))
         n_l[i] = unit<Dim>(*slope);
     });

@@ -28,8 +28,9 @@ struct FindLiquidSurface {
   static constexpr std::string_view doc = "(E130) signed distance of multipliers from the surface";
   void operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                  Optional<Read<SiteExchange>> shared, Write<multiplier::SurfaceDistance> psi,
-                  Write<multiplier::SurfaceNormal<Dim>> n_l, Write<multiplier::NearLiquid> near) const;
+                  Read<face::ExactShare<Dim>> share, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::SurfaceDistance> psi, Write<multiplier::SurfaceNormal<Dim>> n_l,
+                  Write<multiplier::NearExact> near) const;
 };
 
 }  // namespace minamo
