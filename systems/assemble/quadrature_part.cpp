@@ -1,3 +1,4 @@
+#include "components/surface_tension.hpp"
 #include "systems/assemble/moments.hpp"
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/grid/filled_nodes.hpp"
@@ -18,18 +19,20 @@ LatticePlaces places_of(const Discretization& conforming) {
   return conforming.degree == 2 ? LatticePlaces::middle_of_parts : LatticePlaces::exact_for_splines;
 }
 
-/// Pressure on exact integrals over the liquid, inertia by particles.
+/// Pressure on exact integrals over the liquid.
 void add_exact_pressure(Recipe& recipe) {
-  for (const char* system : {"find_mobility_mixed", "find_pressure_acceleration", "find_exact_share",
-                             "find_liquid_surface", "find_exact_volume", "add_exact_pressure"})
+  for (const char* system : {"find_pressure_acceleration", "find_exact_share", "find_liquid_surface",
+                             "find_exact_volume", "add_exact_pressure"})
     recipe.add("assemble", system);
 }
 
 Contribution read_mixed(Input&, Scene& scene) {
   scene.facts.set(is_conforming(scene) ? places_of(scene.facts.get<Discretization>()) : LatticePlaces::nearer_to_walls);
   return [](const Scene& of, Recipe& recipe) {
-    if (is_conforming(of) && !of.facts.find<BodiesOfScene>()) return add_exact_pressure(recipe);
     add_systems(of, recipe, "assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
+    // Bodies have masses of faces of their own; forces of a surface under tension are those of another surface.
+    if (is_conforming(of) && !of.facts.find<BodiesOfScene>() && !of.facts.find<SurfaceTension>())
+      add_exact_pressure(recipe);
   };
 }
 

@@ -78,7 +78,7 @@ struct FindMobilityMixed {
                   Optional<Read<face::Density<Dim>>> rho_f, Write<face::Mobility<Dim>> mobility) const;
 };
 
-/// (E78)  The active multipliers and the matrix S = B m^-1 B^T between them.
+/// (E78), (E134)  The active multipliers and the matrix S = B m^-1 B^T between them.
 template <int Dim>
 struct AssembleMultipliers {
   static constexpr std::string_view doc = "(E77) (E78) active multipliers, S = B m^-1 B^T";

@@ -13,9 +13,6 @@ using liquid::is_cut;
 
 namespace {
 
-/// Times planes are fitted to the distances around.
-constexpr int fits = 1;
-
 /// psi of a surface along the grid, degree 2: a first guess.
 double distance_along_axis(double phi) { return phi < 0.5 ? std::sqrt(2 * phi) - 1 : 1 - std::sqrt(2 * (1 - phi)); }
 
@@ -117,14 +114,12 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
     n_l[i] = is_wanted(i) ? unit<Dim>(slope_of_fill<Dim>(*splines, *rows, site[i], phi.span())) : Vec<Dim>::Zero();
   });
   find_distances();
-  for (int k = 0; k < fits; ++k) {
-    for_each_row(phi.size(), [&](std::size_t i) {
-      if (!is_wanted(i)) return;
-      if (const auto slope = slope_of_plane<Dim>(*splines, *rows, site[i], phi.span(), psi.span()))
-        n_l[i] = unit<Dim>(*slope);
-    });
-    find_distances();
-  }
+  for_each_row(phi.size(), [&](std::size_t i) {
+    if (!is_wanted(i)) return;
+    if (const auto slope = slope_of_plane<Dim>(*splines, *rows, site[i], phi.span(), psi.span()))
+      n_l[i] = unit<Dim>(*slope);
+  });
+  find_distances();
 }
 
 template struct FindLiquidSurface<2>;

@@ -22,7 +22,7 @@ inline bool is_cut(double phi) { return phi > edge && phi < 1 - edge; }
 
 }  // namespace liquid
 
-/// (E130)  psi_l and n_l from phi_l; the cells that the surface passes, in which it is made to hold what was measured.
+/// (E130)  psi_l and n_l from phi_l, where faces have a share of exact integrals.
 template <int Dim>
 struct FindLiquidSurface {
   static constexpr std::string_view doc = "(E130) signed distance of multipliers from the surface";
