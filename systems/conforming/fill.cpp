@@ -16,6 +16,8 @@ template <int Dim>
 constexpr double active_from = Dim == 2 ? 0.05 : 0.1;
 /// The same under surface tension, which holds the surface together: pressure balances its force as far out as it acts.
 constexpr double active_with_tension = 0.02;
+/// And where pressure meets exact integrals over the liquid: it holds up what lies in a multiplier that has none.
+constexpr double active_in_liquid = 1e-3;
 /// Least mass of a face, as a share of that of a full grid: lighter ones only spoil the condition of S.
 constexpr double least_mass = 1e-8;
 /// |dt/2 grad v| up to which the second term of (E63) counts in full, and from which on not at all.
@@ -196,8 +198,8 @@ void AssembleMultipliers<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
     Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
     Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released,
-    Optional<Read<SurfaceTension>> tension, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
-    Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+    Optional<Read<SurfaceTension>> tension, Optional<Read<face::ExactVolume<Dim>>> liquid, Resize<Unknowns> unknowns,
+    Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
     Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
     Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
@@ -212,7 +214,7 @@ void AssembleMultipliers<Dim>::operator()(
     }
     return false;
   };
-  const double from = tension ? active_with_tension : active_from<Dim>;
+  const double from = liquid ? active_in_liquid : tension ? active_with_tension : active_from<Dim>;
   std::int32_t count = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const bool is_released = released && released[i] != 0;

@@ -6,6 +6,7 @@
 #include "components/cells.hpp"
 #include "components/contact.hpp"
 #include "components/fluids.hpp"
+#include "components/liquid.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "components/surface_tension.hpp"
@@ -77,7 +78,7 @@ struct FindMobilityMixed {
                   Optional<Read<face::Density<Dim>>> rho_f, Write<face::Mobility<Dim>> mobility) const;
 };
 
-/// (E78)  The active multipliers and the matrix S = B m^-1 B^T between them.
+/// (E78), (E134)  The active multipliers and the matrix S = B m^-1 B^T between them.
 template <int Dim>
 struct AssembleMultipliers {
   static constexpr std::string_view doc = "(E77) (E78) active multipliers, S = B m^-1 B^T";
@@ -85,10 +86,10 @@ struct AssembleMultipliers {
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
                   Read<multiplier::FillFraction> phi, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<multiplier::Released>> released, Optional<Read<SurfaceTension>> tension,
-                  Resize<Unknowns> unknowns, Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
-                  Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
-                  Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
-                  Write<unknown::NullVector> null_vector) const;
+                  Optional<Read<face::ExactVolume<Dim>>> liquid, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
+                  Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+                  Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
+                  Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const;
 };
 
 }  // namespace minamo

@@ -1,6 +1,7 @@
 #include "systems/conforming/splines.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace minamo {
 
@@ -57,6 +58,23 @@ double spread(const Knots& knots, int m, int degree) {
   return sum / (degree * (degree - 1));
 }
 
+double integral_of(const Polynomial& p) {
+  double sum = 0;
+  for (std::size_t k = 0; k < p.size(); ++k) sum += p[k] / static_cast<double>(k + 1);
+  return sum;
+}
+
+/// Derivative of an order, 0 or more, at xi.
+double derivative_of(const Polynomial& p, int order, double xi) {
+  double sum = 0;
+  for (int k = static_cast<int>(p.size()) - 1; k >= order; --k) {
+    double factor = p[static_cast<std::size_t>(k)];
+    for (int m = 0; m < order; ++m) factor *= k - m;
+    sum = sum * xi + factor;
+  }
+  return sum;
+}
+
 CellSplines make_cell(int degree, const Knots& knots) {
   CellSplines cell;
   for (int a = 0; a <= degree; ++a) {
@@ -74,6 +92,10 @@ CellSplines make_cell(int degree, const Knots& knots) {
     for (std::size_t k = 0; k < CellSplines::most; ++k) cell.across_moment[k] += square * cell.across[a][k];
   }
   cell.across_moment[2] -= 1;
+  for (std::size_t a = 0; a < CellSplines::most; ++a) {
+    cell.along_integral[a] = integral_of(cell.along[a]);
+    cell.across_integral[a] = integral_of(cell.across[a]);
+  }
   return cell;
 }
 
@@ -82,6 +104,7 @@ CellSplines make_cell(int degree, const Knots& knots) {
 SplineAxis::SplineAxis(int degree, int cells, bool periodic) : degree_(degree), cells_(cells), periodic_(periodic) {
   if (periodic) {
     kinds_ = {make_cell(degree, {degree, degree})};
+    powers_ = {truncated_powers(degree - 1)};
     return;
   }
   for (int from_low = 0; from_low < degree; ++from_low) {
@@ -89,6 +112,31 @@ SplineAxis::SplineAxis(int degree, int cells, bool periodic) : degree_(degree), 
       kinds_.push_back(make_cell(degree, {from_low, from_high}));
     }
   }
+  powers_.resize(static_cast<std::size_t>(degree * degree));
+  for (int j = 0; j < multipliers(); ++j) powers_[multiplier_kind(j)] = truncated_powers(j);
+}
+
+TruncatedPowers SplineAxis::truncated_powers(int j) const {
+  constexpr double rounding = 1e-12;
+  const double origin = place(j);
+  TruncatedPowers powers;
+  // The polynomial of the spline in a cell, zero where it does not reach.
+  const auto in_cell = [&](int cell) {
+    const int a = j - cell;
+    const bool reaches = a >= 0 && a < degree_ && (periodic_ || (cell >= 0 && cell < cells_));
+    return reaches ? of_cell(cell).across[static_cast<std::size_t>(a)] : Polynomial{};
+  };
+  for (int knot = j - degree_ + 1; knot <= j + 1; ++knot) {
+    for (int order = 0; order < degree_; ++order) {
+      const double jump = derivative_of(in_cell(knot), order, 0) - derivative_of(in_cell(knot - 1), order, 1);
+      if (std::abs(jump) > rounding) powers.terms[powers.count++] = {knot - origin, jump / width(j), order};
+    }
+  }
+  for (int cell = j - degree_ + 1; cell <= j; ++cell) {
+    const Polynomial times_x = times_linear(cell - origin, 1, in_cell(cell));
+    powers.mean += integral_of(times_x) / width(j);
+  }
+  return powers;
 }
 
 }  // namespace minamo

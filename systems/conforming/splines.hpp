@@ -36,6 +36,22 @@ struct CellSplines {
   /// xi^2.
   std::array<double, most> along_spread{};
   std::array<double, most> across_spread{};
+  /// Integrals over the cell, in units of h.
+  std::array<double, most> along_integral{};
+  std::array<double, most> across_integral{};
+};
+
+/// The spline of a multiplier along an axis as a sum of truncated powers, sum_t jump_t (x - at_t)_+^power_t/power_t!,
+/// x from its Greville point in units of h, divided by its integral.
+struct TruncatedPowers {
+  struct Term {
+    double at;
+    double jump;  ///< of the derivative of order `power` at a knot
+    int power;
+  };
+  std::array<Term, static_cast<std::size_t>(largest_degree + 1)> terms{};
+  std::size_t count = 0;
+  double mean = 0;  ///< of x
 };
 
 /// The splines of an axis. Spline number c + a is the a-th of those in cell c.
@@ -62,12 +78,27 @@ class SplineAxis {
     const int from_high = cells_ - 1 - cell < degree_ ? cells_ - 1 - cell : degree_ - 1;
     return static_cast<std::size_t>(from_low * degree_ + from_high);
   }
+  const TruncatedPowers& powers_of_multiplier(int j) const { return powers_[multiplier_kind(j)]; }
+  /// Greville point of a multiplier from the low end of the axis, in units of h.
+  double place(int j) const {
+    const int cell = j < cells_ ? j : cells_ - 1;
+    return cell + of_cell(cell).across_place[static_cast<std::size_t>(j - cell)];
+  }
   /// w_j, which is also the integral of the spline j of degree K - 1, in units of h.
   double width(int j) const { return static_cast<double>(support(j, degree_ - 1)) / degree_; }
   /// Integral of the spline i of degree K, in units of h.
   double integral(int i) const { return static_cast<double>(support(i, degree_)) / (degree_ + 1); }
 
  private:
+  /// Multipliers of one kind have the same spline.
+  std::size_t multiplier_kind(int j) const {
+    if (periodic_) return 0;
+    const int from_low = j < degree_ ? j : degree_ - 1;
+    const int from_high = multipliers() - 1 - j < degree_ ? multipliers() - 1 - j : degree_ - 1;
+    return static_cast<std::size_t>(from_low * degree_ + from_high);
+  }
+  TruncatedPowers truncated_powers(int j) const;
+
   /// How many cells the spline i of a degree covers.
   int support(int i, int degree) const {
     if (periodic_) return degree + 1;
@@ -79,7 +110,8 @@ class SplineAxis {
   int degree_ = least_degree;
   int cells_ = 0;
   bool periodic_ = false;
-  std::vector<CellSplines> kinds_;  ///< by distance of the cell from the low and from the high end, up to K - 1
+  std::vector<CellSplines> kinds_;       ///< by distance of the cell from the low and from the high end, up to K - 1
+  std::vector<TruncatedPowers> powers_;  ///< by distance of the multiplier from the ends, up to K - 1
 };
 
 /// The splines of all axes.

@@ -13,7 +13,8 @@ const std::set<std::string, std::less<>> fit{
     // add up at sites that ranks share
     "p2g_faces_pic", "p2g_faces_tpic", "p2g_faces_tpic2", "filter_faces_xpic", "filter_faces_fmpm",
     "p2g_face_acceleration_pic", "p2g_face_acceleration_tpic", "p2g_face_force", "p2g_multipliers", "find_fill",
-    "find_face_density", "rub_faces", "add_face_inertia", "fill_parts", "recover_pressure",
+    "find_face_density", "find_pressure_acceleration", "find_exact_share", "find_liquid_surface", "find_exact_volume",
+    "rub_faces", "add_face_inertia", "fill_parts", "recover_pressure",
     // over all particles or faces
     "limit_particle_shift", "count_face_force_work", "accept_step_on_faces", "measure_energy", "measure_momentum",
     "measure_max_speed", "measure_error_velocity", "measure_error_pressure", "measure_face_divergence",
@@ -30,9 +31,9 @@ const std::set<std::string, std::less<>> fit{
     "uniform_face_force", "sample_body_force", "find_cell_viscosity", "find_liquid_cells_by_multipliers",
     "find_mobility", "find_mobility_mixed", "shear_particles", "find_cell_viscosity_by_particles",
     "find_cell_viscosity_of_fluids", "keep_balance_velocity", "keep_pressure", "assemble_multipliers", "face_source",
-    "damp_face_divergence", "face_volume_source", "project_faces", "correct_faces_midpoint", "correct_faces_newmark",
-    "watch_turns_of_faces", "watch_move", "correct_faces_backward_euler", "g2p_faces_pic", "g2p_faces_flip",
-    "g2p_faces_tpic", "g2p_faces_tpic2", "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm",
+    "add_exact_pressure", "damp_face_divergence", "face_volume_source", "project_faces", "correct_faces_midpoint",
+    "correct_faces_newmark", "watch_turns_of_faces", "watch_move", "correct_faces_backward_euler", "g2p_faces_pic",
+    "g2p_faces_flip", "g2p_faces_tpic", "g2p_faces_tpic2", "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm",
     "g2p_face_acceleration_pic", "g2p_face_acceleration_tpic", "g2p_face_acceleration_apic", "limit_gradient",
     "carry_gradient_by_faces", "g2p_face_force_gradient", "advect_by_faces", "stir_particles", "gather_face_shift",
     "apply_particle_shift", "soak_velocity", "soak_gradient", "note_step"};

@@ -64,20 +64,18 @@ double step_of_bodies(const Scene& scene, World& world, double dt) {
                                                                           : dt;
 }
 
-/// (E34)  Longest step over sqrt(h/|b|); 0: any.
+/// (E34)  Longest step over sqrt(h/|b|).
 double share_of_fall(const Scene& scene) {
   constexpr double newmark = 0.125;
-  constexpr double equal_order = 1.0 / 3;
-  if (scene.schemes.at("integrator") == "newmark") return newmark;
-  return is_conforming(scene) ? 0 : equal_order;
+  constexpr double midpoint = 1.0 / 3;
+  return scene.schemes.at("integrator") == "newmark" ? newmark : midpoint;
 }
 
 }  // namespace
 
 std::optional<double> gravity_step(const Scene& scene, double largest_force) {
-  const double share = share_of_fall(scene);
-  if (share == 0 || !(largest_force > 0)) return {};
-  return share * std::sqrt(scene.grid.spacing / largest_force);
+  if (!(largest_force > 0)) return {};
+  return share_of_fall(scene) * std::sqrt(scene.grid.spacing / largest_force);
 }
 
 std::vector<std::string> warnings_of_gravity(const Scene& scene) {

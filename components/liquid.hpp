@@ -1,0 +1,83 @@
+#pragma once
+/// \file
+/// The liquid's geometry: where its surface is, and how much of every face's spline lies below it.
+
+#include "components/sites.hpp"
+#include "components/staggered.hpp"
+
+namespace minamo {
+
+namespace multiplier {
+
+/// Signed distance psi_l of the Greville point of a multiplier from the surface, positive in the liquid, in units of h;
+/// no more than 1.2 where the multiplier is full, -1.2 where it is empty. [1]
+struct SurfaceDistance : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.surface_distance", "psi_l", "1", Lifetime::scratch};
+};
+
+/// Unit normal of the surface, into the liquid, where a multiplier is neither full nor empty. [1]
+template <int Dim>
+struct SurfaceNormal : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"multiplier.surface_normal", "n_l", "1", Lifetime::scratch};
+};
+
+/// 1 near multipliers that are full, 0 in spray. [1]
+struct NearLiquid : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.near_liquid", "", "1", Lifetime::scratch};
+};
+
+/// The largest share w_f of exact integrals at the faces around: where there is none, nobody asks for the surface. [1]
+struct NearExact : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.near_exact", "", "1", Lifetime::scratch};
+};
+
+/// [0]: whether the cell whose low corner is at the site of a row lies below the surface; [d + 1]: whether those that
+/// its faces reach along the axes up to d do. [1]
+template <int Dim>
+struct Submerged : Column<Staggered, std::array<std::uint8_t, static_cast<std::size_t>(Dim) + 1>> {
+  static constexpr ComponentInfo info{"multiplier.submerged", "", "1", Lifetime::scratch};
+};
+
+}  // namespace multiplier
+
+namespace face {
+
+/// Share w_f with which forces of a face are those on exact integrals over the liquid. [1]
+template <int Dim>
+struct ExactShare : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"face.exact_share", "w_f", "1", Lifetime::scratch};
+};
+
+/// Volume V^_f of the liquid around a face on which pressure acts: with the share w_f the integral of N_f over the
+/// liquid, else m_f/rho_f. [m^3; m^2 in 2-D]
+template <int Dim>
+struct ExactVolume : Column<Staggered, Vec<Dim>> {
+  // State, because the pressure of the last step acted on that of the last step.
+  static constexpr ComponentInfo info{"face.exact_volume", "V^_f", "m^d", Lifetime::state};
+};
+
+/// Acceleration q_f by which the pressure of the last step held the liquid back. [m/s^2]
+template <int Dim>
+struct PressureAcceleration : Column<Staggered, Vec<Dim>> {
+  static constexpr ComponentInfo info{"face.pressure_acceleration", "q_f", "m/s^2", Lifetime::scratch};
+};
+
+/// Sums of pressure forces and masses over the faces next to a face, [N] and [kg].
+template <int Dim>
+struct PressureSums : Column<Staggered, std::array<double, 2 * static_cast<std::size_t>(Dim)>> {
+  static constexpr ComponentInfo info{"face.pressure_sums", "", "", Lifetime::scratch};
+};
+
+}  // namespace face
+
+/// The cells that the surface passes, and the integrals of splines over the liquid in them, in units of h^d.
+template <int Dim>
+struct SurfaceCells {
+  SiteRows<Dim> rows;               ///< by low corner
+  std::vector<Index<Dim>> cell;     ///< low corner
+  std::vector<double> multipliers;  ///< of N_l, K^d a cell, x fastest
+  std::vector<double> faces;        ///< of N_f, d (K + 1) K^(d-1) a cell, by direction, x fastest
+  static constexpr ComponentInfo info{"surface_cells", "", "1", Lifetime::scratch};
+};
+
+}  // namespace minamo

@@ -1,0 +1,140 @@
+#include "systems/liquid/exact_pressure.hpp"
+
+#include "systems/conforming/incidence.hpp"
+#include "systems/liquid/spread.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Least mass around a face of which an acceleration is told, as a share of that of a full grid.
+constexpr double least_mass = 1e-3;
+/// phi of a multiplier from which on liquid is near, and from which on it is so in full; multipliers from it.
+constexpr double liquid_from = 0.8;
+constexpr double liquid_to = 0.95;
+constexpr int liquid_reach = 2;
+/// Largest rho V^_f/m_f: a face that no particle is near has next to no inertia.
+constexpr double largest_ratio = 10;
+/// Froude number of a cell, h |grad v|/sqrt(h |q|), up to which forces are those of a liquid at rest, and from which on
+/// those of the particles: in a flow that strains, exact integrals are no better, and let particles gain energy.
+constexpr double still_to = 0.05;
+constexpr double moving_from = 0.2;
+
+/// 1 where the liquid is all but at rest, 0 where it moves; `fall` is h |q|.
+template <int Dim>
+double stillness(const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const Vec<Dim>> v_f,
+                 std::size_t i, Eigen::Index axis, double fall) {
+  double squares = 0;
+  for (std::size_t e = 0; e < Dim; ++e) {
+    double most = 0;
+    for (const std::int32_t j : {neighbour[2 * e], neighbour[2 * e + 1]}) {
+      if (j != staggered::none) most = std::max(most, std::abs(v_f[static_cast<std::size_t>(j)][axis] - v_f[i][axis]));
+    }
+    squares += most * most;
+  }
+  if (!(fall > 0)) return 0;
+  return std::clamp((moving_from - std::sqrt(squares / fall)) / (moving_from - still_to), 0.0, 1.0);
+}
+
+}  // namespace
+
+template <int Dim>
+void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                               Read<staggered::Site<Dim>> site,
+                                               Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+                                               Read<multiplier::Force> lambda, Read<face::ExactVolume<Dim>> volume,
+                                               Optional<Read<face::Density<Dim>>> rho_f,
+                                               Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
+                                               Write<face::PressureAcceleration<Dim>> q_f) const {
+  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const auto at_multiplier = [&](std::size_t l) { return lambda[l]; };
+  for_each_row(sums.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const bool is_held = (held[i] & (1U << d)) != 0;
+      const double rho = rho_f ? rho_f[i][axis] : fluid->density;
+      sums[i][d] = is_held ? 0 : -incidence.gradient(i, d, at_multiplier);
+      sums[i][Dim + d] = is_held ? 0 : rho * volume[i][axis];
+    }
+  });
+  // Axis by axis over the faces next to a face.
+  for (std::size_t e = 0; e < Dim; ++e) {
+    if (shared) shared->copy_from_owner(sums.span());
+    const auto with_neighbours = [&](std::size_t i, std::size_t k) {
+      double sum = sums[i][k];
+      const std::int32_t below = neighbour[i][2 * e];
+      const std::int32_t above = neighbour[i][2 * e + 1];
+      const double low = below == staggered::none ? 0 : sums[static_cast<std::size_t>(below)][k];
+      const double high = above == staggered::none ? 0 : sums[static_cast<std::size_t>(above)][k];
+      return sum + (low + high);
+    };
+    for (std::size_t half = 0; half < 2; ++half) {
+      for_each_row(q_f.size(), [&](std::size_t i) {
+        for (std::size_t d = 0; d < Dim; ++d) q_f[i][static_cast<Eigen::Index>(d)] = with_neighbours(i, half * Dim + d);
+      });
+      for_each_row(q_f.size(), [&](std::size_t i) {
+        for (std::size_t d = 0; d < Dim; ++d) sums[i][half * Dim + d] = q_f[i][static_cast<Eigen::Index>(d)];
+      });
+    }
+  }
+  const double least = least_mass * fluid->density * std::pow(grid->spacing, Dim);
+  for_each_row(q_f.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d)
+      q_f[i][static_cast<Eigen::Index>(d)] = sums[i][Dim + d] > least ? sums[i][d] / sums[i][Dim + d] : 0;
+  });
+}
+
+template <int Dim>
+void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<staggered::Neighbour<Dim>> neighbour,
+                                     Read<multiplier::FillFraction> phi, Read<face::Mobility<Dim>> mobility,
+                                     Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f,
+                                     Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
+                                     Write<multiplier::NearExact> buffer, Write<face::ExactShare<Dim>> share) const {
+  for_each_row(phi.size(), [&](std::size_t i) { near[i] = phi[i]; });
+  spread_largest<Dim>(neighbour.span(), liquid_reach, shared, near.span(), buffer.span());
+  for_each_row(phi.size(), [&](std::size_t i) {
+    const double t = std::clamp((near[i] - liquid_from) / (liquid_to - liquid_from), 0.0, 1.0);
+    near[i] = t * t * (3 - 2 * t);
+  });
+  for_each_row(share.size(), [&](std::size_t i) {
+    const double fall = grid->spacing * q_f[i].norm();
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      const std::int32_t below = neighbour[i][2 * d];
+      share[i][axis] = 0;
+      if (mobility[i][axis] == 0 || below == staggered::none) continue;
+      const double liquid = std::min(near[i], near[static_cast<std::size_t>(below)]);
+      if (liquid > 0) share[i][axis] = liquid * stillness<Dim>(neighbour[i], v_f.span(), i, axis, fall);
+    }
+  });
+  if (shared) shared->copy_from_owner(share.span());
+}
+
+template <int Dim>
+void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Fluid> fluid, Read<face::Mobility<Dim>> mobility,
+                                       Read<face::ExactShare<Dim>> share, Read<face::ExactVolume<Dim>> volume,
+                                       Read<face::PressureAcceleration<Dim>> q_f,
+                                       Optional<Read<face::Density<Dim>>> rho_f,
+                                       Update<face::Predictor<Dim>> predictor) const {
+  const double tau = rates->velocity / rates->acceleration;
+  for_each_row(predictor.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      if (share[i][axis] == 0) continue;
+      const double rho = rho_f ? rho_f[i][axis] : fluid->density;
+      const double ratio = std::min(rho * volume[i][axis] * mobility[i][axis], largest_ratio);
+      predictor[i][axis] += tau * (ratio - 1) * q_f[i][axis];
+    }
+  });
+}
+
+template struct FindPressureAcceleration<2>;
+template struct FindPressureAcceleration<3>;
+template struct FindExactShare<2>;
+template struct FindExactShare<3>;
+template struct AddExactPressure<2>;
+template struct AddExactPressure<3>;
+
+}  // namespace minamo

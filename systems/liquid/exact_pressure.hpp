@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// What the balances of faces get so that pressure meets exact integrals over the liquid while inertia stays with the
+/// particles: water at rest then rests, whatever the angle of its surface.
+
+#include "components/fluids.hpp"
+#include "components/liquid.hpp"
+#include "components/staggered.hpp"
+#include "components/step.hpp"
+#include "engine/system.hpp"
+#include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
+
+namespace minamo {
+
+/// (E132)  q_f = -sum_g (B^T lambda)_g/sum_g rho_g V^_g of the last step, over the faces g around f.
+template <int Dim>
+struct FindPressureAcceleration {
+  static constexpr std::string_view doc = "(E132) acceleration by which the pressure of the last step acted";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<multiplier::Force> lambda,
+                  Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Density<Dim>>> rho_f,
+                  Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
+                  Write<face::PressureAcceleration<Dim>> q_f) const;
+};
+
+/// (E133)  w_f: 1 where the liquid is nearly at rest, 0 where it moves, and in spray.
+template <int Dim>
+struct FindExactShare {
+  static constexpr std::string_view doc = "(E133) where forces are those on exact integrals over the liquid";
+  void operator()(Read<Grid<Dim>> grid, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                  Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
+                  Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
+                  Write<face::ExactShare<Dim>> share) const;
+};
+
+/// (E134)  v*_f += tau (rho_f V^_f/m_f - 1) q_f.
+template <int Dim>
+struct AddExactPressure {
+  static constexpr std::string_view doc = "(E134) pressure acts on exact integrals over the liquid";
+  void operator()(Read<Rates> rates, Read<Fluid> fluid, Read<face::Mobility<Dim>> mobility,
+                  Read<face::ExactShare<Dim>> share, Read<face::ExactVolume<Dim>> volume,
+                  Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Density<Dim>>> rho_f,
+                  Update<face::Predictor<Dim>> predictor) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,237 @@
+#include "systems/liquid/exact_volume.hpp"
+
+#include "systems/liquid/cell_integrals.hpp"
+#include "systems/liquid/liquid_surface.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Share of what a multiplier lacks of its measured volume by which the surface is moved. With all of it waves of two
+/// cells feel too much force, and water at rest becomes unstable.
+constexpr double correction = 0.5;
+constexpr double largest_correction = 0.2;
+/// Least area of the surface in a multiplier, in units of h^(d-1): where it leaves, a small move would be a large one.
+constexpr double least_area = 0.25;
+constexpr std::size_t cells_per_task = 16;
+
+/// Calls use(cell, place) for the cells of the grid that a spline of a site reaches, `extent` cells along every axis;
+/// `place` is that of the spline among those of the cell.
+template <int Dim, class Use>
+void for_each_cell_of(const Splines<Dim>& splines, const Index<Dim>& site, const Index<Dim>& extent, const Use& use) {
+  std::size_t count = 1;
+  for (const int of_axis : extent) count *= static_cast<std::size_t>(of_axis);
+  for (std::size_t place = 0; place < count; ++place) {
+    Index<Dim> cell;
+    bool is_there = true;
+    std::size_t rest = place;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const SplineAxis& axis = splines.axis[d];
+      const auto of_axis = static_cast<std::size_t>(extent[d]);
+      cell[d] = site[d] - static_cast<int>(rest % of_axis);
+      rest /= of_axis;
+      if (axis.periodic() && cell[d] < 0) cell[d] += axis.cells();
+      is_there = is_there && cell[d] >= 0 && cell[d] < axis.cells();
+    }
+    if (is_there) use(cell, place);
+  }
+}
+
+/// How many cells the spline of a multiplier reaches, and that of a face of direction d.
+template <int Dim, int K>
+Index<Dim> extent_of_multiplier() {
+  Index<Dim> extent;
+  extent.fill(K);
+  return extent;
+}
+template <int Dim, int K>
+Index<Dim> extent_of_face(std::size_t d) {
+  Index<Dim> extent = extent_of_multiplier<Dim, K>();
+  extent[d] = K + 1;
+  return extent;
+}
+
+/// The columns of a step that the functions below share.
+template <int Dim>
+struct Liquid {
+  const Grid<Dim>& grid;
+  const Splines<Dim>& splines;
+  const StaggeredIndex<Dim>& rows;
+  std::span<const Index<Dim>> site;
+  std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
+  std::span<const double> phi;
+  std::span<const double> near;
+  std::span<double> psi;
+  SurfaceCells<Dim>& cells;
+
+  bool is_full(std::size_t i) const { return liquid::is_full(phi[i]); }
+};
+
+/// Whether the surface may pass a cell of a multiplier.
+template <int Dim>
+bool is_at_surface(const Liquid<Dim>& of, std::size_t i) {
+  if (!(of.near[i] > 0)) return false;
+  if (!of.is_full(i)) return liquid::is_cut(of.phi[i]);
+  for (std::size_t side = 0; side < 2 * Dim; ++side) {
+    if (of.splines.ends_at(of.site[i], side)) continue;
+    const std::int32_t j = of.neighbour[i][side];
+    if (j == staggered::none || !of.is_full(static_cast<std::size_t>(j))) return true;
+  }
+  return false;
+}
+
+template <int Dim, int K>
+void find_surface_cells(const Liquid<Dim>& of) {
+  Index<Dim> extent;
+  for (std::size_t d = 0; d < Dim; ++d) extent[d] = of.splines.axis[d].cells();
+  of.cells.rows.start(extent);
+  for (std::size_t i = 0; i < of.psi.size(); ++i) {
+    if (!of.splines.has_multiplier(of.site[i]) || !is_at_surface(of, i)) continue;
+    for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_multiplier<Dim, K>(),
+                          [&](const Index<Dim>& cell, std::size_t) { of.cells.rows.add(cell); });
+  }
+  of.cells.cell.resize(of.cells.rows.number_rows());
+  of.cells.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { of.cells.cell[c] = at; });
+}
+
+/// Calls add(integrals, their sums) for every cell at the surface.
+template <int Dim, int K, class Add>
+void integrate(const Liquid<Dim>& of, std::vector<double>& sums, std::size_t per_cell, const Add& add) {
+  const std::size_t count = of.cells.cell.size();
+  sums.assign(count * per_cell, 0);
+  for_each_row(
+      count,
+      [&](std::size_t c) {
+        std::array<double, CellIntegrals<Dim, K>::multipliers> psi;
+        typename SiteRows<Dim>::Finder find(of.rows);
+        std::size_t m = 0;
+        for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
+          const auto row = find(of.splines.site(of.cells.cell[c], offset));
+          psi[m++] = row ? of.psi[*row] : -liquid::farthest;
+        });
+        const CellFrame<Dim> frame(of.grid, of.splines, of.cells.cell[c]);
+        add(CellIntegrals<Dim, K>(frame, psi), std::span(sums).subspan(c * per_cell, per_cell));
+      },
+      cells_per_task);
+}
+
+/// (E131)  psi_l += omega (phi_l - int N_l/V_l)/max(1/4, 1 - |psi_l|).
+template <int Dim, int K>
+void hold_measured_volume(const Liquid<Dim>& of) {
+  constexpr std::size_t per_cell = CellIntegrals<Dim, K>::multipliers;
+  integrate<Dim, K>(of, of.cells.multipliers, per_cell,
+                    [](const auto& integrals, std::span<double> sum) { integrals.add_multipliers(sum); });
+  for_each_row(of.psi.size(), [&](std::size_t i) {
+    if (!(of.near[i] > 0) || !liquid::is_cut(of.phi[i])) return;
+    double held = 0;
+    typename SiteRows<Dim>::Finder find(of.cells.rows);
+    for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_multiplier<Dim, K>(),
+                          [&](const Index<Dim>& cell, std::size_t place) {
+                            held += of.cells.multipliers[*find(cell) * per_cell + place];
+                          });
+    const double lack = of.phi[i] - held / of.splines.widths(of.site[i]);
+    const double move = lack / std::max(least_area, 1 - std::abs(of.psi[i]));
+    of.psi[i] += correction * std::clamp(move, -largest_correction, largest_correction);
+  });
+}
+
+/// Which cells lie below the surface, and of which rows all cells that their faces reach do.
+template <int Dim, int K>
+void find_submerged(const Liquid<Dim>& of, std::span<typename multiplier::Submerged<Dim>::value_type> submerged) {
+  for_each_row(submerged.size(), [&](std::size_t i) {
+    bool is_cell = true;
+    for (std::size_t d = 0; d < Dim; ++d) is_cell = is_cell && of.site[i][d] < of.splines.axis[d].cells();
+    typename SiteRows<Dim>::Finder find(of.cells.rows);
+    submerged[i][0] = !is_cell || (of.is_full(i) && !find(of.site[i]));
+  });
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const SplineAxis& axis = of.splines.axis[d];
+    for_each_row(submerged.size(), [&](std::size_t i) {
+      std::uint8_t all = submerged[i][d];
+      std::size_t row = i;
+      for (int k = 0; k < K && all != 0 && (axis.periodic() || of.site[row][d] > 0); ++k) {
+        const std::int32_t below = of.neighbour[row][2 * d];
+        row = static_cast<std::size_t>(below);
+        all = below == staggered::none ? 0 : submerged[row][d];
+      }
+      submerged[i][d + 1] = all;
+    });
+  }
+}
+
+/// Integral of N_f over what of its cells is liquid, in units of h^d; `place` is that of the first face of its
+/// direction among the integrals of a cell.
+template <int Dim, int K>
+double volume_at_surface(const Liquid<Dim>& of, std::size_t i, std::size_t d, std::size_t place,
+                         std::span<const typename multiplier::Submerged<Dim>::value_type> submerged) {
+  constexpr std::size_t per_cell = CellIntegrals<Dim, K>::faces;
+  typename SiteRows<Dim>::Finder find_surface(of.cells.rows);
+  typename SiteRows<Dim>::Finder find_site(of.rows);
+  double sum = 0;
+  for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_face<Dim, K>(d), [&](const Index<Dim>& cell, std::size_t m) {
+    if (const auto c = find_surface(cell)) {
+      sum += of.cells.faces[*c * per_cell + place + m];
+      return;
+    }
+    const auto row = find_site(cell);
+    if (!row || submerged[*row][0] == 0) return;
+    double full = 1;
+    for (std::size_t e = 0; e < Dim; ++e) {
+      const CellSplines& splines = of.splines.axis[e].of_cell(cell[e]);
+      const int a = of.site[i][e] - cell[e];
+      const auto from_low = static_cast<std::size_t>(a < 0 ? a + of.splines.axis[e].cells() : a);
+      full *= e == d ? splines.along_integral[from_low] : splines.across_integral[from_low];
+    }
+    sum += full;
+  });
+  return sum;
+}
+
+}  // namespace
+
+template <int Dim>
+void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                      Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                                      Read<multiplier::NearExact> near, Read<face::ExactShare<Dim>> share,
+                                      Read<face::Mobility<Dim>> mobility, Optional<Read<face::Density<Dim>>> rho_f,
+                                      Optional<Read<SiteExchange>> shared, Update<multiplier::SurfaceDistance> psi,
+                                      Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells,
+                                      Update<face::ExactVolume<Dim>> volume) const {
+  const Liquid<Dim> of{*grid,      *splines,    *rows,      site.span(), neighbour.span(),
+                       phi.span(), near.span(), psi.span(), *cells};
+  const double cell_volume = std::pow(grid->spacing, Dim);
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    using Integrals = CellIntegrals<Dim, K>;
+    find_surface_cells<Dim, K>(of);
+    hold_measured_volume<Dim, K>(of);
+    if (shared) shared->copy_from_owner(psi.span());
+    integrate<Dim, K>(of, cells->faces, Integrals::faces,
+                      [](const auto& integrals, std::span<double> sum) { integrals.add_faces(sum); });
+    find_submerged<Dim, K>(of, submerged.span());
+    for_each_row(volume.size(), [&](std::size_t i) {
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const auto axis = static_cast<Eigen::Index>(d);
+        const double rho = rho_f ? rho_f[i][axis] : fluid->density;
+        const double of_particles = mobility[i][axis] > 0 ? 1 / (rho * mobility[i][axis]) : 0;
+        const double w = share[i][axis];
+        volume[i][axis] = of_particles;
+        if (w == 0) continue;
+        const double below =
+            submerged[i][Dim] != 0
+                ? splines->face_integral(site[i], d)
+                : volume_at_surface<Dim, K>(of, i, d, d * Integrals::faces_of_direction, submerged.span());
+        volume[i][axis] += w * (cell_volume * below - of_particles);
+      }
+    });
+    if (shared) shared->copy_from_owner(volume.span());
+  });
+}
+
+template struct FindExactVolume<2>;
+template struct FindExactVolume<3>;
+
+}  // namespace minamo

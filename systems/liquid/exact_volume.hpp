@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// How much of every face's spline is in the liquid, exactly below the surface that multipliers tell.
+
+#include "components/fluids.hpp"
+#include "components/liquid.hpp"
+#include "components/staggered.hpp"
+#include "engine/system.hpp"
+#include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
+
+namespace minamo {
+
+/// The cells that the surface passes;  (E131)  psi_l so that they hold more of what was measured, and V^_f.
+template <int Dim>
+struct FindExactVolume {
+  static constexpr std::string_view doc = "(E131) integrals of N_f over the liquid";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                  Read<multiplier::FillFraction> phi, Read<multiplier::NearExact> near,
+                  Read<face::ExactShare<Dim>> share, Read<face::Mobility<Dim>> mobility,
+                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+                  Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
+                  Write<SurfaceCells<Dim>> cells, Update<face::ExactVolume<Dim>> volume) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,128 @@
+#include "systems/liquid/liquid_surface.hpp"
+
+#include "systems/conforming/sites_around.hpp"
+#include "systems/liquid/spline_fraction.hpp"
+#include "systems/liquid/spread.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+using liquid::farthest;
+using liquid::is_cut;
+
+namespace {
+
+/// psi of a surface along the grid, degree 2: a first guess.
+double distance_along_axis(double phi) { return phi < 0.5 ? std::sqrt(2 * phi) - 1 : 1 - std::sqrt(2 * (1 - phi)); }
+
+/// Differences of phi, weighed 1 2 1 across; what lies beyond walls is what is beside them.
+template <int Dim>
+Vec<Dim> slope_of_fill(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows, const Index<Dim>& site,
+                       std::span<const double> phi) {
+  Vec<Dim> slope = Vec<Dim>::Zero();
+  typename SiteRows<Dim>::Finder find(rows);
+  for (std::size_t k = 0; k < power(3, Dim); ++k) {
+    Index<Dim> other;
+    Index<Dim> steps;
+    double weight = 1;
+    std::size_t rest = k;
+    for (std::size_t d = 0; d < Dim; ++d, rest /= 3) {
+      steps[d] = static_cast<int>(rest % 3) - 1;
+      weight *= steps[d] == 0 ? 2 : 1;
+      const SplineAxis& axis = splines.axis[d];
+      const int count = axis.multipliers();
+      other[d] = site[d] + steps[d];
+      other[d] = axis.periodic() ? (other[d] + count) % count : std::clamp(other[d], 0, count - 1);
+    }
+    const auto row = find(other);
+    if (!row) continue;
+    for (std::size_t d = 0; d < Dim; ++d) slope[static_cast<Eigen::Index>(d)] += steps[d] * weight * phi[*row];
+  }
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const bool at_wall = splines.ends_at(site, 2 * d) || splines.ends_at(site, 2 * d + 1);
+    if (at_wall) slope[static_cast<Eigen::Index>(d)] *= 2;
+  }
+  return slope;
+}
+
+/// Slope of the plane nearest to the distances of multipliers around that are cut; none if they lie on one line.
+template <int Dim>
+std::optional<Vec<Dim>> slope_of_plane(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
+                                       const Index<Dim>& site, std::span<const double> phi,
+                                       std::span<const double> psi) {
+  double sum = 0;
+  double sum_psi = 0;
+  Vec<Dim> sum_x = Vec<Dim>::Zero();
+  Mat<Dim> squares = Mat<Dim>::Zero();
+  Vec<Dim> products = Vec<Dim>::Zero();
+  for_each_row_around<Dim, 1>(
+      splines, rows, site, [&](std::uint32_t row, const Index<Dim>& other, const Index<Dim>& steps) {
+        if (!is_cut(phi[row])) return;
+        Vec<Dim> x;
+        for (std::size_t d = 0; d < Dim; ++d) {
+          const SplineAxis& axis = splines.axis[d];
+          x[static_cast<Eigen::Index>(d)] = axis.periodic() ? steps[d] : axis.place(other[d]) - axis.place(site[d]);
+        }
+        const double weight = 4 * phi[row] * (1 - phi[row]) / (0.25 + x.squaredNorm());
+        sum += weight;
+        sum_psi += weight * psi[row];
+        sum_x += weight * x;
+        squares += weight * x * x.transpose();
+        products += weight * psi[row] * x;
+      });
+  squares -= sum_x * sum_x.transpose() / sum;
+  products -= sum_psi / sum * sum_x;
+  constexpr double flat = 1e-6;
+  double full = 1;
+  for (int d = 0; d < Dim; ++d) full *= sum;
+  if (squares.determinant() <= flat * full) return {};
+  return Vec<Dim>(squares.inverse() * products);
+}
+
+/// Without a slope all directions are alike, and so in the mirror.
+template <int Dim>
+Vec<Dim> unit(const Vec<Dim>& slope) {
+  constexpr double none = 1e-6;
+  const double length = slope.norm();
+  return length > none ? Vec<Dim>(slope / length)
+                       : Vec<Dim>(Vec<Dim>::Constant(1 / std::sqrt(static_cast<double>(Dim))));
+}
+
+}  // namespace
+
+template <int Dim>
+void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
+                                        Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                        Read<multiplier::FillFraction> phi, Read<face::ExactShare<Dim>> share,
+                                        Optional<Read<SiteExchange>> shared, Write<multiplier::SurfaceDistance> psi,
+                                        Write<multiplier::SurfaceNormal<Dim>> n_l,
+                                        Write<multiplier::NearExact> near) const {
+  // Of the faces that have a share of it the integrals reach K multipliers far, and planes are fitted to those around.
+  for_each_row(phi.size(), [&](std::size_t i) { near[i] = share[i].maxCoeff(); });
+  spread_largest<Dim>(neighbour.span(), splines->degree + 1, shared, near.span(), psi.span());
+  const auto is_wanted = [&](std::size_t i) { return near[i] > 0 && is_cut(phi[i]); };
+  const auto find_distances = [&] {
+    for_each_row(phi.size(), [&](std::size_t i) {
+      if (!is_wanted(i)) return;
+      psi[i] = SplineFraction<Dim>(*splines, site[i], n_l[i]).inverse(phi[i], psi[i]);
+    });
+    if (shared) shared->copy_from_owner(psi.span());
+  };
+  for_each_row(phi.size(), [&](std::size_t i) {
+    psi[i] = liquid::is_full(phi[i]) ? farthest : is_cut(phi[i]) ? distance_along_axis(phi[i]) : -farthest;
+    n_l[i] = is_wanted(i) ? unit<Dim>(slope_of_fill<Dim>(*splines, *rows, site[i], phi.span())) : Vec<Dim>::Zero();
+  });
+  find_distances();
+  for_each_row(phi.size(), [&](std::size_t i) {
+    if (!is_wanted(i)) return;
+    if (const auto slope = slope_of_plane<Dim>(*splines, *rows, site[i], phi.span(), psi.span()))
+      n_l[i] = unit<Dim>(*slope);
+  });
+  find_distances();
+}
+
+template struct FindLiquidSurface<2>;
+template struct FindLiquidSurface<3>;
+
+}  // namespace minamo

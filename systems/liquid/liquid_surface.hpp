@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// Where the surface of the liquid is: signed distances of multipliers, from how full they are.
+
+#include "components/liquid.hpp"
+#include "components/staggered.hpp"
+#include "engine/system.hpp"
+#include "systems/conforming/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
+
+namespace minamo {
+
+namespace liquid {
+
+/// A multiplier is full above 1 - `edge` and empty below `edge`: nearer to either, the noise of particles moves the
+/// surface by more than it is worth.
+inline constexpr double edge = 1e-3;
+/// |psi_l| of those that are full or empty.
+inline constexpr double farthest = 1.2;
+inline bool is_full(double phi) { return phi >= 1 - edge; }
+inline bool is_cut(double phi) { return phi > edge && phi < 1 - edge; }
+
+}  // namespace liquid
+
+/// (E130)  psi_l and n_l from phi_l, where faces have a share of exact integrals.
+template <int Dim>
+struct FindLiquidSurface {
+  static constexpr std::string_view doc = "(E130) signed distance of multipliers from the surface";
+  void operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                  Read<face::ExactShare<Dim>> share, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::SurfaceDistance> psi, Write<multiplier::SurfaceNormal<Dim>> n_l,
+                  Write<multiplier::NearExact> near) const;
+};
+
+}  // namespace minamo
