@@ -1,5 +1,6 @@
 #include "systems/liquid/exact_pressure.hpp"
 
+#include "systems/conforming/face_density.hpp"
 #include "systems/conforming/incidence.hpp"
 #include "systems/liquid/spread.hpp"
 
@@ -49,14 +50,14 @@ void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Spline
                                                Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
                                                Write<face::PressureAcceleration<Dim>> q_f) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   const auto at_multiplier = [&](std::size_t l) { return lambda[l]; };
   for_each_row(sums.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const bool is_held = (held[i] & (1U << d)) != 0;
-      const double rho = rho_f ? rho_f[i][axis] : fluid->density;
       sums[i][d] = is_held ? 0 : -incidence.gradient(i, d, at_multiplier);
-      sums[i][Dim + d] = is_held ? 0 : rho * volume[i][axis];
+      sums[i][Dim + d] = is_held ? 0 : rho.at(i, axis) * volume[i][axis];
     }
   });
   // Axis by axis over the faces next to a face.
@@ -119,12 +120,12 @@ void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Fluid> fluid, Rea
                                        Optional<Read<face::Density<Dim>>> rho_f,
                                        Update<face::Predictor<Dim>> predictor) const {
   const double tau = rates->velocity / rates->acceleration;
+  const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   for_each_row(predictor.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       if (share[i][axis] == 0) continue;
-      const double rho = rho_f ? rho_f[i][axis] : fluid->density;
-      const double ratio = std::min(rho * volume[i][axis] * mobility[i][axis], largest_ratio);
+      const double ratio = std::min(rho.at(i, axis) * volume[i][axis] * mobility[i][axis], largest_ratio);
       predictor[i][axis] += tau * (ratio - 1) * q_f[i][axis];
     }
   });

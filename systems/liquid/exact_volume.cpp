@@ -1,5 +1,6 @@
 #include "systems/liquid/exact_volume.hpp"
 
+#include "systems/conforming/face_density.hpp"
 #include "systems/liquid/cell_integrals.hpp"
 #include "systems/liquid/liquid_surface.hpp"
 
@@ -202,6 +203,7 @@ void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
                                       Update<face::ExactVolume<Dim>> volume) const {
   const Liquid<Dim> of{*grid,      *splines,    *rows,      site.span(), neighbour.span(),
                        phi.span(), near.span(), psi.span(), *cells};
+  const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   const double cell_volume = std::pow(grid->spacing, Dim);
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
@@ -215,8 +217,7 @@ void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
     for_each_row(volume.size(), [&](std::size_t i) {
       for (std::size_t d = 0; d < Dim; ++d) {
         const auto axis = static_cast<Eigen::Index>(d);
-        const double rho = rho_f ? rho_f[i][axis] : fluid->density;
-        const double of_particles = mobility[i][axis] > 0 ? 1 / (rho * mobility[i][axis]) : 0;
+        const double of_particles = mobility[i][axis] > 0 ? 1 / (rho.at(i, axis) * mobility[i][axis]) : 0;
         const double w = share[i][axis];
         volume[i][axis] = of_particles;
         if (w == 0) continue;
