@@ -26,18 +26,36 @@ void add_exact_pressure(Recipe& recipe) {
     recipe.add("assemble", system);
 }
 
+void set_places(Scene& scene, LatticePlaces of_equal_order) {
+  scene.facts.set(is_conforming(scene) ? places_of(scene.facts.get<Discretization>()) : of_equal_order);
+}
+
 Contribution read_mixed(Input&, Scene& scene) {
-  scene.facts.set(is_conforming(scene) ? places_of(scene.facts.get<Discretization>()) : LatticePlaces::nearer_to_walls);
+  set_places(scene, LatticePlaces::nearer_to_walls);
+  return adds_systems("assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
+}
+
+/// What has masses of faces or forces at the surface of its own.
+void check_exact(const Scene& scene, SeedProblems& problems) {
+  const auto note = [&](const char* what) {
+    problems.note("/quadrature/scheme", "not with this scene", R"("mixed")", std::string(R"("exact" with )") + what);
+  };
+  if (!is_conforming(scene)) note("equal_order");
+  if (scene.facts.find<BodiesOfScene>()) note("bodies");
+  if (scene.facts.find<SurfaceTension>()) note("surface_tension");
+}
+
+Contribution read_exact(Input&, Scene& scene) {
+  set_places(scene, LatticePlaces::nearer_to_walls);
   return [](const Scene& of, Recipe& recipe) {
+    recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_exact(seeded, problems); });
     add_systems(of, recipe, "assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
-    // Bodies have masses of faces of their own; forces of a surface under tension are those of another surface.
-    if (is_conforming(of) && !of.facts.find<BodiesOfScene>() && !of.facts.find<SurfaceTension>())
-      add_exact_pressure(recipe);
+    if (is_conforming(of)) add_exact_pressure(recipe);
   };
 }
 
 Contribution read_particles(Input&, Scene& scene) {
-  scene.facts.set(is_conforming(scene) ? places_of(scene.facts.get<Discretization>()) : LatticePlaces::middle_of_parts);
+  set_places(scene, LatticePlaces::middle_of_parts);
   return adds_systems("assemble", {{"moments"}, {"find_mobility"}});
 }
 
@@ -52,6 +70,8 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add<FindExactShare>("find_exact_share");
   registry.add<AddExactPressure>("add_exact_pressure");
   registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
+  registry.add(Quadrature{
+      {"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals", read_exact}});
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
   registry.add(choice<Quadrature>("quadrature", "integrals of the balances", always("mixed")));
 }

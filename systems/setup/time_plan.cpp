@@ -64,18 +64,20 @@ double step_of_bodies(const Scene& scene, World& world, double dt) {
                                                                           : dt;
 }
 
-/// (E34)  Longest step over sqrt(h/|b|).
+/// (E34)  Longest step over sqrt(h/|b|); 0: any.
 double share_of_fall(const Scene& scene) {
   constexpr double newmark = 0.125;
   constexpr double midpoint = 1.0 / 3;
-  return scene.schemes.at("integrator") == "newmark" ? newmark : midpoint;
+  if (scene.schemes.at("integrator") == "newmark") return newmark;
+  return is_conforming(scene) && scene.schemes.at("quadrature") != "exact" ? 0 : midpoint;
 }
 
 }  // namespace
 
 std::optional<double> gravity_step(const Scene& scene, double largest_force) {
-  if (!(largest_force > 0)) return {};
-  return share_of_fall(scene) * std::sqrt(scene.grid.spacing / largest_force);
+  const double share = share_of_fall(scene);
+  if (share == 0 || !(largest_force > 0)) return {};
+  return share * std::sqrt(scene.grid.spacing / largest_force);
 }
 
 std::vector<std::string> warnings_of_gravity(const Scene& scene) {
