@@ -36,7 +36,7 @@ Contribution read_mixed(Input&, Scene& scene) {
 }
 
 /// What has masses of faces or forces at the surface of its own.
-void check_exact(const Scene& scene, SeedProblems& problems) {
+void check_exact_at_surface(const Scene& scene, SeedProblems& problems) {
   const auto note = [&](const char* what) {
     problems.note("/quadrature/scheme", "not with this scene", R"("mixed")", std::string(R"("exact" with )") + what);
   };
@@ -45,10 +45,10 @@ void check_exact(const Scene& scene, SeedProblems& problems) {
   if (scene.facts.find<SurfaceTension>()) note("surface_tension");
 }
 
-Contribution read_exact(Input&, Scene& scene) {
+Contribution read_exact_at_surface(Input&, Scene& scene) {
   set_places(scene, LatticePlaces::nearer_to_walls);
   return [](const Scene& of, Recipe& recipe) {
-    recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_exact(seeded, problems); });
+    recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_exact_at_surface(seeded, problems); });
     add_systems(of, recipe, "assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
     if (is_conforming(of)) add_exact_pressure(recipe);
   };
@@ -70,8 +70,9 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add<FindExactShare>("find_exact_share");
   registry.add<AddExactPressure>("add_exact_pressure");
   registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
-  registry.add(Quadrature{
-      {"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals", read_exact}});
+  registry.add(
+      Quadrature{{"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals",
+                  read_exact_at_surface}});
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
   registry.add(choice<Quadrature>("quadrature", "integrals of the balances", always("mixed")));
 }

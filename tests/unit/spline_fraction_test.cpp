@@ -13,10 +13,10 @@ namespace {
 
 /// A box of 6 cells of side 1.
 template <int Dim>
-struct Box {
+struct FractionBox {
   Grid<Dim> grid;
   Splines<Dim> splines;
-  explicit Box(int degree) {
+  explicit FractionBox(int degree) {
     for (std::size_t d = 0; d < Dim; ++d) grid.cells[d] = 6;
     grid.spacing = 1;
     splines = make_splines(grid, degree);
@@ -29,7 +29,7 @@ struct Box {
 };
 
 template <int Dim>
-Vec<Dim> any_direction(std::mt19937& random) {
+Vec<Dim> fraction_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;
   Vec<Dim> n;
   for (int d = 0; d < Dim; ++d) n[d] = normal(random);
@@ -53,7 +53,7 @@ void for_each_sample(const Index<Dim>& cell, int per_axis, const Use& use) {
 
 /// Share of the spline of a multiplier where n.(x - x_l) + psi > 0, by samples.
 template <int Dim, int K>
-double sampled_share(const Box<Dim>& box, const Index<Dim>& site, const Vec<Dim>& n, double psi, int per_axis) {
+double sampled_share(const FractionBox<Dim>& box, const Index<Dim>& site, const Vec<Dim>& n, double psi, int per_axis) {
   double sum = 0;
   for (std::size_t k = 0; k < power(6, Dim); ++k) {
     Index<Dim> cell;
@@ -76,13 +76,13 @@ double sampled_share(const Box<Dim>& box, const Index<Dim>& site, const Vec<Dim>
 
 template <int Dim, int K>
 void check_shares(int per_axis, double tolerance) {
-  const Box<Dim> box(K);
+  const FractionBox<Dim> box(K);
   std::mt19937 random(K);
   for (const int at : {0, 1, 2, 4 + K}) {
     Index<Dim> site;
     site.fill(3);
     site[0] = at;
-    const Vec<Dim> n = any_direction<Dim>(random);
+    const Vec<Dim> n = fraction_direction<Dim>(random);
     const SplineFraction<Dim> fraction(box.splines, site, n);
     for (const double psi : {-0.6, -0.1, 0.25, 0.7}) {
       CAPTURE(Dim, K, at, n.transpose(), psi);
@@ -101,10 +101,10 @@ void check_shares(int per_axis, double tolerance) {
 template <int Dim, int K>
 void check_integrals(const Index<Dim>& cell, int per_axis, double tolerance) {
   using Integrals = CellIntegrals<Dim, K>;
-  const Box<Dim> box(K);
+  const FractionBox<Dim> box(K);
   const CellFrame<Dim> frame(box.grid, box.splines, cell);
   std::mt19937 random(7);
-  const Vec<Dim> n = any_direction<Dim>(random);
+  const Vec<Dim> n = fraction_direction<Dim>(random);
   const Vec<Dim> through = frame.low + Vec<Dim>::Constant(0.45);
   const auto distance = [&](const Vec<Dim>& x) { return n.dot(x - through); };
   std::array<double, Integrals::multipliers> psi;

@@ -12,14 +12,14 @@ using namespace minamo::scene_run;
 
 namespace {
 
-constexpr double time_step = 1e-2;  // [s]
+constexpr double rest_step = 1e-2;  // [s]
 
 /// A half full box of side 1 m, its surface square to gravity through a point near the middle.
 template <int Dim>
-Json pool(const Vec<Dim>& up, const Vec<Dim>& point, int cells, int per_cell) {
+Json pool_at_angle(const Vec<Dim>& up, const Vec<Dim>& point, int cells, int per_cell) {
   Json scene = Json::parse(R"({"fluid": {"density": 1000, "viscosity": 0}, "time": {"end": 10},
     "quadrature": {"scheme": "exact"}})");
-  scene["time"]["step"] = time_step;
+  scene["time"]["step"] = rest_step;
   scene["dimension"] = Dim;
   const auto vector = [](const auto& value) { return std::vector<double>(value.data(), value.data() + Dim); };
   scene["grid"]["low"] = std::vector<double>(Dim, 0.0);
@@ -36,7 +36,7 @@ Json pool(const Vec<Dim>& up, const Vec<Dim>& point, int cells, int per_cell) {
 }
 
 template <int Dim>
-double largest_speed(World& world) {
+double speed_of_fastest(World& world) {
   Largest largest;
   for (const Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) largest.add(v.norm());
   return largest.value();
@@ -44,13 +44,13 @@ double largest_speed(World& world) {
 
 /// Largest speed in the last of eight seconds. [m/s]
 template <int Dim>
-double unrest(const Json& scene) {
+double late_unrest(const Json& scene) {
   SceneRun run(scene);
-  run.step(static_cast<int>(7 / time_step));
+  run.step(static_cast<int>(7 / rest_step));
   Largest largest;
-  for (int k = 0; k < static_cast<int>(1 / time_step); ++k) {
+  for (int k = 0; k < static_cast<int>(1 / rest_step); ++k) {
     run.step();
-    largest.add(largest_speed<Dim>(run.world()));
+    largest.add(speed_of_fastest<Dim>(run.world()));
   }
   return largest.value();
 }
@@ -63,7 +63,7 @@ TEST_CASE("water rests at any angle of gravity to the grid, in the plane", "[ver
   const double angle = std::numbers::pi * (0.02 + 0.21 * share(random));
   const Vec<2> up(std::sin(angle), std::cos(angle));
   const Vec<2> point(0.5, 0.5 + 0.05 * share(random));
-  Json scene = pool<2>(up, point, 20, 3);
+  Json scene = pool_at_angle<2>(up, point, 20, 3);
   const bool is_viscous = GENERATE(false, true);
   if (is_viscous) scene["fluid"]["viscosity"] = 5;
   const int degree = GENERATE(2, 3);
@@ -72,21 +72,21 @@ TEST_CASE("water rests at any angle of gravity to the grid, in the plane", "[ver
   CAPTURE(angle, degree, is_viscous);
   // Forces by particles let it grow from what the lattice leaves: 0.13 and 0.05 m/s with degree 2 and 3 at 25 degrees,
   // 0.03 and 0.016 where it is viscous. Exact ones leave 0.002 to 0.013.
-  CHECK(unrest<2>(scene) < 0.015);
+  CHECK(late_unrest<2>(scene) < 0.015);
 }
 
 TEST_CASE("water rests at any angle of gravity to the grid, in space", "[verification]") {
   const Vec<3> up = Vec<3>(-1, 5, -2).normalized();
-  CHECK(unrest<3>(pool<3>(up, {0.5, 0.52, 0.47}, 10, 2)) < 0.012);  // forces by particles: 0.16
+  CHECK(late_unrest<3>(pool_at_angle<3>(up, {0.5, 0.52, 0.47}, 10, 2)) < 0.012);  // forces by particles: 0.16
 }
 
 TEST_CASE("two liquids, one above the other, rest at an angle", "[verification]") {
-  Json scene = pool<2>(Vec<2>(0.4, 1).normalized(), {0.5, 0.5}, 20, 3);
+  Json scene = pool_at_angle<2>(Vec<2>(0.4, 1).normalized(), {0.5, 0.5}, 20, 3);
   scene.erase("fluid");
   scene["fluids"] =
       Json::parse(R"({"oil": {"density": 800, "viscosity": 0}, "water": {"density": 1000, "viscosity": 0}})");
   scene["particles"] = Json::parse(R"([
     {"shape": {"where": "0.4*(x - 0.5) + y < 0.4"}, "per_cell": 3, "fluid": "water"},
     {"shape": {"where": "0.4*(x - 0.5) + y >= 0.4 && 0.4*(x - 0.5) + y < 0.65"}, "per_cell": 3, "fluid": "oil"}])");
-  CHECK(unrest<2>(scene) < 0.02);
+  CHECK(late_unrest<2>(scene) < 0.02);
 }
