@@ -25,13 +25,17 @@ constexpr double moving_from = 0.2;
 
 /// 1 where the liquid is all but at rest, 0 where it moves; `fall` is h |q|.
 template <int Dim>
-double stillness(const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const Vec<Dim>> v_f,
+double stillness(const Splines<Dim>& splines, std::span<const Index<Dim>> site,
+                 const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const Vec<Dim>> v_f,
                  std::size_t i, Eigen::Index axis, double fall) {
   double squares = 0;
   for (std::size_t e = 0; e < Dim; ++e) {
     double most = 0;
     for (const std::int32_t j : {neighbour[2 * e], neighbour[2 * e + 1]}) {
-      if (j != staggered::none) most = std::max(most, std::abs(v_f[static_cast<std::size_t>(j)][axis] - v_f[i][axis]));
+      if (j == staggered::none) continue;
+      const auto other = static_cast<std::size_t>(j);
+      if (!splines.has_face(site[other], static_cast<std::size_t>(axis))) continue;
+      most = std::max(most, std::abs(v_f[other][axis] - v_f[i][axis]));
     }
     squares += most * most;
   }
@@ -88,11 +92,12 @@ void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Spline
 }
 
 template <int Dim>
-void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<staggered::Neighbour<Dim>> neighbour,
-                                     Read<multiplier::FillFraction> phi, Read<face::Mobility<Dim>> mobility,
-                                     Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f,
-                                     Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
-                                     Write<multiplier::NearExact> buffer, Write<face::ExactShare<Dim>> share) const {
+void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                                     Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                                     Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
+                                     Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<SiteExchange>> shared,
+                                     Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
+                                     Write<face::ExactShare<Dim>> share) const {
   for_each_row(phi.size(), [&](std::size_t i) { near[i] = phi[i]; });
   spread_largest<Dim>(neighbour.span(), liquid_reach, shared, near.span(), buffer.span());
   for_each_row(phi.size(), [&](std::size_t i) {
@@ -107,7 +112,8 @@ void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<staggered::Neigh
       share[i][axis] = 0;
       if (mobility[i][axis] == 0 || below == staggered::none) continue;
       const double liquid = std::min(near[i], near[static_cast<std::size_t>(below)]);
-      if (liquid > 0) share[i][axis] = liquid * stillness<Dim>(neighbour[i], v_f.span(), i, axis, fall);
+      if (liquid > 0)
+        share[i][axis] = liquid * stillness<Dim>(*splines, site.span(), neighbour[i], v_f.span(), i, axis, fall);
     }
   });
   if (shared) shared->copy_from_owner(share.span());

@@ -28,7 +28,8 @@ struct FindPressureAcceleration {
 template <int Dim>
 struct FindExactShare {
   static constexpr std::string_view doc = "(E133) where forces are those on exact integrals over the liquid";
-  void operator()(Read<Grid<Dim>> grid, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
                   Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
                   Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<SiteExchange>> shared,
                   Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,

@@ -98,9 +98,16 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
                                         Optional<Read<SiteExchange>> shared, Write<multiplier::SurfaceDistance> psi,
                                         Write<multiplier::SurfaceNormal<Dim>> n_l,
                                         Write<multiplier::NearExact> near) const {
-  // Of the faces that have a share of it the integrals reach K multipliers far, and planes are fitted to those around.
-  for_each_row(phi.size(), [&](std::size_t i) { near[i] = share[i].maxCoeff(); });
-  spread_largest<Dim>(neighbour.span(), splines->degree + 1, shared, near.span(), psi.span());
+  // The integrals of a face reach K - 1 multipliers beyond the two beside it, and planes are fitted to those around.
+  for_each_row(phi.size(), [&](std::size_t i) {
+    near[i] = share[i].maxCoeff();
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const std::int32_t above = neighbour[i][2 * d + 1];
+      if (above != staggered::none)
+        near[i] = std::max(near[i], share[static_cast<std::size_t>(above)][static_cast<Eigen::Index>(d)]);
+    }
+  });
+  spread_largest<Dim>(neighbour.span(), splines->degree, shared, near.span(), psi.span());
   const auto is_wanted = [&](std::size_t i) { return near[i] > 0 && is_cut(phi[i]); };
   const auto find_distances = [&] {
     for_each_row(phi.size(), [&](std::size_t i) {
