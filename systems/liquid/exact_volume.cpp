@@ -18,25 +18,27 @@ constexpr double largest_correction = 0.2;
 constexpr double least_area = 0.25;
 constexpr std::size_t cells_per_task = 16;
 
-/// Calls use(cell, place) for the cells of the grid that a spline of a site reaches, `extent` cells along every axis;
-/// `place` is that of the spline among those of the cell.
+/// Calls use(cell, offset, place) for the cells of the grid that a spline of a site reaches, `extent` cells along every
+/// axis; `offset` is that of the site from the first one of the cell, `place` its number among as many, x fastest.
 template <int Dim, class Use>
 void for_each_cell_of(const Splines<Dim>& splines, const Index<Dim>& site, const Index<Dim>& extent, const Use& use) {
   std::size_t count = 1;
   for (const int of_axis : extent) count *= static_cast<std::size_t>(of_axis);
   for (std::size_t place = 0; place < count; ++place) {
     Index<Dim> cell;
+    Index<Dim> offset;
     bool is_there = true;
     std::size_t rest = place;
     for (std::size_t d = 0; d < Dim; ++d) {
       const SplineAxis& axis = splines.axis[d];
       const auto of_axis = static_cast<std::size_t>(extent[d]);
-      cell[d] = site[d] - static_cast<int>(rest % of_axis);
+      offset[d] = static_cast<int>(rest % of_axis);
+      cell[d] = site[d] - offset[d];
       rest /= of_axis;
       if (axis.periodic() && cell[d] < 0) cell[d] += axis.cells();
       is_there = is_there && cell[d] >= 0 && cell[d] < axis.cells();
     }
-    if (is_there) use(cell, place);
+    if (is_there) use(cell, offset, place);
   }
 }
 
@@ -91,7 +93,7 @@ void find_surface_cells(const Liquid<Dim>& of) {
   for (std::size_t i = 0; i < of.psi.size(); ++i) {
     if (!of.splines.has_multiplier(of.site[i]) || !is_at_surface(of, i)) continue;
     for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_multiplier<Dim, K>(),
-                          [&](const Index<Dim>& cell, std::size_t) { of.cells.rows.add(cell); });
+                          [&](const Index<Dim>& cell, const Index<Dim>&, std::size_t) { of.cells.rows.add(cell); });
   }
   of.cells.cell.resize(of.cells.rows.number_rows());
   of.cells.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { of.cells.cell[c] = at; });
@@ -129,7 +131,7 @@ void hold_measured_volume(const Liquid<Dim>& of) {
     double held = 0;
     typename SiteRows<Dim>::Finder find(of.cells.rows);
     for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_multiplier<Dim, K>(),
-                          [&](const Index<Dim>& cell, std::size_t place) {
+                          [&](const Index<Dim>& cell, const Index<Dim>&, std::size_t place) {
                             held += of.cells.multipliers[*find(cell) * per_cell + place];
                           });
     const double lack = of.phi[i] - held / of.splines.widths(of.site[i]);
@@ -171,22 +173,22 @@ double volume_at_surface(const Liquid<Dim>& of, std::size_t i, std::size_t d, st
   typename SiteRows<Dim>::Finder find_surface(of.cells.rows);
   typename SiteRows<Dim>::Finder find_site(of.rows);
   double sum = 0;
-  for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_face<Dim, K>(d), [&](const Index<Dim>& cell, std::size_t m) {
-    if (const auto c = find_surface(cell)) {
-      sum += of.cells.faces[*c * per_cell + place + m];
-      return;
-    }
-    const auto row = find_site(cell);
-    if (!row || submerged[*row][0] == 0) return;
-    double full = 1;
-    for (std::size_t e = 0; e < Dim; ++e) {
-      const CellSplines& splines = of.splines.axis[e].of_cell(cell[e]);
-      const int a = of.site[i][e] - cell[e];
-      const auto from_low = static_cast<std::size_t>(a < 0 ? a + of.splines.axis[e].cells() : a);
-      full *= e == d ? splines.along_integral[from_low] : splines.across_integral[from_low];
-    }
-    sum += full;
-  });
+  for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_face<Dim, K>(d),
+                        [&](const Index<Dim>& cell, const Index<Dim>& offset, std::size_t m) {
+                          if (const auto c = find_surface(cell)) {
+                            sum += of.cells.faces[*c * per_cell + place + m];
+                            return;
+                          }
+                          const auto row = find_site(cell);
+                          if (!row || submerged[*row][0] == 0) return;
+                          double full = 1;
+                          for (std::size_t e = 0; e < Dim; ++e) {
+                            const CellSplines& splines = of.splines.axis[e].of_cell(cell[e]);
+                            const auto from_low = static_cast<std::size_t>(offset[e]);
+                            full *= e == d ? splines.along_integral[from_low] : splines.across_integral[from_low];
+                          }
+                          sum += full;
+                        });
   return sum;
 }
 
