@@ -15,6 +15,12 @@ struct SurfaceDistance : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.surface_distance", "psi_l", "1", Lifetime::scratch};
 };
 
+/// phi_l, and of multipliers that bodies cut the share of all of its spline that lies in the liquid and what continues
+/// it into the body. [1]
+struct ContinuedFill : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.continued_fill", "phi_l", "1", Lifetime::scratch};
+};
+
 /// Unit normal of the surface, into the liquid, where a multiplier is neither full nor empty. [1]
 template <int Dim>
 struct SurfaceNormal : Column<Staggered, Vec<Dim>> {
@@ -69,6 +75,16 @@ struct PressureSums : Column<Staggered, std::array<double, 2 * static_cast<std::
 };
 
 }  // namespace face
+
+/// The liquid continued into bodies: multipliers that bodies cut, whether particles touch them or not.
+template <int Dim>
+struct ContinuedLiquid {
+  SiteRows<Dim> rows;  ///< by site of the multiplier
+  std::vector<Index<Dim>> site;
+  std::vector<double> psi;   ///< in units of h
+  std::vector<double> fill;  ///< phi_l of the whole spline [1]
+  static constexpr ComponentInfo info{"continued_liquid", "psi_l", "1", Lifetime::scratch};
+};
 
 /// The cells that the surface passes, and the integrals of splines over the liquid in them, in units of h^d.
 template <int Dim>

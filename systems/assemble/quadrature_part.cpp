@@ -10,6 +10,8 @@
 #include "systems/setup/lattice.hpp"
 #include "systems/setup/schemes.hpp"
 
+#include <algorithm>
+
 namespace minamo {
 
 namespace {
@@ -20,10 +22,11 @@ LatticePlaces places_of(const Discretization& conforming) {
 }
 
 /// Pressure on exact integrals over the liquid.
-void add_exact_pressure(Recipe& recipe) {
-  for (const char* system : {"find_pressure_acceleration", "find_exact_share", "find_liquid_surface",
-                             "find_exact_volume", "add_exact_pressure"})
+void add_exact_pressure(bool has_bodies, Recipe& recipe) {
+  for (const char* system : {"find_pressure_acceleration", "find_exact_share", "find_liquid_surface"})
     recipe.add("assemble", system);
+  if (has_bodies) recipe.add("assemble", "continue_liquid");
+  for (const char* system : {"find_exact_volume", "add_exact_pressure"}) recipe.add("assemble", system);
 }
 
 void set_places(Scene& scene, LatticePlaces of_equal_order) {
@@ -41,7 +44,6 @@ void check_exact_at_surface(const Scene& scene, SeedProblems& problems) {
     problems.note("/quadrature/scheme", "not with this scene", R"("mixed")", std::string(R"("exact" with )") + what);
   };
   if (!is_conforming(scene)) note("equal_order");
-  if (scene.facts.find<BodiesOfScene>()) note("bodies");
   if (scene.facts.find<SurfaceTension>()) note("surface_tension");
 }
 
@@ -50,13 +52,26 @@ Contribution read_exact_at_surface(Input&, Scene& scene) {
   return [](const Scene& of, Recipe& recipe) {
     recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_exact_at_surface(seeded, problems); });
     add_systems(of, recipe, "assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
-    if (is_conforming(of)) add_exact_pressure(recipe);
+    if (is_conforming(of)) add_exact_pressure(of.facts.find<BodiesOfScene>() != nullptr, recipe);
   };
 }
 
 Contribution read_particles(Input&, Scene& scene) {
   set_places(scene, LatticePlaces::middle_of_parts);
   return adds_systems("assemble", {{"moments"}, {"find_mobility"}});
+}
+
+/// In the plane beside bodies at rest, where liquid at rest would else begin to move; not where it was not measured.
+std::string recommended_quadrature(const Input& input, const Scene& scene) {
+  const std::size_t bodies = input.describing() ? 0 : input.elements("bodies").value_or(0);
+  bool is_measured =
+      scene.dimension == 2 && bodies > 0 && is_conforming(scene) && scene.facts.get<Discretization>().degree == 2;
+  for (const char* key : {"openings", "surface_tension", "fluids"}) is_measured = is_measured && !input.has(key);
+  for (std::size_t b = 0; b < bodies && is_measured; ++b) {
+    const std::vector<std::string> keys = input.names("bodies/" + std::to_string(b));
+    is_measured = std::find(keys.begin(), keys.end(), "motion") == keys.end();
+  }
+  return is_measured ? "exact" : "mixed";
 }
 
 }  // namespace
@@ -74,7 +89,11 @@ void add_quadrature(SystemRegistry& registry) {
       Quadrature{{"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals",
                   read_exact_at_surface}});
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
-  registry.add(choice<Quadrature>("quadrature", "integrals of the balances", always("mixed")));
+  const DefaultScheme fallback{
+      recommended_quadrature,
+      "\"exact\" in the plane beside bodies that are all at rest, with degree 2, without openings, "
+      "surface_tension and fluids"};
+  registry.add(choice<Quadrature>("quadrature", "integrals of the balances", fallback));
 }
 
 }  // namespace minamo

@@ -3,6 +3,7 @@
 #include "systems/bodies/attached.hpp"
 #include "systems/bodies/closed_faces.hpp"
 #include "systems/bodies/contact.hpp"
+#include "systems/bodies/continue_liquid.hpp"
 #include "systems/bodies/couple.hpp"
 #include "systems/bodies/cut.hpp"
 #include "systems/bodies/cut_friction.hpp"
@@ -349,6 +350,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<ExtendOldVelocity>("extend_old_velocity");
   registry.add<FindDivergenceAhead>("find_divergence_ahead");
   registry.add<FillBesideBodies>("fill_beside_bodies");
+  registry.add<ContinueLiquid>("continue_liquid");
   registry.add<FindUncutMass>("find_uncut_mass");
   registry.add<FindAttachedMass>("find_attached_mass");
   registry.add<CoupleFreeBodies>("couple_free_bodies");

@@ -52,8 +52,10 @@ CellSide side_of_cell(const Vec<Dim>& middle, double half_diagonal, const Distan
 }
 
 /// (E85)  Integral of N_l over the open volume, over that of N_l.
-template <int Dim, class Distance>
-double volume_share(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded, const Distance& distance) {
+/// \param counts  counts(x, size): what of a sample of that size at x counts, from 0 to 1
+template <int Dim, class Distance, class Counts>
+double volume_share(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded, const Distance& distance,
+                    const Counts& counts) {
   const Splines<Dim>& splines = places.splines();
   const Grid<Dim>& grid = places.grid();
   constexpr std::size_t per_cell = volume_samples<Dim>;
@@ -83,9 +85,9 @@ double volume_share(const SitePlaces<Dim>& places, const Index<Dim>& site, bool 
     all += weight;
     const CellSide of_cell = side[row_in<Dim>(cells, cell)];
     if (of_cell == CellSide::cut) {
-      open += weight * std::clamp(0.5 + distance(x) / size, 0.0, 1.0);
+      open += weight * counts(x, size) * std::clamp(0.5 + distance(x) / size, 0.0, 1.0);
     } else if (of_cell == CellSide::open) {
-      open += weight;
+      open += weight * counts(x, size);
     }
   };
   const auto cell_of_sample = [](std::size_t k) { return static_cast<int>(k / per_cell); };
@@ -275,7 +277,8 @@ SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, boo
     const double open = open_share<Dim>(box.low, high, static_cast<int>(d), distance);
     cut.open[axis] = open < least_open || is_parted<Dim>(places, site, d, distance) ? 0 : open;
   }
-  if (has_multiplier) cut.share = volume_share<Dim>(places, site, bounded, distance);
+  if (has_multiplier)
+    cut.share = volume_share<Dim>(places, site, bounded, distance, [](const Vec<Dim>&, double) { return 1.0; });
   return cut;
 }
 
@@ -349,6 +352,19 @@ SiteCut<Dim> SiteCuts<Dim>::at(const Index<Dim>& site) const {
   cut.open = cut.open.cwiseMin(of_resting.open);
   cut.share = std::min(cut.share, of_resting.share);
   return cut;
+}
+
+template <int Dim>
+double SiteCuts<Dim>::open_below(const Index<Dim>& site, double psi, const Vec<Dim>& normal) const {
+  const Grid<Dim>& grid = places_.grid();
+  Vec<Dim> middle = grid.low;
+  for (std::size_t d = 0; d < Dim; ++d)
+    middle[static_cast<Eigen::Index>(d)] += grid.spacing * places_.splines().axis[d].place(site[d]);
+  return volume_share<Dim>(
+      places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return bodies_.distance(x); },
+      [&](const Vec<Dim>& x, double size) {
+        return std::clamp(0.5 + (grid.spacing * psi + normal.dot(x - middle)) / size, 0.0, 1.0);
+      });
 }
 
 template <int Dim>

@@ -158,6 +158,10 @@ class SiteCuts {
     return at_rest_.of.empty() ? SiteCut<Dim>{} : at_rest_.at(site);
   }
   SiteCut<Dim> at(const Index<Dim>& site) const;
+  /// Integral of N_l of a site over what of the open volume lies below a plane, over that of N_l.
+  /// \param psi  signed distance of the middle of the multiplier from the plane, in units of h
+  /// \param normal  into the liquid
+  double open_below(const Index<Dim>& site, double psi, const Vec<Dim>& normal) const;
   /// Open share of the volume between the middles of the two multipliers of a face; at a wall there is one.
   /// \param share  of a multiplier, by its site
   template <class ShareOf>

@@ -8,6 +8,7 @@
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/instant.hpp"
+#include "components/liquid.hpp"
 #include "components/openings.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
@@ -128,6 +129,8 @@ struct FillFaceVolumeSource {
   static constexpr std::string_view doc = "(E36) (E37) r E_l/V_l, source of the shift";
   void operator()(Read<VolumeRate> rate, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                  Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
+                  Read<multiplier::Capacity> capacity, Optional<Read<ContinuedLiquid<Dim>>> continued,
                   Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const;
 };
 

@@ -198,8 +198,9 @@ void AssembleMultipliers<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
     Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
     Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released,
-    Optional<Read<SurfaceTension>> tension, Optional<Read<face::ExactVolume<Dim>>> liquid, Resize<Unknowns> unknowns,
-    Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+    Optional<Read<SurfaceTension>> tension, Optional<Read<multiplier::ContinuedFill>> continued,
+    Optional<Read<multiplier::OpenShare>> open_share, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
+    Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
     Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
     Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
@@ -214,11 +215,16 @@ void AssembleMultipliers<Dim>::operator()(
     }
     return false;
   };
-  const double from = liquid ? active_in_liquid : tension ? active_with_tension : active_from<Dim>;
+  const double from = tension ? active_with_tension : active_from<Dim>;
+  const auto is_active = [&](std::size_t i) {
+    if (!continued) return phi[i] > from;
+    const bool is_cut_by_particles = open_share && open_share[i] < 1 && continued[i] == phi[i];
+    return continued[i] > (is_cut_by_particles ? from : active_in_liquid);
+  };
   std::int32_t count = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const bool is_released = released && released[i] != 0;
-    row[i] = phi[i] > from && !is_released && moves(i) ? count++ : staggered::none;
+    row[i] = is_active(i) && !is_released && moves(i) ? count++ : staggered::none;
   }
   unknowns.resize(static_cast<std::size_t>(count));
   for_each_row(row.size(), [&](std::size_t i) {

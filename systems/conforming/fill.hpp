@@ -86,10 +86,11 @@ struct AssembleMultipliers {
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
                   Read<multiplier::FillFraction> phi, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<multiplier::Released>> released, Optional<Read<SurfaceTension>> tension,
-                  Optional<Read<face::ExactVolume<Dim>>> liquid, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
-                  Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
-                  Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
-                  Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const;
+                  Optional<Read<multiplier::ContinuedFill>> continued, Optional<Read<multiplier::OpenShare>> open_share,
+                  Resize<Unknowns> unknowns, Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
+                  Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
+                  Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
+                  Write<unknown::NullVector> null_vector) const;
 };
 
 }  // namespace minamo

@@ -85,12 +85,32 @@ class CellIntegrals {
   }
 
   void add_multipliers(std::span<double> sum) const {
+    if (side() != 0) {
+      std::size_t m = 0;
+      for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
+        sum[m++] += side() < 0 ? 0 : whole([&](std::size_t d) { return across_integral(d, offset); });
+      });
+      return;
+    }
     for_each_line([&](const Weights& of) {
       std::size_t m = 0;
       for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) { sum[m++] += of.multiplier(offset); });
     });
   }
   void add_faces(std::span<double> sum) const {
+    if (side() != 0) {
+      std::size_t m = 0;
+      for_each_direction<Dim>([&](auto direction) {
+        constexpr int D = direction();
+        for_each_face<Dim, K, D>([&](std::size_t, const Index<Dim>& offset) {
+          sum[m++] += side() < 0 ? 0 : whole([&](std::size_t d) {
+            return d == D ? frame_.splines[d]->along_integral[static_cast<std::size_t>(offset[d])]
+                          : across_integral(d, offset);
+          });
+        });
+      });
+      return;
+    }
     for_each_line([&](const Weights& of) {
       std::size_t m = 0;
       for_each_direction<Dim>([&](auto direction) {
@@ -102,6 +122,21 @@ class CellIntegrals {
   }
 
  private:
+  /// 1 if all of the cell is below the surface, -1 if none is, else 0.
+  int side() const {
+    const auto below = std::count_if(corner_.begin(), corner_.end(), [](double psi) { return psi > 0; });
+    return below == 0 ? -1 : static_cast<std::size_t>(below) == lattice ? 1 : 0;
+  }
+  double across_integral(std::size_t d, const Index<Dim>& offset) const {
+    return frame_.splines[d]->across_integral[static_cast<std::size_t>(offset[d])];
+  }
+  template <class OfAxis>
+  static double whole(const OfAxis& of_axis) {
+    double product = 1;
+    for (std::size_t d = 0; d < Dim; ++d) product *= of_axis(d);
+    return product;
+  }
+
   static constexpr std::size_t lattice = power(boxes + 1, Dim);
   /// Values of the splines across a line and their integrals along it, times its weight.
   using Numbers = SplineNumbers<Dim, K, double>;

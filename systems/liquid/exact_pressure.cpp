@@ -16,6 +16,8 @@ constexpr double least_mass = 1e-3;
 constexpr double liquid_from = 0.8;
 constexpr double liquid_to = 0.95;
 constexpr int liquid_reach = 2;
+/// Open share of a multiplier from which on its particles tell whether there is liquid.
+constexpr double least_open = 0.05;
 /// Largest rho V^_f/m_f: a face that no particle is near has next to no inertia.
 constexpr double largest_ratio = 10;
 /// Froude number of a cell, h |grad v|/sqrt(h |q|), up to which forces are those of a liquid at rest, and from which on
@@ -23,18 +25,17 @@ constexpr double largest_ratio = 10;
 constexpr double still_to = 0.05;
 constexpr double moving_from = 0.2;
 
-/// 1 where the liquid is all but at rest, 0 where it moves; `fall` is h |q|.
+/// 1 where the liquid is all but at rest, 0 where it moves, by the faces beside one that have mass; `fall` is h |q|.
 template <int Dim>
-double stillness(const Splines<Dim>& splines, std::span<const Index<Dim>> site,
-                 const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const Vec<Dim>> v_f,
-                 std::size_t i, Eigen::Index axis, double fall) {
+double stillness(const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const Vec<Dim>> m_f,
+                 std::span<const Vec<Dim>> v_f, std::size_t i, Eigen::Index axis, double fall) {
   double squares = 0;
   for (std::size_t e = 0; e < Dim; ++e) {
     double most = 0;
     for (const std::int32_t j : {neighbour[2 * e], neighbour[2 * e + 1]}) {
       if (j == staggered::none) continue;
       const auto other = static_cast<std::size_t>(j);
-      if (!splines.has_face(site[other], static_cast<std::size_t>(axis))) continue;
+      if (m_f[other][axis] == 0) continue;
       most = std::max(most, std::abs(v_f[other][axis] - v_f[i][axis]));
     }
     squares += most * most;
@@ -43,13 +44,37 @@ double stillness(const Splines<Dim>& splines, std::span<const Index<Dim>> site,
   return std::clamp((moving_from - std::sqrt(squares / fall)) / (moving_from - still_to), 0.0, 1.0);
 }
 
+/// |q| at a face of a direction: its own component, and the means of the others over the faces around that have mass.
+template <int Dim>
+double size_at_face(std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
+                    std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> q_f, std::size_t i, std::size_t d) {
+  double squares = 0;
+  for (std::size_t e = 0; e < Dim; ++e) {
+    double sum = 0;
+    double count = 0;
+    const auto add = [&](std::int32_t row) {
+      if (row == staggered::none || m_f[static_cast<std::size_t>(row)][static_cast<Eigen::Index>(e)] == 0) return;
+      sum += q_f[static_cast<std::size_t>(row)][static_cast<Eigen::Index>(e)];
+      ++count;
+    };
+    const auto own = static_cast<std::int32_t>(i);
+    for (const std::int32_t row : {own, e == d ? staggered::none : neighbour[i][2 * d]}) {
+      add(row);
+      if (e != d && row != staggered::none) add(neighbour[static_cast<std::size_t>(row)][2 * e + 1]);
+    }
+    if (count > 0) squares += sum * sum / (count * count);
+  }
+  return std::sqrt(squares);
+}
+
 }  // namespace
 
 template <int Dim>
 void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                                               Read<staggered::Site<Dim>> site,
+                                               Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                                                Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
                                                Read<multiplier::Force> lambda, Read<face::ExactVolume<Dim>> volume,
+                                               Optional<Read<face::Open<Dim>>> open,
                                                Optional<Read<face::Density<Dim>>> rho_f,
                                                Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
                                                Write<face::PressureAcceleration<Dim>> q_f) const {
@@ -59,12 +84,17 @@ void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Spline
   for_each_row(sums.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const bool is_held = (held[i] & (1U << d)) != 0;
+      const bool is_held = (held[i] & (1U << d)) != 0 || (open && (open[i][axis] == 0 || volume[i][axis] == 0));
       sums[i][d] = is_held ? 0 : -incidence.gradient(i, d, at_multiplier);
       sums[i][Dim + d] = is_held ? 0 : rho.at(i, axis) * volume[i][axis];
     }
   });
-  // Axis by axis over the faces next to a face.
+  if (shared) shared->copy_from_owner(sums.span());
+  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span(), of_ranks(shared)};
+  const std::vector<double> is_at_edge = near_edge<Dim, 1>(of);
+  using Sums = typename face::PressureSums<Dim>::value_type;
+  const std::vector<Sums> of_face(sums.begin(), sums.end());
+  // Axis by axis over the faces next to a face, ...
   for (std::size_t e = 0; e < Dim; ++e) {
     if (shared) shared->copy_from_owner(sums.span());
     const auto with_neighbours = [&](std::size_t i, std::size_t k) {
@@ -84,6 +114,14 @@ void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Spline
       });
     }
   }
+  // ... and one by one where the liquid ends.
+  for_each_row(sums.size(), [&](std::size_t i) {
+    if (is_at_edge[i] == 0) return;
+    sums[i].fill(0);
+    for_each_row_around<Dim, 1>(*splines, *rows, site[i], [&](std::uint32_t j, const auto&, const auto&) {
+      for (std::size_t k = 0; k < 2 * Dim; ++k) sums[i][k] += of_face[j][k];
+    });
+  });
   const double least = least_mass * fluid->density * std::pow(grid->spacing, Dim);
   for_each_row(q_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d)
@@ -92,28 +130,44 @@ void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Spline
 }
 
 template <int Dim>
-void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                                     Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                                     Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
-                                     Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<SiteExchange>> shared,
+void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
+                                     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                     Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                                     Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility,
+                                     Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f,
+                                     Optional<Read<face::Open<Dim>>> open_face,
+                                     Optional<Read<multiplier::OpenShare>> open, Optional<Read<SiteExchange>> shared,
                                      Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
                                      Write<face::ExactShare<Dim>> share) const {
-  for_each_row(phi.size(), [&](std::size_t i) { near[i] = phi[i]; });
-  spread_largest<Dim>(neighbour.span(), liquid_reach, shared, near.span(), buffer.span());
-  for_each_row(phi.size(), [&](std::size_t i) {
+  for_each_row(near.size(), [&](std::size_t i) {
+    near[i] = capacity[i] == 0 || (open && open[i] < least_open) ? 0 : v_l[i] / capacity[i];
+  });
+  spread_largest<Dim, liquid_reach>({*splines, *rows, site.span(), neighbour.span(), of_ranks(shared)}, near.span(),
+                                    buffer.span());
+  for_each_row(near.size(), [&](std::size_t i) {
     const double t = std::clamp((near[i] - liquid_from) / (liquid_to - liquid_from), 0.0, 1.0);
     near[i] = t * t * (3 - 2 * t);
   });
   for_each_row(share.size(), [&](std::size_t i) {
-    const double fall = grid->spacing * q_f[i].norm();
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const std::int32_t below = neighbour[i][2 * d];
       share[i][axis] = 0;
-      if (mobility[i][axis] == 0 || below == staggered::none) continue;
-      const double liquid = std::min(near[i], near[static_cast<std::size_t>(below)]);
+      if (mobility[i][axis] == 0 || m_f[i][axis] == 0 || (open_face && open_face[i][axis] == 0)) continue;
+      if (splines->ends_at(site[i], 2 * d) || !splines->has_multiplier(site[i])) continue;
+      // On the high side of the liquid there are rows that no particle touches, on its low side none.
+      double liquid = 1;
+      bool any = false;
+      for (const std::int32_t l : {static_cast<std::int32_t>(i), below}) {
+        if (l == staggered::none || v_l[static_cast<std::size_t>(l)] == 0) continue;
+        liquid = std::min(liquid, near[static_cast<std::size_t>(l)]);
+        any = true;
+      }
+      if (!any) continue;
       if (liquid > 0)
-        share[i][axis] = liquid * stillness<Dim>(*splines, site.span(), neighbour[i], v_f.span(), i, axis, fall);
+        share[i][axis] =
+            liquid * stillness<Dim>(neighbour[i], m_f.span(), v_f.span(), i, axis,
+                                    grid->spacing * size_at_face<Dim>(neighbour.span(), m_f.span(), q_f.span(), i, d));
     }
   });
   if (shared) shared->copy_from_owner(share.span());
@@ -132,7 +186,8 @@ void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Fluid> fluid, Rea
       const auto axis = static_cast<Eigen::Index>(d);
       if (share[i][axis] == 0) continue;
       const double ratio = std::min(rho.at(i, axis) * volume[i][axis] * mobility[i][axis], largest_ratio);
-      predictor[i][axis] += tau * (ratio - 1) * q_f[i][axis];
+      // What has no mobility gets no pressure of this step.
+      predictor[i][axis] += tau * (mobility[i][axis] == 0 ? 1 : ratio - 1) * q_f[i][axis];
     }
   });
 }

@@ -3,6 +3,7 @@
 /// What the balances of faces get so that pressure meets exact integrals over the liquid while inertia stays with the
 /// particles: water at rest then rests, whatever the angle of its surface.
 
+#include "components/body.hpp"
 #include "components/fluids.hpp"
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
@@ -17,9 +18,10 @@ namespace minamo {
 template <int Dim>
 struct FindPressureAcceleration {
   static constexpr std::string_view doc = "(E132) acceleration by which the pressure of the last step acted";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<multiplier::Force> lambda,
-                  Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Density<Dim>>> rho_f,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+                  Read<multiplier::Force> lambda, Read<face::ExactVolume<Dim>> volume,
+                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::Density<Dim>>> rho_f,
                   Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
                   Write<face::PressureAcceleration<Dim>> q_f) const;
 };
@@ -28,10 +30,12 @@ struct FindPressureAcceleration {
 template <int Dim>
 struct FindExactShare {
   static constexpr std::string_view doc = "(E133) where forces are those on exact integrals over the liquid";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Read<face::Mass<Dim>> m_f,
                   Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
-                  Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<SiteExchange>> shared,
+                  Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Open<Dim>>> open_face,
+                  Optional<Read<multiplier::OpenShare>> open, Optional<Read<SiteExchange>> shared,
                   Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
                   Write<face::ExactShare<Dim>> share) const;
 };

@@ -1,10 +1,12 @@
 #include "systems/liquid/exact_volume.hpp"
 
 #include "systems/conforming/face_density.hpp"
+#include "systems/conforming/sites_around.hpp"
 #include "systems/liquid/cell_integrals.hpp"
 #include "systems/liquid/liquid_surface.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace minamo {
 
@@ -17,6 +19,12 @@ constexpr double largest_correction = 0.2;
 /// Least area of the surface in a multiplier, in units of h^(d-1): where it leaves, a small move would be a large one.
 constexpr double least_area = 0.25;
 constexpr std::size_t cells_per_task = 16;
+/// Beside a wall particles may tell next to nothing of the mass of a face that holds much of what continues the liquid:
+/// it is heavier then. More than that a face without inertia would take of the pressure.
+constexpr double heaviest_ratio = 10;
+/// Share w_f from which on a face beside what no particle touches is without an unknown: in what moves it would get
+/// energy from nowhere.
+constexpr double at_rest_from = 0.9;
 
 /// Calls use(cell, offset, place) for the cells of the grid that a spline of a site reaches, `extent` cells along every
 /// axis; `offset` is that of the site from the first one of the cell, `place` its number among as many, x fastest.
@@ -65,11 +73,17 @@ struct Liquid {
   std::span<const Index<Dim>> site;
   std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
   std::span<const double> phi;
+  const ContinuedLiquid<Dim>* continued;  ///< none without bodies
   std::span<const double> near;
   std::span<double> psi;
   SurfaceCells<Dim>& cells;
 
   bool is_full(std::size_t i) const { return liquid::is_full(phi[i]); }
+  double psi_at(const Index<Dim>& at, typename SiteRows<Dim>::Finder& find) const {
+    if (const auto row = find(at)) return psi[*row];
+    const auto beyond = continued != nullptr ? continued->rows.find(at) : std::nullopt;
+    return beyond ? continued->psi[*beyond] : -liquid::farthest;
+  }
 };
 
 /// Whether the surface may pass a cell of a multiplier.
@@ -90,11 +104,14 @@ void find_surface_cells(const Liquid<Dim>& of) {
   Index<Dim> extent;
   for (std::size_t d = 0; d < Dim; ++d) extent[d] = of.splines.axis[d].cells();
   of.cells.rows.start(extent);
-  for (std::size_t i = 0; i < of.psi.size(); ++i) {
-    if (!of.splines.has_multiplier(of.site[i]) || !is_at_surface(of, i)) continue;
-    for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_multiplier<Dim, K>(),
+  const auto add_cells_of = [&](const Index<Dim>& at) {
+    for_each_cell_of<Dim>(of.splines, at, extent_of_multiplier<Dim, K>(),
                           [&](const Index<Dim>& cell, const Index<Dim>&, std::size_t) { of.cells.rows.add(cell); });
+  };
+  for (std::size_t i = 0; i < of.psi.size(); ++i) {
+    if (of.splines.has_multiplier(of.site[i]) && is_at_surface(of, i)) add_cells_of(of.site[i]);
   }
+  if (of.continued != nullptr) std::for_each(of.continued->site.begin(), of.continued->site.end(), add_cells_of);
   of.cells.cell.resize(of.cells.rows.number_rows());
   of.cells.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { of.cells.cell[c] = at; });
 }
@@ -111,8 +128,7 @@ void integrate(const Liquid<Dim>& of, std::vector<double>& sums, std::size_t per
         typename SiteRows<Dim>::Finder find(of.rows);
         std::size_t m = 0;
         for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
-          const auto row = find(of.splines.site(of.cells.cell[c], offset));
-          psi[m++] = row ? of.psi[*row] : -liquid::farthest;
+          psi[m++] = of.psi_at(of.splines.site(of.cells.cell[c], offset), find);
         });
         const CellFrame<Dim> frame(of.grid, of.splines, of.cells.cell[c]);
         add(CellIntegrals<Dim, K>(frame, psi), std::span(sums).subspan(c * per_cell, per_cell));
@@ -128,6 +144,8 @@ void hold_measured_volume(const Liquid<Dim>& of) {
                     [](const auto& integrals, std::span<double> sum) { integrals.add_multipliers(sum); });
   for_each_row(of.psi.size(), [&](std::size_t i) {
     if (!(of.near[i] > 0) || !liquid::is_cut(of.phi[i])) return;
+    if (of.continued != nullptr && of.continued->rows.find(of.site[i]))
+      return;  // what continues the liquid was not measured
     double held = 0;
     typename SiteRows<Dim>::Finder find(of.cells.rows);
     for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_multiplier<Dim, K>(),
@@ -192,19 +210,34 @@ double volume_at_surface(const Liquid<Dim>& of, std::size_t i, std::size_t d, st
   return sum;
 }
 
+/// Whether a multiplier of a face is in what continues the liquid and no particle touches it: then it is no unknown,
+/// and what it would balance moves with the faces around.
+template <int Dim>
+bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d) {
+  if (of.continued == nullptr) return false;
+  const auto lacks_particles = [&](const Index<Dim>& site, std::int32_t row) {
+    if (row != staggered::none && of.phi[static_cast<std::size_t>(row)] > 0) return false;
+    const auto c = of.continued->rows.find(site);
+    return c && of.continued->fill[*c] > liquid::edge;
+  };
+  if (lacks_particles(of.site[i], static_cast<std::int32_t>(i))) return true;
+  const auto below = site_beside(of.splines, of.site[i], 2 * d);
+  return below && lacks_particles(*below, of.neighbour[i][2 * d]);
+}
+
 }  // namespace
 
 template <int Dim>
-void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                      Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                                      Read<multiplier::NearExact> near, Read<face::ExactShare<Dim>> share,
-                                      Read<face::Mobility<Dim>> mobility, Optional<Read<face::Density<Dim>>> rho_f,
-                                      Optional<Read<SiteExchange>> shared, Update<multiplier::SurfaceDistance> psi,
-                                      Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells,
-                                      Update<face::ExactVolume<Dim>> volume) const {
-  const Liquid<Dim> of{*grid,      *splines,    *rows,      site.span(), neighbour.span(),
-                       phi.span(), near.span(), psi.span(), *cells};
+void FindExactVolume<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::ContinuedFill> phi,
+    Read<multiplier::NearExact> near, Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
+    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+    Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
+    Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const {
+  const Liquid<Dim> of{
+      *grid,       *splines,   *rows, site.span(), neighbour.span(), phi.span(), continued ? &*continued : nullptr,
+      near.span(), psi.span(), *cells};
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   const double cell_volume = std::pow(grid->spacing, Dim);
   with_degree(splines->degree, [&](auto degree) {
@@ -223,11 +256,19 @@ void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
         const double w = share[i][axis];
         volume[i][axis] = of_particles;
         if (w == 0) continue;
+        if (w > at_rest_from && is_detached(of, i, d)) {
+          volume[i][axis] = mobility[i][axis] = 0;
+          continue;
+        }
         const double below =
             submerged[i][Dim] != 0
                 ? splines->face_integral(site[i], d)
                 : volume_at_surface<Dim, K>(of, i, d, d * Integrals::faces_of_direction, submerged.span());
         volume[i][axis] += w * (cell_volume * below - of_particles);
+        if (continued) {
+          const double least = w * rho.at(i, axis) * volume[i][axis] / heaviest_ratio;
+          mobility[i][axis] = std::min(mobility[i][axis], 1 / std::max(least, std::numeric_limits<double>::min()));
+        }
       }
     });
     if (shared) shared->copy_from_owner(volume.span());

@@ -17,11 +17,12 @@ struct FindExactVolume {
   static constexpr std::string_view doc = "(E131) integrals of N_f over the liquid";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<multiplier::FillFraction> phi, Read<multiplier::NearExact> near,
-                  Read<face::ExactShare<Dim>> share, Read<face::Mobility<Dim>> mobility,
+                  Read<multiplier::ContinuedFill> phi, Read<multiplier::NearExact> near,
+                  Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
                   Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
                   Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
-                  Write<SurfaceCells<Dim>> cells, Update<face::ExactVolume<Dim>> volume) const;
+                  Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility,
+                  Update<face::ExactVolume<Dim>> volume) const;
 };
 
 }  // namespace minamo

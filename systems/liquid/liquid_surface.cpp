@@ -4,6 +4,7 @@
 #include "systems/liquid/spline_fraction.hpp"
 #include "systems/liquid/spread.hpp"
 
+#include <bit>
 #include <cmath>
 
 namespace minamo {
@@ -16,28 +17,55 @@ namespace {
 /// psi of a surface along the grid, degree 2: a first guess.
 double distance_along_axis(double phi) { return phi < 0.5 ? std::sqrt(2 * phi) - 1 : 1 - std::sqrt(2 * (1 - phi)); }
 
+/// Multipliers of which no body takes a part.
+struct Whole {
+  std::span<const double> open;  ///< shares; empty without bodies
+  bool operator()(std::size_t row) const { return open.empty() || open[row] == 1; }
+};
+
+/// phi of the multiplier some steps away; where bodies cut it, the mean of those that have one of these steps less, or
+/// two. Zero where no particle is.
+template <int Dim>
+double fill_towards(const Splines<Dim>& splines, typename SiteRows<Dim>::Finder& find, const Index<Dim>& site,
+                    const Index<Dim>& steps, std::span<const double> phi, const Whole& is_whole) {
+  for (int less = 0; less <= Dim; ++less) {
+    double sum = 0;
+    int count = 0;
+    for (unsigned left_out = 0; left_out < power(2, Dim); ++left_out) {
+      if (std::popcount(left_out) != less) continue;
+      Index<Dim> other;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const SplineAxis& axis = splines.axis[d];
+        const int multipliers = axis.multipliers();
+        other[d] = site[d] + ((left_out >> d & 1U) != 0 ? 0 : steps[d]);
+        other[d] = axis.periodic() ? (other[d] + multipliers) % multipliers : std::clamp(other[d], 0, multipliers - 1);
+      }
+      const auto row = find(other);
+      if (row && !is_whole(*row)) continue;
+      sum += row ? phi[*row] : 0;
+      ++count;
+    }
+    if (count > 0) return sum / count;
+  }
+  return 0;
+}
+
 /// Differences of phi, weighed 1 2 1 across; what lies beyond walls is what is beside them.
 template <int Dim>
 Vec<Dim> slope_of_fill(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows, const Index<Dim>& site,
-                       std::span<const double> phi) {
+                       std::span<const double> phi, const Whole& is_whole) {
   Vec<Dim> slope = Vec<Dim>::Zero();
   typename SiteRows<Dim>::Finder find(rows);
   for (std::size_t k = 0; k < power(3, Dim); ++k) {
-    Index<Dim> other;
     Index<Dim> steps;
     double weight = 1;
     std::size_t rest = k;
     for (std::size_t d = 0; d < Dim; ++d, rest /= 3) {
       steps[d] = static_cast<int>(rest % 3) - 1;
       weight *= steps[d] == 0 ? 2 : 1;
-      const SplineAxis& axis = splines.axis[d];
-      const int count = axis.multipliers();
-      other[d] = site[d] + steps[d];
-      other[d] = axis.periodic() ? (other[d] + count) % count : std::clamp(other[d], 0, count - 1);
     }
-    const auto row = find(other);
-    if (!row) continue;
-    for (std::size_t d = 0; d < Dim; ++d) slope[static_cast<Eigen::Index>(d)] += steps[d] * weight * phi[*row];
+    const double fill = fill_towards<Dim>(splines, find, site, steps, phi, is_whole);
+    for (std::size_t d = 0; d < Dim; ++d) slope[static_cast<Eigen::Index>(d)] += steps[d] * weight * fill;
   }
   for (std::size_t d = 0; d < Dim; ++d) {
     const bool at_wall = splines.ends_at(site, 2 * d) || splines.ends_at(site, 2 * d + 1);
@@ -46,11 +74,12 @@ Vec<Dim> slope_of_fill(const Splines<Dim>& splines, const StaggeredIndex<Dim>& r
   return slope;
 }
 
-/// Slope of the plane nearest to the distances of multipliers around that are cut; none if they lie on one line.
+/// Slope of the plane nearest to the distances of multipliers around that are cut; across the line, if they lie on one,
+/// it is that of the normal so far.
 template <int Dim>
-std::optional<Vec<Dim>> slope_of_plane(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
-                                       const Index<Dim>& site, std::span<const double> phi,
-                                       std::span<const double> psi) {
+Vec<Dim> slope_of_plane(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows, const Index<Dim>& site,
+                        std::span<const double> phi, std::span<const double> psi, const Vec<Dim>& normal,
+                        const Whole& is_whole) {
   double sum = 0;
   double sum_psi = 0;
   Vec<Dim> sum_x = Vec<Dim>::Zero();
@@ -58,7 +87,7 @@ std::optional<Vec<Dim>> slope_of_plane(const Splines<Dim>& splines, const Stagge
   Vec<Dim> products = Vec<Dim>::Zero();
   for_each_row_around<Dim, 1>(
       splines, rows, site, [&](std::uint32_t row, const Index<Dim>& other, const Index<Dim>& steps) {
-        if (!is_cut(phi[row])) return;
+        if (!is_cut(phi[row]) || !is_whole(row)) return;
         Vec<Dim> x;
         for (std::size_t d = 0; d < Dim; ++d) {
           const SplineAxis& axis = splines.axis[d];
@@ -73,11 +102,10 @@ std::optional<Vec<Dim>> slope_of_plane(const Splines<Dim>& splines, const Stagge
       });
   squares -= sum_x * sum_x.transpose() / sum;
   products -= sum_psi / sum * sum_x;
-  constexpr double flat = 1e-6;
-  double full = 1;
-  for (int d = 0; d < Dim; ++d) full *= sum;
-  if (squares.determinant() <= flat * full) return {};
-  return Vec<Dim>(squares.inverse() * products);
+  constexpr double of_normal = 1e-6;
+  squares += of_normal * sum * Mat<Dim>::Identity();
+  products += of_normal * sum * normal;
+  return squares.inverse() * products;
 }
 
 /// Without a slope all directions are alike, and so in the mirror.
@@ -94,10 +122,12 @@ Vec<Dim> unit(const Vec<Dim>& slope) {
 template <int Dim>
 void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                        Read<multiplier::FillFraction> phi, Read<face::ExactShare<Dim>> share,
-                                        Optional<Read<SiteExchange>> shared, Write<multiplier::SurfaceDistance> psi,
-                                        Write<multiplier::SurfaceNormal<Dim>> n_l,
-                                        Write<multiplier::NearExact> near) const {
+                                        Read<multiplier::FillFraction> phi, Optional<Read<multiplier::OpenShare>> open,
+                                        Read<face::ExactShare<Dim>> share, Optional<Read<SiteExchange>> shared,
+                                        Write<multiplier::SurfaceDistance> psi,
+                                        Write<multiplier::SurfaceNormal<Dim>> n_l, Write<multiplier::NearExact> near,
+                                        Write<multiplier::ContinuedFill> continued) const {
+  const Whole is_whole{open.span()};
   // The integrals of a face reach K - 1 multipliers beyond the two beside it, and planes are fitted to those around.
   for_each_row(phi.size(), [&](std::size_t i) {
     near[i] = share[i].maxCoeff();
@@ -107,8 +137,11 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
         near[i] = std::max(near[i], share[static_cast<std::size_t>(above)][static_cast<Eigen::Index>(d)]);
     }
   });
-  spread_largest<Dim>(neighbour.span(), splines->degree, shared, near.span(), psi.span());
-  const auto is_wanted = [&](std::size_t i) { return near[i] > 0 && is_cut(phi[i]); };
+  with_degree(splines->degree, [&](auto degree) {
+    spread_largest<Dim, degree()>({*splines, *rows, site.span(), neighbour.span(), of_ranks(shared)}, near.span(),
+                                  psi.span());
+  });
+  const auto is_wanted = [&](std::size_t i) { return near[i] > 0 && is_cut(phi[i]) && is_whole(i); };
   const auto find_distances = [&] {
     for_each_row(phi.size(), [&](std::size_t i) {
       if (!is_wanted(i)) return;
@@ -118,15 +151,19 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
   };
   for_each_row(phi.size(), [&](std::size_t i) {
     psi[i] = liquid::is_full(phi[i]) ? farthest : is_cut(phi[i]) ? distance_along_axis(phi[i]) : -farthest;
-    n_l[i] = is_wanted(i) ? unit<Dim>(slope_of_fill<Dim>(*splines, *rows, site[i], phi.span())) : Vec<Dim>::Zero();
+    n_l[i] =
+        is_wanted(i) ? unit<Dim>(slope_of_fill<Dim>(*splines, *rows, site[i], phi.span(), is_whole)) : Vec<Dim>::Zero();
+    continued[i] = phi[i];
   });
   find_distances();
-  for_each_row(phi.size(), [&](std::size_t i) {
-    if (!is_wanted(i)) return;
-    if (const auto slope = slope_of_plane<Dim>(*splines, *rows, site[i], phi.span(), psi.span()))
-      n_l[i] = unit<Dim>(*slope);
-  });
-  find_distances();
+  const int fits = open ? 2 : 1;
+  for (int k = 0; k < fits; ++k) {
+    for_each_row(phi.size(), [&](std::size_t i) {
+      if (!is_wanted(i)) return;
+      n_l[i] = unit<Dim>(slope_of_plane<Dim>(*splines, *rows, site[i], phi.span(), psi.span(), n_l[i], is_whole));
+    });
+    find_distances();
+  }
 }
 
 template struct FindLiquidSurface<2>;

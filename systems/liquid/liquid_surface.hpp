@@ -2,6 +2,7 @@
 /// \file
 /// Where the surface of the liquid is: signed distances of multipliers, from how full they are.
 
+#include "components/body.hpp"
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
 #include "engine/system.hpp"
@@ -22,15 +23,16 @@ inline bool is_cut(double phi) { return phi > edge && phi < 1 - edge; }
 
 }  // namespace liquid
 
-/// (E130)  psi_l and n_l from phi_l, where faces have a share of exact integrals.
+/// (E130)  psi_l and n_l from phi_l, where faces have a share of exact integrals; not of multipliers that bodies cut.
 template <int Dim>
 struct FindLiquidSurface {
   static constexpr std::string_view doc = "(E130) signed distance of multipliers from the surface";
   void operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                  Read<face::ExactShare<Dim>> share, Optional<Read<SiteExchange>> shared,
-                  Write<multiplier::SurfaceDistance> psi, Write<multiplier::SurfaceNormal<Dim>> n_l,
-                  Write<multiplier::NearExact> near) const;
+                  Optional<Read<multiplier::OpenShare>> open, Read<face::ExactShare<Dim>> share,
+                  Optional<Read<SiteExchange>> shared, Write<multiplier::SurfaceDistance> psi,
+                  Write<multiplier::SurfaceNormal<Dim>> n_l, Write<multiplier::NearExact> near,
+                  Write<multiplier::ContinuedFill> continued) const;
 };
 
 }  // namespace minamo

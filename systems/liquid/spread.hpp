@@ -3,21 +3,39 @@
 /// The largest value of a column of multipliers around each of them.
 
 #include "components/staggered.hpp"
+#include "systems/conforming/sites_around.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
-/// The largest value within some steps along every axis, over rows that know each other.
+/// The rows of a step.
 template <int Dim>
-void spread_largest(std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour, int reach,
-                    const Optional<Read<SiteExchange>>& shared, std::span<double> value, std::span<double> buffer) {
+struct RowsOfSites {
+  const Splines<Dim>& splines;
+  const StaggeredIndex<Dim>& rows;
+  std::span<const Index<Dim>> site;
+  std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
+  const SiteExchange* shared;  ///< none on one rank
+
+  /// Whether a site beside one has no row, though the grid goes on.
+  bool lacks_one_beside(std::size_t i) const {
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (neighbour[i][side] == staggered::none && !splines.ends_at(site[i], side)) return true;
+    }
+    return false;
+  }
+};
+
+/// The largest value within some steps along every axis, over rows that know each other.
+template <int Dim, int Reach>
+void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer) {
   for (std::size_t d = 0; d < Dim; ++d) {
     for_each_row(value.size(), [&](std::size_t i) {
       double most = value[i];
       for (std::size_t side = 2 * d; side < 2 * d + 2; ++side) {
         auto j = static_cast<std::int32_t>(i);
-        for (int k = 0; k < reach; ++k) {
-          j = neighbour[static_cast<std::size_t>(j)][side];
+        for (int k = 0; k < Reach; ++k) {
+          j = of.neighbour[static_cast<std::size_t>(j)][side];
           if (j == staggered::none) break;
           most = std::max(most, value[static_cast<std::size_t>(j)]);
         }
@@ -25,8 +43,19 @@ void spread_largest(std::span<const typename staggered::Neighbour<Dim>::value_ty
       buffer[i] = most;
     });
     for_each_row(value.size(), [&](std::size_t i) { value[i] = buffer[i]; });
-    if (shared) shared->copy_from_owner(value);
+    if (of.shared != nullptr) of.shared->copy_from_owner(value);
   }
+}
+
+/// 1 where of the sites within some steps one has no row: what goes over rows axis by axis would depend there on the
+/// order of the axes.
+template <int Dim, int Reach>
+std::vector<double> near_edge(const RowsOfSites<Dim>& of) {
+  std::vector<double> is_near(of.site.size());
+  std::vector<double> buffer(of.site.size());
+  for_each_row(is_near.size(), [&](std::size_t i) { is_near[i] = of.lacks_one_beside(i) ? 1 : 0; });
+  spread_largest<Dim, Reach>(of, is_near, buffer);
+  return is_near;
 }
 
 }  // namespace minamo

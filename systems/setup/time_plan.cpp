@@ -69,7 +69,9 @@ double share_of_fall(const Scene& scene) {
   constexpr double newmark = 0.125;
   constexpr double midpoint = 1.0 / 3;
   if (scene.schemes.at("integrator") == "newmark") return newmark;
-  return is_conforming(scene) && scene.schemes.at("quadrature") != "exact" ? 0 : midpoint;
+  constexpr double exact = 1.0 / 6;
+  if (is_conforming(scene)) return scene.schemes.at("quadrature") == "exact" ? exact : 0;
+  return midpoint;
 }
 
 }  // namespace
