@@ -108,6 +108,23 @@ Vec<Dim> slope_of_plane(const Splines<Dim>& splines, const StaggeredIndex<Dim>& 
   return squares.inverse() * products;
 }
 
+/// Whether the surface passes none of the cells of a multiplier for certain: then nobody asks how far it is.
+template <int Dim>
+bool is_in_depth(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows, const Index<Dim>& site,
+                 std::span<const double> phi, const Whole& is_whole) {
+  constexpr double certain = 0.65;
+  std::size_t sites = 0;
+  std::size_t full = 0;
+  typename SiteRows<Dim>::Finder find(rows);
+  for_each_site_around<Dim, 1>(splines, site, [&](const Index<Dim>& other, const auto&) {
+    if (!splines.has_multiplier(other)) return;
+    ++sites;
+    const auto row = find(other);
+    if (row && phi[*row] > certain && is_whole(*row)) ++full;
+  });
+  return full == sites;
+}
+
 /// Without a slope all directions are alike, and so in the mirror.
 template <int Dim>
 Vec<Dim> unit(const Vec<Dim>& slope) {
@@ -141,7 +158,12 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
     spread_largest<Dim, degree()>({*splines, *rows, site.span(), neighbour.span(), of_ranks(shared)}, near.span(),
                                   psi.span());
   });
-  const auto is_wanted = [&](std::size_t i) { return near[i] > 0 && is_cut(phi[i]) && is_whole(i); };
+  std::vector<std::uint8_t> wanted(phi.size());
+  for_each_row(phi.size(), [&](std::size_t i) {
+    wanted[i] = near[i] > 0 && is_cut(phi[i]) && is_whole(i) &&
+                !is_in_depth<Dim>(*splines, *rows, site[i], phi.span(), is_whole);
+  });
+  const auto is_wanted = [&](std::size_t i) { return wanted[i] != 0; };
   const auto find_distances = [&] {
     for_each_row(phi.size(), [&](std::size_t i) {
       if (!is_wanted(i)) return;
