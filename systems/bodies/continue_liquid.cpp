@@ -185,11 +185,10 @@ void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>
                           std::span<const double> open, std::span<const Vec<Dim>> share, const SiteCuts<Dim>& cuts,
                           ContinuedLiquid<Dim>& continued) {
   // Most rows have no body near, and all others around: only those next to some that have not are looked at.
-  std::vector<double> is_near(site.size());
-  std::vector<double> buffer(site.size());
   const RowsOfSites<Dim> all{splines, rows, site, neighbour, nullptr};
-  for_each_row(site.size(), [&](std::size_t i) { is_near[i] = open[i] < 1 || all.lacks_one_beside(i) ? 1 : 0; });
-  with_degree(splines.degree, [&](auto degree) { spread_largest<Dim, degree()>(all, is_near, buffer); });
+  const auto may_lack = [&](std::size_t i) { return open[i] < 1 || all.lacks_one_beside(i); };
+  std::vector<double> is_near;
+  with_degree(splines.degree, [&](auto degree) { is_near = near_any<Dim, degree()>(all, may_lack); });
   continued.rows.start(splines.sites());
   typename SiteRows<Dim>::Finder find(rows);
   for (std::size_t i = 0; i < site.size(); ++i) {

@@ -91,7 +91,8 @@ void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Spline
   });
   if (shared) shared->copy_from_owner(sums.span());
   const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span(), of_ranks(shared)};
-  const std::vector<double> is_at_edge = near_edge<Dim, 1>(of);
+  // What goes over rows axis by axis would depend on the order of the axes where a site has none.
+  const auto is_at_edge = near_any<Dim, 1>(of, [&](std::size_t i) { return of.lacks_one_beside(i); });
   using Sums = typename face::PressureSums<Dim>::value_type;
   const std::vector<Sums> of_face(sums.begin(), sums.end());
   // Axis by axis over the faces next to a face, ...

@@ -47,13 +47,12 @@ void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::sp
   }
 }
 
-/// 1 where of the sites within some steps one has no row: what goes over rows axis by axis would depend there on the
-/// order of the axes.
-template <int Dim, int Reach>
-std::vector<double> near_edge(const RowsOfSites<Dim>& of) {
+/// 1 where within some steps there is a row of a kind, is_one(row), else 0.
+template <int Dim, int Reach, class IsOne>
+std::vector<double> near_any(const RowsOfSites<Dim>& of, const IsOne& is_one) {
   std::vector<double> is_near(of.site.size());
   std::vector<double> buffer(of.site.size());
-  for_each_row(is_near.size(), [&](std::size_t i) { is_near[i] = of.lacks_one_beside(i) ? 1 : 0; });
+  for_each_row(is_near.size(), [&](std::size_t i) { is_near[i] = is_one(i) ? 1 : 0; });
   spread_largest<Dim, Reach>(of, is_near, buffer);
   return is_near;
 }

@@ -94,7 +94,8 @@ TEST_CASE("two liquids, one above the other, rest at an angle", "[verification]"
 
 TEST_CASE("water rests beside bodies, wherever they are in the grid", "[verification]") {
   // On a beach, around a post, in a tank and in one that is turned; places and heights by chance. With "mixed" the
-  // fastest particle has 0.18 to 0.6 m/s in these; with places of bodies on lines of the grid as well, later.
+  // fastest particle has 0.22 m/s around the post and 0.27 m/s in the turned tank from 4 to 8 s; on the beach and in
+  // the straight tank water rests here with both.
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(0, 1);
   const std::string shape = GENERATE(R"({"half_space": {"point": [1.2, 0], "normal": [-0.5, 1]}})",
@@ -103,7 +104,7 @@ TEST_CASE("water rests beside bodies, wherever they are in the grid", "[verifica
                                      R"({"invert": {"box": {"low": [0.2, 0.2], "high": [0.8, 0.8], "angle": 25}}})");
   Json scene = Json::parse(R"({"dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [20, 20]},
     "fluid": {"density": 1000, "viscosity": 1e-3}, "body_force": [0, -9.81],
-    "particles": [{"shape": {"half_space": {"normal": [0, 1]}}}], "bodies": [{"name": "body"}], "time": {"end": 5, "step": 0.0119}})");
+    "particles": [{"shape": {"half_space": {"normal": [0, 1]}}}], "bodies": [{"name": "body"}], "time": {"end": 9, "step": 0.0119}})");
   const double right = 0.05 * share(random);
   const double up = 0.05 * share(random);
   for (const char* corner : {"low", "high"}) {
@@ -115,9 +116,9 @@ TEST_CASE("water rests beside bodies, wherever they are in the grid", "[verifica
   CAPTURE(shape, right, up);
   SceneRun run(scene);
   Largest largest;
-  while (run.world().resource<Clock>().time < 4) {
+  while (run.world().resource<Clock>().time < 8) {
     run.step();
-    if (run.world().resource<Clock>().time > 2) largest.add(speed_of_fastest<2>(run.world()));
+    if (run.world().resource<Clock>().time > 4) largest.add(speed_of_fastest<2>(run.world()));
   }
   CHECK(largest.value() < 0.02);
 }
