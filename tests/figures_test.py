@@ -32,7 +32,7 @@ PICTURES = {
               "paper/dam_break_tpic": "dam_break.png", "paper/rotating_square_flip": "rotating_square.png",
               "paper/rotating_square_tpic": "rotating_square.png"},
     "readme": {"dam_break": "dam_break.png"},
-    "results": {"obstacle": "obstacle.png"},
+    "results": {"tilted_pool": "rest.png", "tilted_tank": "rest.png", "obstacle": "obstacle.png"},
 }
 COARSE = {"/grid/cells": [16, 8, 16], "/particles/0/per_cell": 2, "/time/end": 0.06, "/time/step": 0.01}
 
@@ -293,10 +293,12 @@ class Figures(unittest.TestCase):
         for picture in set(names.values()):
             self.assertAlmostEqual(size_of_png(out / picture)[0], 1440, delta=1)
         written = {path: path.stat().st_mtime_ns for path in results.glob("*/summary.json")}
-        self.assertEqual(len(written), len(names))
+        with_each_quadrature = [name for name, picture in names.items() if picture == "rest.png"]
+        self.assertEqual(len(written), len(names) + len(with_each_quadrature))
         scene["time"]["step"] = 0.025
         last.write_text(json.dumps(scene))
         with patch("figuring.documents.draw_strip"), patch("figuring.documents.draw_frontier"), \
+                patch("figuring.documents.draw_rest"), \
                 patch("figuring.documents.png", return_value=b""):  # what is run again is asked for, not how it looks
             self.assertEqual(figures(*command).returncode, 0)
         again = [path.parent.name for path, time in written.items() if path.stat().st_mtime_ns != time]

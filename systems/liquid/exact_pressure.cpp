@@ -70,21 +70,20 @@ double size_at_face(std::span<const typename staggered::Neighbour<Dim>::value_ty
 }  // namespace
 
 template <int Dim>
-void FindPressureAcceleration<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                                               Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                               Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-                                               Read<multiplier::Force> lambda, Read<face::ExactVolume<Dim>> volume,
-                                               Optional<Read<face::Open<Dim>>> open,
-                                               Optional<Read<face::Density<Dim>>> rho_f,
-                                               Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
-                                               Write<face::PressureAcceleration<Dim>> q_f) const {
+void FindPressureAcceleration<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+    Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<face::ExactVolume<Dim>> volume,
+    Optional<Read<face::Open<Dim>>> open, Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+    Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   const auto at_multiplier = [&](std::size_t l) { return lambda[l]; };
   for_each_row(sums.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const bool is_held = (held[i] & (1U << d)) != 0 || (open && (open[i][axis] == 0 || volume[i][axis] == 0));
+      const unsigned holds = held[i] | (contact ? contact[i] : 0U);
+      const bool is_held = (holds & (1U << d)) != 0 || (open && (open[i][axis] == 0 || volume[i][axis] == 0));
       sums[i][d] = is_held ? 0 : -incidence.gradient(i, d, at_multiplier);
       sums[i][Dim + d] = is_held ? 0 : rho.at(i, axis) * volume[i][axis];
     }

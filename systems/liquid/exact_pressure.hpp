@@ -4,6 +4,7 @@
 /// particles: water at rest then rests, whatever the angle of its surface.
 
 #include "components/body.hpp"
+#include "components/contact.hpp"
 #include "components/fluids.hpp"
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
@@ -20,10 +21,10 @@ struct FindPressureAcceleration {
   static constexpr std::string_view doc = "(E132) acceleration by which the pressure of the last step acted";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-                  Read<multiplier::Force> lambda, Read<face::ExactVolume<Dim>> volume,
-                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::Density<Dim>>> rho_f,
-                  Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
-                  Write<face::PressureAcceleration<Dim>> q_f) const;
+                  Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda,
+                  Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+                  Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const;
 };
 
 /// (E133)  w_f: 1 where the liquid is nearly at rest, 0 where it moves, and in spray.

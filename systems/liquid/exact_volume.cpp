@@ -75,6 +75,7 @@ struct Liquid {
   std::span<const double> phi;
   const ContinuedLiquid<Dim>* continued;  ///< none without bodies
   std::span<const double> near;
+  std::span<const Vec<Dim>> normal;
   std::span<double> psi;
   SurfaceCells<Dim>& cells;
 
@@ -116,6 +117,33 @@ void find_surface_cells(const Liquid<Dim>& of) {
   of.cells.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { of.cells.cell[c] = at; });
 }
 
+/// psi of the multipliers of a cell, x fastest. Those that are full or empty are as far as a plane that just leaves
+/// their splines, in the mean direction of the others: one farther away would not answer while the surface moves there.
+template <int Dim, int K>
+std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index<Dim>& cell) {
+  std::array<double, power(K, Dim)> psi;
+  std::array<bool, power(K, Dim)> is_told;
+  Vec<Dim> direction = Vec<Dim>::Zero();
+  typename SiteRows<Dim>::Finder find(of.rows);
+  std::size_t m = 0;
+  for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
+    const Index<Dim> site = of.splines.site(cell, offset);
+    const auto row = find(site);
+    const bool is_cut = row && liquid::is_cut(of.phi[*row]);
+    is_told[m] = is_cut || (of.continued != nullptr && of.continued->rows.find(site));
+    if (is_cut) direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
+    psi[m++] = of.psi_at(site, find);
+  });
+  const double length = direction.norm();
+  constexpr double none = 1e-6;
+  if (length < none) return psi;
+  const double end = 0.5 * K * direction.template lpNorm<1>() / length;
+  for (std::size_t k = 0; k < psi.size(); ++k) {
+    if (!is_told[k]) psi[k] = std::copysign(end, psi[k]);
+  }
+  return psi;
+}
+
 /// Calls add(integrals, their sums) for every cell at the surface.
 template <int Dim, int K, class Add>
 void integrate(const Liquid<Dim>& of, std::vector<double>& sums, std::size_t per_cell, const Add& add) {
@@ -124,14 +152,9 @@ void integrate(const Liquid<Dim>& of, std::vector<double>& sums, std::size_t per
   for_each_row(
       count,
       [&](std::size_t c) {
-        std::array<double, CellIntegrals<Dim, K>::multipliers> psi;
-        typename SiteRows<Dim>::Finder find(of.rows);
-        std::size_t m = 0;
-        for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
-          psi[m++] = of.psi_at(of.splines.site(of.cells.cell[c], offset), find);
-        });
         const CellFrame<Dim> frame(of.grid, of.splines, of.cells.cell[c]);
-        add(CellIntegrals<Dim, K>(frame, psi), std::span(sums).subspan(c * per_cell, per_cell));
+        add(CellIntegrals<Dim, K>(frame, psi_of_cell<Dim, K>(of, of.cells.cell[c])),
+            std::span(sums).subspan(c * per_cell, per_cell));
       },
       cells_per_task);
 }
@@ -228,16 +251,19 @@ bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d) {
 }  // namespace
 
 template <int Dim>
-void FindExactVolume<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::ContinuedFill> phi,
-    Read<multiplier::NearExact> near, Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
-    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
-    Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
-    Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const {
+void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                      Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::ContinuedFill> phi,
+                                      Read<multiplier::NearExact> near, Read<multiplier::SurfaceNormal<Dim>> n_l,
+                                      Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
+                                      Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+                                      Update<multiplier::SurfaceDistance> psi,
+                                      Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells,
+                                      Update<face::Mobility<Dim>> mobility,
+                                      Update<face::ExactVolume<Dim>> volume) const {
   const Liquid<Dim> of{
-      *grid,       *splines,   *rows, site.span(), neighbour.span(), phi.span(), continued ? &*continued : nullptr,
-      near.span(), psi.span(), *cells};
+      *grid,       *splines,   *rows,      site.span(), neighbour.span(), phi.span(), continued ? &*continued : nullptr,
+      near.span(), n_l.span(), psi.span(), *cells};
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   const double cell_volume = std::pow(grid->spacing, Dim);
   with_degree(splines->degree, [&](auto degree) {

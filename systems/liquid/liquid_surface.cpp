@@ -186,6 +186,7 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
     });
     find_distances();
   }
+  if (shared) shared->copy_from_owner(n_l.span());
 }
 
 template struct FindLiquidSurface<2>;

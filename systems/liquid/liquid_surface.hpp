@@ -16,7 +16,7 @@ namespace liquid {
 /// A multiplier is full above 1 - `edge` and empty below `edge`: nearer to either, the noise of particles moves the
 /// surface by more than it is worth.
 inline constexpr double edge = 1e-3;
-/// |psi_l| of those that are full or empty.
+/// The largest |psi_l| of what continues the liquid into bodies, and of what is full or empty far from the surface.
 inline constexpr double farthest = 1.2;
 inline bool is_full(double phi) { return phi >= 1 - edge; }
 inline bool is_cut(double phi) { return phi > edge && phi < 1 - edge; }

@@ -91,6 +91,19 @@ TEST_CASE("a standing wave has the period of linear theory", "[verification][lon
   CHECK(half_periods(run, 4).back().end == Approx(4 * std::numbers::pi / omega).epsilon(2e-3));
 }
 
+TEST_CASE("a wave that is lower than particles are apart has its period on exact integrals", "[verification]") {
+  // A tenth of a cell high, from a level surface on a line of the grid: multipliers next to it are empty or full, and
+  // tell nothing of it. 0.4 % was measured, 5.7 % with their distance from it a fifth of a cell larger.
+  Json scene = sloshing({"/quadrature={\"scheme\": \"exact\"}", "/constants/amplitude=0.005"});
+  scene["particles"] = Json::parse(R"json([{"shape": {"half_space": {"point": [0, 0.5], "normal": [0, 1]}},
+      "velocity": ["amplitude*g*k/omega*cosh(k*y)/cosh(k*depth)*sin(k*x)",
+                   "-amplitude*g*k/omega*sinh(k*y)/cosh(k*depth)*cos(k*x)"]}])json");
+  SceneRun run(scene);
+  const std::vector<HalfPeriod> halves = half_periods(run, 5);
+  const double omega = std::sqrt(9.81 * wave_number * std::tanh(wave_number * depth));
+  CHECK(halves[4].end - halves[0].end == Approx(4 * std::numbers::pi / omega).epsilon(5e-3));
+}
+
 TEST_CASE("a standing wave dies away as fast as in a viscous liquid", "[verification]") {
   // Where the viscosity is ten times that of the scene, 2 nu k^2, what a potential flow would lose, is 9.8 % too much.
   // Measured over three periods: 0.6 % too little; with half of the step, over four, 0.4 % too much.

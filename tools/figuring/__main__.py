@@ -6,7 +6,7 @@
   tools/figures out/dam_break_3d --slice y=0.05
   tools/figures out/splash --render --times 0.08   water in a tank, by Blender, of runs with "surface": "ply"
   tools/figures readme                             the pictures of the README; runs the scene if its results are missing
-  tools/figures results                            that of scenes/RESULTS.md, in the same way
+  tools/figures results                            those of scenes/RESULTS.md, in the same way
   tools/figures paper                              the figures of scenes/paper, in the same way
 """
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import subprocess
@@ -13,6 +14,7 @@ from typing import Any
 from figuring.fields import find_field
 from figuring.frontier import draw_frontier
 from figuring.layout import WIDTH, png
+from figuring.rest import draw_rest
 from figuring.strips import Strip, draw_strip
 from reporting.references import read_references
 from reporting.runs import NoResults, Run
@@ -31,6 +33,16 @@ class Figure:
     corners: bool = False
 
 
+@dataclass(frozen=True)
+class RestFigure:
+    """The speed of water at rest over time, with each quadrature."""
+
+    name: str
+    scenes: dict[str, str]  # label by scene
+    quadratures: tuple[str, ...]
+    end: float  # [s]
+
+
 INTERFOAM = ROOT / "scenes/reference/dam_break_interfoam"
 INTERFOAM_OBSTACLE = ROOT / "scenes/reference/obstacle_interfoam"
 
@@ -41,15 +53,17 @@ class Pictures:
 
     about: str
     folder: Path
-    figures: tuple[Figure, ...]
+    figures: tuple[Figure | RestFigure, ...]
     studies: Path | None = None  # their tables, for frontier.png; none of them is run
 
 
 DOCUMENTS = {
     "readme": Pictures("the pictures of the README", ROOT / "scenes", (
         Figure("dam_break", ("dam_break",), (0.2, 0.4, 0.6, 0.8), INTERFOAM),), ROOT / "scenes/studies"),
-    "results": Pictures("the picture of scenes/RESULTS.md that no study makes", ROOT / "scenes", (
-        Figure("obstacle", ("obstacle",), (0.1, 0.2, 0.25, 0.3), INTERFOAM_OBSTACLE),)),
+    "results": Pictures("the pictures of scenes/RESULTS.md that no study makes", ROOT / "scenes", (
+        Figure("obstacle", ("obstacle",), (0.1, 0.2, 0.25, 0.3), INTERFOAM_OBSTACLE),
+        RestFigure("rest", {"tilted_pool": "gravity 25 degrees off the grid", "tilted_tank": "tank turned by 25 degrees"},
+                   ("exact", "mixed"), 60.0))),
     "paper": Pictures("the figures of the paper that scenes/paper reproduces", ROOT / "scenes/paper", (
         Figure("dam_break", ("dam_break_pic", "dam_break_flip", "dam_break_tpic"), (0.3, 0.6, 5.0), INTERFOAM),
         Figure("rotating_square", ("rotating_square_flip", "rotating_square_tpic"), (1.0, 2.0, 4.0), corners=True))),
@@ -65,36 +79,64 @@ def write_pictures(pictures: Pictures, scenes: Path, results: Path, out: Path) -
     return written
 
 
-def _write_figure(figure: Figure, scenes: Path, results: Path, out: Path) -> Path:
-    runs = [_run(scenes / f"{name}.json", results / name) for name in figure.scenes]
-    references = read_references(figure.reference) if figure.reference else []
-    strip = Strip(runs, list(figure.times), find_field(runs, "speed"), references, figure.corners)
+def _write_figure(figure: Figure | RestFigure, scenes: Path, results: Path, out: Path) -> Path:
     path = out / f"{figure.name}.png"
-    path.write_bytes(png(draw_strip(strip)))
+    path.write_bytes(png(_draw_rest(figure, scenes, results) if isinstance(figure, RestFigure)
+                         else _draw_scenes(figure, scenes, results)))
     return path
 
 
-def _run(scene: Path, folder: Path) -> Run:
+def _draw_rest(figure: RestFigure, scenes: Path, results: Path):
+    runs = {}
+    for name, label in figure.scenes.items():
+        for scheme in figure.quadratures:
+            settings = {"/time/end": figure.end, "/quadrature": {"scheme": scheme}}
+            runs[label, scheme] = _run(scenes / f"{name}.json", results / f"{name}_{scheme}", settings)
+    return draw_rest(runs, WIDTH)
+
+
+def _draw_scenes(figure: Figure, scenes: Path, results: Path):
+    runs = [_run(scenes / f"{name}.json", results / name) for name in figure.scenes]
+    references = read_references(figure.reference) if figure.reference else []
+    return draw_strip(Strip(runs, list(figure.times), find_field(runs, "speed"), references, figure.corners))
+
+
+def _run(scene: Path, folder: Path, settings: dict[str, Any] | None = None) -> Run:
+    """The run of a scene, with other values of these keys."""
     if not scene.is_file():
         raise NoResults(f"{scene}: no such scene")
-    there = _is_there(scene, folder)
+    settings = settings or {}
+    there = _is_there(_with(json.loads(scene.read_text()), settings), folder)
     if there is None or not there.summary.get("complete", False):
         program = os.environ.get("MINAMO")
         command = [program, "run"] if program else [str(ROOT / "tools/run")]
         # What was begun and is this very scene goes on; what else is unfinished there minamo does not replace.
         more = ["--resume"] if there and (folder / "checkpoint.h5").is_file() else []
+        for key, value in settings.items():
+            more += ["--set", f"{key}={json.dumps(value)}"]
         status = subprocess.run([*command, str(scene), "--out", str(folder), *more], check=False).returncode
         if status != 0:
             sys.exit(status)  # minamo has said why
     return Run(folder)
 
 
-def _is_there(scene: Path, folder: Path) -> Run | None:
+def _with(scene: dict, settings: dict[str, Any]) -> dict:
+    changed = copy.deepcopy(scene)
+    for pointer, value in settings.items():
+        *parents, key = pointer.strip("/").split("/")
+        place = changed
+        for parent in parents:
+            place = place[parent]
+        place[key] = value
+    return changed
+
+
+def _is_there(scene: dict, folder: Path) -> Run | None:
     """The run of this very scene in the folder, finished or not, if there is one."""
     if not (folder / "scene.json").is_file():
         return None
     run = Run(folder)
-    return run if _contains(run.scene, json.loads(scene.read_text())) else None
+    return run if _contains(run.scene, scene) else None
 
 
 def _contains(whole: Any, part: Any) -> bool:
