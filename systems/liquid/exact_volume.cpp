@@ -119,26 +119,24 @@ void find_surface_cells(const Liquid<Dim>& of) {
 
 /// psi of the multipliers of a cell, x fastest. Those that are full or empty are as far as a plane that just leaves
 /// their splines, in the mean direction of the others: one farther away would not answer while the surface moves there.
-/// Not where the liquid goes on behind walls: full or empty may be what is on their other side.
+/// Not in scenes with bodies: full or empty may be what is on the other side of a thin wall.
 template <int Dim, int K>
 std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index<Dim>& cell) {
   std::array<double, power(K, Dim)> psi;
   std::array<bool, power(K, Dim)> is_cut;
-  bool is_continued = false;
   Vec<Dim> direction = Vec<Dim>::Zero();
   typename SiteRows<Dim>::Finder find(of.rows);
   std::size_t m = 0;
   for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
     const Index<Dim> site = of.splines.site(cell, offset);
     const auto row = find(site);
-    is_continued = is_continued || (of.continued != nullptr && of.continued->rows.find(site));
     is_cut[m] = row && liquid::is_cut(of.phi[*row]);
     if (is_cut[m]) direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
     psi[m++] = of.psi_at(site, find);
   });
   const double length = direction.norm();
   constexpr double none = 1e-6;
-  if (is_continued || length < none) return psi;
+  if (of.continued != nullptr || length < none) return psi;
   const double end = 0.5 * K * direction.template lpNorm<1>() / length;
   for (std::size_t k = 0; k < psi.size(); ++k) {
     if (!is_cut[k]) psi[k] = std::copysign(end, psi[k]);
