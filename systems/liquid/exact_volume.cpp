@@ -80,8 +80,8 @@ struct Liquid {
   SurfaceCells<Dim>& cells;
 
   bool is_full(std::size_t i) const { return liquid::is_full(phi[i]); }
-  double psi_at(const Index<Dim>& at, typename SiteRows<Dim>::Finder& find) const {
-    if (const auto row = find(at)) return psi[*row];
+  double psi_at(const Index<Dim>& at, const std::optional<std::uint32_t>& row) const {
+    if (row) return psi[*row];
     const auto beyond = continued != nullptr ? continued->rows.find(at) : std::nullopt;
     return beyond ? continued->psi[*beyond] : -liquid::farthest;
   }
@@ -132,7 +132,7 @@ std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index
     const auto row = find(site);
     is_cut[m] = row && liquid::is_cut(of.phi[*row]);
     if (is_cut[m]) direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
-    psi[m++] = of.psi_at(site, find);
+    psi[m++] = of.psi_at(site, row);
   });
   const double length = direction.norm();
   constexpr double none = 1e-6;

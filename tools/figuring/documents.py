@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import json
 import os
 import subprocess
@@ -88,10 +87,15 @@ def _write_figure(figure: Figure | RestFigure, scenes: Path, results: Path, out:
 
 def _draw_rest(figure: RestFigure, scenes: Path, results: Path):
     runs = {}
+    results.mkdir(parents=True, exist_ok=True)
     for name, label in figure.scenes.items():
         for scheme in figure.quadratures:
-            settings = {"/time/end": figure.end, "/quadrature": {"scheme": scheme}}
-            runs[label, scheme] = _run(scenes / f"{name}.json", results / f"{name}_{scheme}", settings)
+            scene = _read(scenes / f"{name}.json")
+            scene["time"]["end"] = figure.end
+            scene["quadrature"] = {"scheme": scheme}
+            changed = results / f"{name}_{scheme}.json"
+            changed.write_text(json.dumps(scene))
+            runs[label, scheme] = _run(changed, results / changed.stem)
     return draw_rest(runs, WIDTH)
 
 
@@ -101,37 +105,26 @@ def _draw_scenes(figure: Figure, scenes: Path, results: Path):
     return draw_strip(Strip(runs, list(figure.times), find_field(runs, "speed"), references, figure.corners))
 
 
-def _run(scene: Path, folder: Path, settings: dict[str, Any] | None = None) -> Run:
-    """The run of a scene, with other values of these keys."""
+def _read(scene: Path) -> dict[str, Any]:
     if not scene.is_file():
         raise NoResults(f"{scene}: no such scene")
-    settings = settings or {}
-    there = _is_there(_with(json.loads(scene.read_text()), settings), folder)
+    return json.loads(scene.read_text())
+
+
+def _run(scene: Path, folder: Path) -> Run:
+    there = _is_there(_read(scene), folder)
     if there is None or not there.summary.get("complete", False):
         program = os.environ.get("MINAMO")
         command = [program, "run"] if program else [str(ROOT / "tools/run")]
         # What was begun and is this very scene goes on; what else is unfinished there minamo does not replace.
         more = ["--resume"] if there and (folder / "checkpoint.h5").is_file() else []
-        for key, value in settings.items():
-            more += ["--set", f"{key}={json.dumps(value)}"]
         status = subprocess.run([*command, str(scene), "--out", str(folder), *more], check=False).returncode
         if status != 0:
             sys.exit(status)  # minamo has said why
     return Run(folder)
 
 
-def _with(scene: dict, settings: dict[str, Any]) -> dict:
-    changed = copy.deepcopy(scene)
-    for pointer, value in settings.items():
-        *parents, key = pointer.strip("/").split("/")
-        place = changed
-        for parent in parents:
-            place = place[parent]
-        place[key] = value
-    return changed
-
-
-def _is_there(scene: dict, folder: Path) -> Run | None:
+def _is_there(scene: dict[str, Any], folder: Path) -> Run | None:
     """The run of this very scene in the folder, finished or not, if there is one."""
     if not (folder / "scene.json").is_file():
         return None

@@ -62,7 +62,7 @@ def _draw_panel(axes, panel: Plot, runs: list[Run]) -> None:
             if values is not None:
                 axes.plot(run.history["time"], values, linestyle=STYLES[j], label=name, linewidth=0.8,
                           color=COLOURS[k if len(runs) > 1 else j])
-    _quiet(axes)
+    quiet(axes)
     _logarithmic(axes) if panel.logarithmic else _linear(axes)
     if any(panel.columns.values()):
         axes.legend(fontsize=8, frameon=False, handlelength=1.8, borderaxespad=0.1)
@@ -86,7 +86,7 @@ def _linear(axes) -> None:
     axes.yaxis.get_offset_text().set_fontsize(8)
 
 
-def _quiet(axes) -> None:
+def quiet(axes) -> None:
     """Two axes, faint grid, small numbers."""
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(color="0.92", linewidth=0.6)
@@ -122,7 +122,7 @@ def _bars(runs: list[Run], bars: list[list[float]], captions: list[str], width: 
     axes.set_yticks(range(len(captions)), captions, fontsize=8.5)
     axes.invert_yaxis()
     axes.set_xlabel("wall time [s]", fontsize=9)
-    _quiet(axes)
+    quiet(axes)
     axes.grid(axis="y", visible=False)
     axes.margins(x=0.16, y=0.01)
     return figure

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from figuring.plots import COLOURS
+from figuring.plots import COLOURS, STYLES, quiet
 from reporting.runs import Run
 
-STYLES = {"exact": "solid", "mixed": (0, (4, 1.5))}
+LINES = {"exact": STYLES[0], "mixed": STYLES[1]}
 
 
 def draw_rest(runs: dict[tuple[str, str], Run], width: float) -> Figure:
@@ -17,14 +17,11 @@ def draw_rest(runs: dict[tuple[str, str], Run], width: float) -> Figure:
     labels = list(dict.fromkeys(label for label, _ in runs))
     for (label, quadrature), run in runs.items():
         # At the start all of it rests, which has no logarithm.
-        axes.plot(run.history["time"][1:], run.series("max_speed")[1:], linewidth=1.2, linestyle=STYLES[quadrature],
+        axes.plot(run.history["time"][1:], run.series("max_speed")[1:], linewidth=1.2, linestyle=LINES[quadrature],
                   color=COLOURS[labels.index(label)], label=f"{label}, {quadrature}")
     axes.set_yscale("log")
     axes.set_xlabel("$t$ [s]", fontsize=9)
     axes.set_ylabel("fastest particle [m/s]", fontsize=9)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.grid(color="0.92", linewidth=0.6)
-    axes.tick_params(labelsize=8)
-    axes.margins(x=0.01)
+    quiet(axes)
     axes.legend(frameon=False, fontsize=7.5, ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1))
     return figure
