@@ -99,6 +99,25 @@ CellSplines make_cell(int degree, const Knots& knots) {
   return cell;
 }
 
+/// Term by term up to the last knot L: int_at^L (x - at)^p/p! x^k/k! dx, with x^k by powers of x - at and of at.
+void set_moments(TruncatedPowers& powers) {
+  double last = powers.terms[0].at;
+  for (std::size_t t = 1; t < powers.count; ++t) last = std::max(last, powers.terms[t].at);
+  for (std::size_t t = 0; t < powers.count; ++t) {
+    const TruncatedPowers::Term& term = powers.terms[t];
+    double of_length = term.jump;  // (L - at)^(p + j + 1)/(p! j!)
+    for (int p = 1; p <= term.power; ++p) of_length *= (last - term.at) / p;
+    for (std::size_t j = 0; j < powers.moments.size(); ++j) {
+      of_length *= (last - term.at) / (j == 0 ? 1 : static_cast<double>(j));
+      double share = of_length / (term.power + static_cast<double>(j) + 1);
+      for (std::size_t k = j; k < powers.moments.size(); ++k) {
+        powers.moments[k] += share;
+        share *= term.at / static_cast<double>(k - j + 1);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 SplineAxis::SplineAxis(int degree, int cells, bool periodic) : degree_(degree), cells_(cells), periodic_(periodic) {
@@ -132,10 +151,7 @@ TruncatedPowers SplineAxis::truncated_powers(int j) const {
       if (std::abs(jump) > rounding) powers.terms[powers.count++] = {knot - origin, jump / width(j), order};
     }
   }
-  for (int cell = j - degree_ + 1; cell <= j; ++cell) {
-    const Polynomial times_x = times_linear(cell - origin, 1, in_cell(cell));
-    powers.mean += integral_of(times_x) / width(j);
-  }
+  set_moments(powers);
   return powers;
 }
 

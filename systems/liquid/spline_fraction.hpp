@@ -18,23 +18,26 @@ class SplineFraction {
     double share;  ///< [1]
     double slope;  ///< by psi
   };
-  Value operator()(double psi) const;
+  Value operator()(double psi) const { return mean_power(0, psi + shift_, 0); }
   /// The distance psi of which the share is known, in units of h. \pre 0 < share < 1
   /// \param near  a first guess
   double inverse(double share, double near) const;
 
  private:
-  struct Term {
-    double at;
-    double factor;
-    int power;
+  /// One axis: what it and those after it add to y = -n.(x - x_l).
+  struct Axis {
+    std::array<TruncatedPowers::Term, static_cast<std::size_t>(largest_degree + 1)> terms;  ///< of its own part of y
+    std::size_t count;
+    double low;   ///< least y of this axis and those after it
+    double high;  ///< largest
+    std::array<double, std::tuple_size_v<decltype(TruncatedPowers::moments)>> moments;  ///< of (-y)^k/k!
   };
-  static constexpr std::size_t most_terms = power(largest_degree + 1, Dim);
-  std::array<Term, most_terms> terms_;
-  std::size_t count_ = 1;
+  /// Mean of (z - y)_+^p/p!, y of an axis and those after it, and its derivative by z.
+  Value mean_power(std::size_t axis, double z, int p) const;
+
+  std::array<Axis, static_cast<std::size_t>(Dim)> axes_;
+  std::size_t count_ = 0;
   double shift_ = 0;  ///< of psi, by axes along which the plane lies
-  double low_ = 0;    ///< psi of share 0
-  double high_ = 0;   ///< psi of share 1
 };
 
 }  // namespace minamo
