@@ -231,8 +231,9 @@ class Messages(unittest.TestCase):
             folder, _ = run(f"still_{steps}", 2, SCENES / "dam_break.json", *still, "--steps", str(steps))
             sent[steps] = json.loads((folder / "summary.json").read_text())["ranks"]["messages"]
         # Volume, divergence and fill of multipliers, mass and velocity of faces, bound of friction and friction, inertia,
-        # parts, numbers and solutions of the unknowns; ghost cells, and which sites they touch.
-        self.assertEqual(sent[6] - sent[5], 2 * (11 + 2))
+        # parts, numbers and solutions of the unknowns; of exact integrals q, liquid near and w, where they reach, distances
+        # of the surface three times, normals, and volumes; ghost cells, and which sites they touch.
+        self.assertEqual(sent[6] - sent[5], 2 * (11 + 9 + 2))
 
 
 class Continuations(unittest.TestCase):

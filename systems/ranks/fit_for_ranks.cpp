@@ -9,7 +9,8 @@ namespace {
 
 const std::set<std::string, std::less<>> fit{
     // between ranks
-    "migrate_particles", "find_ghost_cells", "plan_site_exchange", "solve_multipliers_petsc", "solve_friction",
+    "migrate_particles", "find_ghost_cells", "plan_site_exchange", "keep_former_rows", "ask_for_former_rows",
+    "solve_multipliers_petsc", "solve_friction",
     // add up at sites that ranks share
     "p2g_faces_pic", "p2g_faces_tpic", "p2g_faces_tpic2", "filter_faces_xpic", "filter_faces_fmpm",
     "p2g_face_acceleration_pic", "p2g_face_acceleration_tpic", "p2g_face_force", "p2g_multipliers", "find_fill",

@@ -1,4 +1,5 @@
 #include "systems/parts.hpp"
+#include "systems/ranks/former_rows.hpp"
 #include "systems/ranks/migrate.hpp"
 #include "systems/ranks/site_exchange.hpp"
 #include "systems/setup/scene.hpp"
@@ -24,6 +25,8 @@ void add_ranks(SystemRegistry& registry) {
   registry.add<MigrateParticles>("migrate_particles");
   registry.add<FindGhostCells>("find_ghost_cells");
   registry.add<PlanSiteExchange>("plan_site_exchange");
+  registry.add<KeepFormerRows>("keep_former_rows");
+  registry.add<AskForFormerRows>("ask_for_former_rows");
   registry.add(Part{"ranks", "a run on several machines; no key", read_ranks});
 }
 

@@ -10,7 +10,7 @@ namespace minamo {
 void SiteExchange::start(Communicator& ranks, std::size_t rows) {
   ranks_ = &ranks;
   owner_.assign(rows, ranks.size());
-  in_part_.clear();
+  in_part_.assign(rows, 0);
   asked_for.clear();
   given.clear();
 }
@@ -63,7 +63,8 @@ void SiteExchange::add_up(std::size_t width, const std::function<double*(std::si
   add(summed_, own);
   add_of_ranks_below(ranks_->size());
   const double unknown = ranks_->marks_unknown ? std::numeric_limits<double>::quiet_NaN() : 0;
-  for (const std::uint32_t i : in_part_) {
+  for (std::size_t i = 0; i < in_part_.size(); ++i) {
+    if (in_part_[i] == 0) continue;
     if (double* row = at(i)) std::fill_n(row, width, unknown);
   }
 }
@@ -74,16 +75,11 @@ namespace {
 template <int Dim>
 bool is_whole(const CellBlocks<Dim>& blocks, const Splines<Dim>& splines, const GhostCells<Dim>& ghosts,
               const Index<Dim>& site) {
-  for (unsigned corner = 0; corner < (1U << Dim); ++corner) {
-    Index<Dim> cell;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const SplineAxis& axis = splines.axis[d];
-      const int touching = site[d] - ((corner >> d & 1U) != 0 ? splines.degree : 0);
-      cell[d] = axis.periodic() ? (touching + axis.cells()) % axis.cells() : std::clamp(touching, 0, axis.cells() - 1);
-    }
-    if (!ghosts.covers(morton_key<Dim>(blocks.place_of(cell)))) return false;
-  }
-  return true;
+  bool all = true;
+  for_each_corner_cell<Dim>(splines, site, [&](const Index<Dim>& cell) {
+    all = all && ghosts.covers(morton_key<Dim>(blocks.place_of(cell)));
+  });
+  return all;
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ class SiteExchange {
   void start(Communicator& ranks, std::size_t rows);
   /// A cell of a rank touches a row that is known whole, or in part.
   void touch(std::size_t row, int rank);
-  void know_in_part(std::size_t row) { in_part_.push_back(static_cast<std::uint32_t>(row)); }
+  void know_in_part(std::size_t row) { in_part_[row] = 1; }
+  bool knows_in_part(std::size_t row) const { return in_part_[row] != 0; }
   /// Once `asked_for` and `given` are there.
   void finish();
   /// Rows that this rank and another touch; in the order in which the other asked for them.
@@ -59,9 +60,23 @@ class SiteExchange {
  private:
   Communicator* ranks_ = nullptr;
   std::vector<int> owner_;  ///< by row: the lowest rank with a cell that touches it
-  std::vector<std::uint32_t> in_part_;
+  std::vector<std::uint8_t> in_part_;
   std::vector<std::uint32_t> summed_;  ///< rows that others touch, too
 };
+
+/// Calls use(cell) for the cells at the corners of those that touch a site; within a block of cells no others differ.
+template <int Dim, class Use>
+void for_each_corner_cell(const Splines<Dim>& splines, const Index<Dim>& site, const Use& use) {
+  for (unsigned corner = 0; corner < (1U << Dim); ++corner) {
+    Index<Dim> cell;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const SplineAxis& axis = splines.axis[d];
+      const int touching = site[d] - ((corner >> d & 1U) != 0 ? splines.degree : 0);
+      cell[d] = axis.periodic() ? (touching + axis.cells()) % axis.cells() : std::clamp(touching, 0, axis.cells() - 1);
+    }
+    use(cell);
+  }
+}
 
 /// Adds up what ranks share, if there are ranks.
 template <class T>
