@@ -185,7 +185,7 @@ void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>
                           std::span<const double> open, std::span<const Vec<Dim>> share, const SiteCuts<Dim>& cuts,
                           ContinuedLiquid<Dim>& continued) {
   // Most rows have no body near, and all others around: only those next to some that have not are looked at.
-  const RowsOfSites<Dim> all{splines, rows, site, neighbour, nullptr};
+  const RowsOfSites<Dim> all{splines, rows, site, neighbour};
   const auto may_lack = [&](std::size_t i) { return open[i] < 1 || all.lacks_one_beside(i); };
   std::vector<double> is_near;
   with_degree(splines.degree, [&](auto degree) { is_near = near_any<Dim, degree()>(all, may_lack); });

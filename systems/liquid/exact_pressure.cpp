@@ -24,6 +24,8 @@ constexpr double largest_ratio = 10;
 /// those of the particles: in a flow that strains, exact integrals are no better, and let particles gain energy.
 constexpr double still_to = 0.05;
 constexpr double moving_from = 0.2;
+/// In the depth of the liquid masses are those of the full grid (E68) to this: there is nothing to replace.
+constexpr double as_full = 1e-12;
 
 /// 1 where the liquid is all but at rest, 0 where it moves, by the faces beside one that have mass; `fall` is h |q|.
 template <int Dim>
@@ -44,23 +46,37 @@ double stillness(const typename staggered::Neighbour<Dim>::value_type& neighbour
   return std::clamp((moving_from - std::sqrt(squares / fall)) / (moving_from - still_to), 0.0, 1.0);
 }
 
+/// The row of a face of direction e beside one of direction d: bit 0 of the corner below it, bit 1 above it along e.
+template <int Dim>
+std::optional<std::size_t> row_at_corner(const RowsOfSites<Dim>& of, std::size_t i, std::size_t d, std::size_t e,
+                                         unsigned corner) {
+  auto row = static_cast<std::int32_t>(i);
+  if ((corner & 1U) != 0) row = of.neighbour[i][2 * d];
+  if ((corner & 2U) != 0 && row != staggered::none) row = of.neighbour[static_cast<std::size_t>(row)][2 * e + 1];
+  if (row != staggered::none) return static_cast<std::size_t>(row);
+  if (corner != 3) return {};
+  // The one in between may have no row.
+  Index<Dim> steps{};
+  steps[d] = -1;
+  steps[e] = 1;
+  const auto at = of.splines.site_at(of.site[i], steps);
+  return at ? of.rows.find(*at) : std::nullopt;
+}
+
 /// |q| at a face of a direction: its own component, and the means of the others over the faces around that have mass.
 template <int Dim>
-double size_at_face(std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
-                    std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> q_f, std::size_t i, std::size_t d) {
-  double squares = 0;
+double size_at_face(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> q_f,
+                    std::size_t i, std::size_t d) {
+  double squares = std::pow(q_f[i][static_cast<Eigen::Index>(d)], 2);
   for (std::size_t e = 0; e < Dim; ++e) {
+    if (e == d) continue;
     double sum = 0;
     double count = 0;
-    const auto add = [&](std::int32_t row) {
-      if (row == staggered::none || m_f[static_cast<std::size_t>(row)][static_cast<Eigen::Index>(e)] == 0) return;
-      sum += q_f[static_cast<std::size_t>(row)][static_cast<Eigen::Index>(e)];
+    for (unsigned corner = 0; corner < 4; ++corner) {
+      const auto row = row_at_corner(of, i, d, e, corner);
+      if (!row || m_f[*row][static_cast<Eigen::Index>(e)] == 0) continue;
+      sum += q_f[*row][static_cast<Eigen::Index>(e)];
       ++count;
-    };
-    const auto own = static_cast<std::int32_t>(i);
-    for (const std::int32_t row : {own, e == d ? staggered::none : neighbour[i][2 * d]}) {
-      add(row);
-      if (e != d && row != staggered::none) add(neighbour[static_cast<std::size_t>(row)][2 * e + 1]);
     }
     if (count > 0) squares += sum * sum / (count * count);
   }
@@ -73,30 +89,31 @@ template <int Dim>
 void FindPressureAcceleration<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-    Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<face::ExactVolume<Dim>> volume,
-    Optional<Read<face::Open<Dim>>> open, Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
-    Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const {
+    Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
+    Read<face::Mass<Dim>> m_f, Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Open<Dim>>> open,
+    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
+    Write<face::PressureAcceleration<Dim>> q_f) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
-  const auto at_multiplier = [&](std::size_t l) { return lambda[l]; };
+  // What particles have left still has rows on the high side of the liquid.
+  const auto at_multiplier = [&](std::size_t l) { return v_l[l] > 0 ? lambda[l] : 0; };
   for_each_row(sums.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const unsigned holds = held[i] | (contact ? contact[i] : 0U);
-      const bool is_held = (holds & (1U << d)) != 0 || (open && (open[i][axis] == 0 || volume[i][axis] == 0));
+      const bool is_held =
+          (holds & (1U << d)) != 0 || m_f[i][axis] == 0 || (open && (open[i][axis] == 0 || volume[i][axis] == 0));
       sums[i][d] = is_held ? 0 : -incidence.gradient(i, d, at_multiplier);
       sums[i][Dim + d] = is_held ? 0 : rho.at(i, axis) * volume[i][axis];
     }
   });
-  if (shared) shared->copy_from_owner(sums.span());
-  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span(), of_ranks(shared)};
+  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span()};
   // What goes over rows axis by axis would depend on the order of the axes where a site has none.
   const auto is_at_edge = near_any<Dim, 1>(of, [&](std::size_t i) { return of.lacks_one_beside(i); });
   using Sums = typename face::PressureSums<Dim>::value_type;
   const std::vector<Sums> of_face(sums.begin(), sums.end());
   // Axis by axis over the faces next to a face, ...
   for (std::size_t e = 0; e < Dim; ++e) {
-    if (shared) shared->copy_from_owner(sums.span());
     const auto with_neighbours = [&](std::size_t i, std::size_t k) {
       double sum = sums[i][k];
       const std::int32_t below = neighbour[i][2 * e];
@@ -127,27 +144,31 @@ void FindPressureAcceleration<Dim>::operator()(
     for (std::size_t d = 0; d < Dim; ++d)
       q_f[i][static_cast<Eigen::Index>(d)] = sums[i][Dim + d] > least ? sums[i][d] / sums[i][Dim + d] : 0;
   });
+  if (shared) shared->copy_from_owner(q_f.span());
 }
 
 template <int Dim>
-void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                                     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                     Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                                     Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility,
-                                     Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f,
-                                     Optional<Read<face::Open<Dim>>> open_face,
-                                     Optional<Read<multiplier::OpenShare>> open, Optional<Read<SiteExchange>> shared,
-                                     Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
-                                     Write<face::ExactShare<Dim>> share) const {
+void FindExactShare<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
+    Read<multiplier::Capacity> capacity, Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility,
+    Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Open<Dim>>> open_face,
+    Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
+    Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
+    Write<face::ExactShare<Dim>> share) const {
   for_each_row(near.size(), [&](std::size_t i) {
     near[i] = capacity[i] == 0 || (open && open[i] < least_open) ? 0 : v_l[i] / capacity[i];
   });
-  spread_largest<Dim, liquid_reach>({*splines, *rows, site.span(), neighbour.span(), of_ranks(shared)}, near.span(),
-                                    buffer.span());
+  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span()};
+  spread_largest<Dim, liquid_reach>(of, near.span(), buffer.span(),
+                                    [&](std::size_t i) { return v_l[i] > 0 && near[i] < liquid_to; });
+  if (shared) shared->copy_from_owner(near.span());
   for_each_row(near.size(), [&](std::size_t i) {
     const double t = std::clamp((near[i] - liquid_from) / (liquid_to - liquid_from), 0.0, 1.0);
     near[i] = t * t * (3 - 2 * t);
   });
+  const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
+  const double cell_volume = std::pow(grid->spacing, Dim);
   for_each_row(share.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
@@ -155,6 +176,9 @@ void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
       share[i][axis] = 0;
       if (mobility[i][axis] == 0 || m_f[i][axis] == 0 || (open_face && open_face[i][axis] == 0)) continue;
       if (splines->ends_at(site[i], 2 * d) || !splines->has_multiplier(site[i])) continue;
+      const double of_full_grid =
+          rho.at(i, axis) * cell_volume * splines->face_integral(site[i], d) * mobility[i][axis];
+      if (!open_face && std::abs(of_full_grid - 1) < as_full) continue;
       // On the high side of the liquid there are rows that no particle touches, on its low side none.
       double liquid = 1;
       bool any = false;
@@ -165,9 +189,8 @@ void FindExactShare<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
       }
       if (!any) continue;
       if (liquid > 0)
-        share[i][axis] =
-            liquid * stillness<Dim>(neighbour[i], m_f.span(), v_f.span(), i, axis,
-                                    grid->spacing * size_at_face<Dim>(neighbour.span(), m_f.span(), q_f.span(), i, d));
+        share[i][axis] = liquid * stillness<Dim>(neighbour[i], m_f.span(), v_f.span(), i, axis,
+                                                 grid->spacing * size_at_face<Dim>(of, m_f.span(), q_f.span(), i, d));
     }
   });
   if (shared) shared->copy_from_owner(share.span());

@@ -21,8 +21,8 @@ struct FindPressureAcceleration {
   static constexpr std::string_view doc = "(E132) acceleration by which the pressure of the last step acted";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-                  Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda,
-                  Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
+                  Read<face::Mass<Dim>> m_f, Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
                   Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const;
 };
@@ -31,14 +31,14 @@ struct FindPressureAcceleration {
 template <int Dim>
 struct FindExactShare {
   static constexpr std::string_view doc = "(E133) where forces are those on exact integrals over the liquid";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Read<face::Mass<Dim>> m_f,
                   Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
                   Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Open<Dim>>> open_face,
-                  Optional<Read<multiplier::OpenShare>> open, Optional<Read<SiteExchange>> shared,
-                  Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
-                  Write<face::ExactShare<Dim>> share) const;
+                  Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
+                  Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
+                  Write<multiplier::NearExact> buffer, Write<face::ExactShare<Dim>> share) const;
 };
 
 /// (E134)  v*_f += tau (rho_f V^_f/m_f - 1) q_f.

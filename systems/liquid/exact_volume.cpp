@@ -12,8 +12,8 @@ namespace minamo {
 
 namespace {
 
-/// Share of what a multiplier lacks of its measured volume by which the surface is moved. With all of it waves of two
-/// cells feel too much force, and water at rest becomes unstable.
+/// Share of what a multiplier lacks of its measured volume by which the surface is moved. With more of it waves feel
+/// too much force.
 constexpr double correction = 0.5;
 constexpr double largest_correction = 0.2;
 /// Least area of the surface in a multiplier, in units of h^(d-1): where it leaves, a small move would be a large one.
@@ -87,19 +87,6 @@ struct Liquid {
   }
 };
 
-/// Whether the surface may pass a cell of a multiplier.
-template <int Dim>
-bool is_at_surface(const Liquid<Dim>& of, std::size_t i) {
-  if (!(of.near[i] > 0)) return false;
-  if (!of.is_full(i)) return liquid::is_cut(of.phi[i]);
-  for (std::size_t side = 0; side < 2 * Dim; ++side) {
-    if (of.splines.ends_at(of.site[i], side)) continue;
-    const std::int32_t j = of.neighbour[i][side];
-    if (j == staggered::none || !of.is_full(static_cast<std::size_t>(j))) return true;
-  }
-  return false;
-}
-
 template <int Dim, int K>
 void find_surface_cells(const Liquid<Dim>& of) {
   Index<Dim> extent;
@@ -110,7 +97,8 @@ void find_surface_cells(const Liquid<Dim>& of) {
                           [&](const Index<Dim>& cell, const Index<Dim>&, std::size_t) { of.cells.rows.add(cell); });
   };
   for (std::size_t i = 0; i < of.psi.size(); ++i) {
-    if (of.splines.has_multiplier(of.site[i]) && is_at_surface(of, i)) add_cells_of(of.site[i]);
+    if (!of.splines.has_multiplier(of.site[i]) || !(of.near[i] > 0)) continue;
+    if (liquid::may_be_at_surface(of.splines, of.site[i], of.neighbour[i], of.phi, i)) add_cells_of(of.site[i]);
   }
   if (of.continued != nullptr) std::for_each(of.continued->site.begin(), of.continued->site.end(), add_cells_of);
   of.cells.cell.resize(of.cells.rows.number_rows());
@@ -251,16 +239,14 @@ bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d) {
 }  // namespace
 
 template <int Dim>
-void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                      Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::ContinuedFill> phi,
-                                      Read<multiplier::NearExact> near, Read<multiplier::SurfaceNormal<Dim>> n_l,
-                                      Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
-                                      Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
-                                      Update<multiplier::SurfaceDistance> psi,
-                                      Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells,
-                                      Update<face::Mobility<Dim>> mobility,
-                                      Update<face::ExactVolume<Dim>> volume) const {
+void FindExactVolume<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::ContinuedFill> phi,
+    Read<multiplier::NearExact> near, Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,
+    Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
+    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+    Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
+    Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const {
   const Liquid<Dim> of{
       *grid,       *splines,   *rows,      site.span(), neighbour.span(), phi.span(), continued ? &*continued : nullptr,
       near.span(), n_l.span(), psi.span(), *cells};
@@ -278,7 +264,9 @@ void FindExactVolume<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
     for_each_row(volume.size(), [&](std::size_t i) {
       for (std::size_t d = 0; d < Dim; ++d) {
         const auto axis = static_cast<Eigen::Index>(d);
-        const double of_particles = mobility[i][axis] > 0 ? 1 / (rho.at(i, axis) * mobility[i][axis]) : 0;
+        // What no particle touches has a row on the high side of the liquid alone.
+        const bool has_liquid = mobility[i][axis] > 0 && m_f[i][axis] > 0;
+        const double of_particles = has_liquid ? 1 / (rho.at(i, axis) * mobility[i][axis]) : 0;
         const double w = share[i][axis];
         volume[i][axis] = of_particles;
         if (w == 0) continue;

@@ -18,11 +18,12 @@ struct FindExactVolume {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<multiplier::ContinuedFill> phi, Read<multiplier::NearExact> near,
-                  Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::ExactShare<Dim>> share,
-                  Optional<Read<ContinuedLiquid<Dim>>> continued, Optional<Read<face::Density<Dim>>> rho_f,
-                  Optional<Read<SiteExchange>> shared, Update<multiplier::SurfaceDistance> psi,
-                  Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells,
-                  Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const;
+                  Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,
+                  Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
+                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+                  Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
+                  Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility,
+                  Update<face::ExactVolume<Dim>> volume) const;
 };
 
 }  // namespace minamo

@@ -155,9 +155,12 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
     }
   });
   with_degree(splines->degree, [&](auto degree) {
-    spread_largest<Dim, degree()>({*splines, *rows, site.span(), neighbour.span(), of_ranks(shared)}, near.span(),
-                                  psi.span());
+    spread_largest<Dim, degree()>(
+        {*splines, *rows, site.span(), neighbour.span()}, near.span(), psi.span(), [&](std::size_t i) {
+          return near[i] == 0 && liquid::may_be_at_surface(*splines, site[i], neighbour[i], phi.span(), i);
+        });
   });
+  if (shared) shared->copy_from_owner(near.span());
   std::vector<std::uint8_t> wanted(phi.size());
   for_each_row(phi.size(), [&](std::size_t i) {
     wanted[i] = near[i] > 0 && is_cut(phi[i]) && is_whole(i) &&

@@ -21,6 +21,22 @@ inline constexpr double farthest = 1.2;
 inline bool is_full(double phi) { return phi >= 1 - edge; }
 inline bool is_cut(double phi) { return phi > edge && phi < 1 - edge; }
 
+/// Whether the surface may pass a cell of a multiplier.
+/// \param neighbour  of the row of the multiplier
+/// \param site       of the multiplier
+template <int Dim>
+bool may_be_at_surface(const Splines<Dim>& splines, const Index<Dim>& site,
+                       const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const double> phi,
+                       std::size_t row) {
+  if (!is_full(phi[row])) return is_cut(phi[row]);
+  for (std::size_t side = 0; side < 2 * Dim; ++side) {
+    if (splines.ends_at(site, side)) continue;
+    const std::int32_t j = neighbour[side];
+    if (j == staggered::none || !is_full(phi[static_cast<std::size_t>(j)])) return true;
+  }
+  return false;
+}
+
 }  // namespace liquid
 
 /// (E130)  psi_l and n_l from phi_l, where faces have a share of exact integrals; not of multipliers that bodies cut.

@@ -4,7 +4,6 @@
 
 #include "components/staggered.hpp"
 #include "systems/conforming/sites_around.hpp"
-#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -15,7 +14,6 @@ struct RowsOfSites {
   const StaggeredIndex<Dim>& rows;
   std::span<const Index<Dim>> site;
   std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
-  const SiteExchange* shared;  ///< none on one rank
 
   /// Whether a site beside one has no row, though the grid goes on.
   bool lacks_one_beside(std::size_t i) const {
@@ -26,9 +24,13 @@ struct RowsOfSites {
   }
 };
 
-/// The largest value within some steps along every axis, over rows that know each other.
-template <int Dim, int Reach>
-void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer) {
+/// The largest value within some steps along every axis, over rows that know each other. Where rows between are missing
+/// it misses some: rows for which may_miss(row) holds then look at every site around. On several ranks it is that of
+/// the rows that a rank owns.
+template <int Dim, int Reach, class MayMiss>
+void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer,
+                    const MayMiss& may_miss) {
+  const std::vector<double> of_row(value.begin(), value.end());
   for (std::size_t d = 0; d < Dim; ++d) {
     for_each_row(value.size(), [&](std::size_t i) {
       double most = value[i];
@@ -43,17 +45,23 @@ void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::sp
       buffer[i] = most;
     });
     for_each_row(value.size(), [&](std::size_t i) { value[i] = buffer[i]; });
-    if (of.shared != nullptr) of.shared->copy_from_owner(value);
   }
+  for_each_row(value.size(), [&](std::size_t i) {
+    if (!may_miss(i)) return;
+    for_each_row_around<Dim, Reach>(of.splines, of.rows, of.site[i], [&](std::uint32_t j, const auto&, const auto&) {
+      value[i] = std::max(value[i], of_row[j]);
+    });
+  });
 }
 
-/// 1 where within some steps there is a row of a kind, is_one(row), else 0.
+/// 1 where within some steps, over rows that know each other, there is a row of a kind, is_one(row); else 0. Of the
+/// rows that a rank owns.
 template <int Dim, int Reach, class IsOne>
 std::vector<double> near_any(const RowsOfSites<Dim>& of, const IsOne& is_one) {
   std::vector<double> is_near(of.site.size());
   std::vector<double> buffer(of.site.size());
   for_each_row(is_near.size(), [&](std::size_t i) { is_near[i] = is_one(i) ? 1 : 0; });
-  spread_largest<Dim, Reach>(of, is_near, buffer);
+  spread_largest<Dim, Reach>(of, is_near, buffer, [](std::size_t) { return false; });
   return is_near;
 }
 
