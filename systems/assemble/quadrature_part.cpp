@@ -61,17 +61,32 @@ Contribution read_particles(Input&, Scene& scene) {
   return adds_systems("assemble", {{"moments"}, {"find_mobility"}});
 }
 
-/// In the plane beside bodies at rest, where liquid at rest would else begin to move; not where it was not measured.
+/// Whether objects of the scene have one of some keys.
+bool any_has(const Input& input, const std::vector<std::string>& objects, std::initializer_list<std::string_view> of) {
+  return std::any_of(objects.begin(), objects.end(), [&](const std::string& object) {
+    const std::vector<std::string> keys = input.names(object);
+    return std::find_first_of(keys.begin(), keys.end(), of.begin(), of.end()) != keys.end();
+  });
+}
+
+/// In the plane where liquid at rest would else begin to move: a body force presses it together, and no yield stress
+/// holds it; not where it was not measured.
 std::string recommended_quadrature(const Input& input, const Scene& scene) {
-  const std::size_t bodies = input.describing() ? 0 : input.elements("bodies").value_or(0);
-  bool is_measured =
-      scene.dimension == 2 && bodies > 0 && is_conforming(scene) && scene.facts.get<Discretization>().degree == 2;
-  for (const char* key : {"openings", "surface_tension", "fluids"}) is_measured = is_measured && !input.has(key);
-  for (std::size_t b = 0; b < bodies && is_measured; ++b) {
-    const std::vector<std::string> keys = input.names("bodies/" + std::to_string(b));
-    is_measured = std::find(keys.begin(), keys.end(), "motion") == keys.end();
+  if (input.describing() || scene.dimension != 2 || !is_conforming(scene)) return "mixed";
+  if (scene.facts.get<Discretization>().degree != 2 || !input.has("body_force")) return "mixed";
+  for (const char* key : {"openings", "surface_tension"}) {
+    if (input.has(key)) return "mixed";
   }
-  return is_measured ? "exact" : "mixed";
+  std::vector<std::string> bodies;
+  for (std::size_t b = 0; b < input.elements("bodies").value_or(0); ++b)
+    bodies.push_back("bodies/" + std::to_string(b));
+  if (!bodies.empty() && (input.has("fluids") || any_has(input, bodies, {"motion"}))) return "mixed";
+  std::vector<std::string> laws{"fluid/rheology"};
+  if (input.has("fluids")) {
+    laws = input.names("fluids");
+    for (std::string& name : laws) name = "fluids/" + name + "/rheology";
+  }
+  return any_has(input, laws, {"bingham", "herschel_bulkley", "mu_i"}) ? "mixed" : "exact";
 }
 
 }  // namespace
@@ -91,8 +106,8 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
   const DefaultScheme fallback{
       recommended_quadrature,
-      "\"exact\" in the plane beside bodies that are all at rest, with degree 2, without openings, "
-      "surface_tension and fluids"};
+      "\"exact\" in the plane under a body_force, with degree 2, without yield stress, openings and surface_tension; "
+      "beside bodies where all of these are at rest, without fluids"};
   registry.add(choice<Quadrature>("quadrature", "integrals of the balances", fallback));
 }
 

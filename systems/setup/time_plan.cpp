@@ -1,6 +1,6 @@
 #include "systems/setup/time_plan.hpp"
 
-#include "components/fluid.hpp"
+#include "components/fluids.hpp"
 #include "components/instant.hpp"
 #include "components/particle.hpp"
 #include "engine/communicator.hpp"
@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace minamo {
 
@@ -64,20 +65,34 @@ double step_of_bodies(const Scene& scene, World& world, double dt) {
                                                                           : dt;
 }
 
+/// Kinematic viscosity of the thinnest liquid. [m^2/s]
+double least_viscosity(const Scene& scene) {
+  const auto of = [](const Fluid& fluid) { return fluid.viscosity / fluid.density; };
+  const auto* several = scene.facts.find<Fluids>();
+  if (several == nullptr || several->of.empty()) return of(scene.facts.get<Fluid>());
+  double least = of(several->of.front());
+  for (const Fluid& fluid : several->of) least = std::min(least, of(fluid));
+  return least;
+}
+
 /// (E34)  Longest step over sqrt(h/|b|); 0: any.
-double share_of_fall(const Scene& scene) {
+double share_of_fall(const Scene& scene, double largest_force) {
   constexpr double newmark = 0.125;
   constexpr double midpoint = 1.0 / 3;
   if (scene.schemes.at("integrator") == "newmark") return newmark;
+  if (!is_conforming(scene)) return midpoint;
+  if (scene.schemes.at("quadrature") != "exact") return 0;
   constexpr double exact = 1.0 / 6;
-  if (is_conforming(scene)) return scene.schemes.at("quadrature") == "exact" ? exact : 0;
-  return midpoint;
+  // Waves of two cells, k = pi/h, that viscosity damps within sqrt(1/(|b| k)): nu k^2 >= sqrt(|b| k).
+  const double h = scene.grid.spacing;
+  const double overdamped = h * std::sqrt(largest_force * h) / std::pow(std::numbers::pi, 1.5);
+  return least_viscosity(scene) >= overdamped ? 0 : exact;
 }
 
 }  // namespace
 
 std::optional<double> gravity_step(const Scene& scene, double largest_force) {
-  const double share = share_of_fall(scene);
+  const double share = share_of_fall(scene, largest_force);
   if (share == 0 || !(largest_force > 0)) return {};
   return share * std::sqrt(scene.grid.spacing / largest_force);
 }

@@ -12,7 +12,8 @@
 namespace minamo {
 
 /// (E34)  How long steps may be in a liquid that a body force presses down: sqrt(h/|b|)/8 with Newmark's method,
-/// sqrt(h/|b|)/3 with equal order or exact integrals, else any. None without a body force. [s]
+/// sqrt(h/|b|)/3 with equal order, sqrt(h/|b|)/6 with exact integrals unless viscosity damps the shortest waves, else
+/// any. None without a body force. [s]
 std::optional<double> gravity_step(const Scene& scene, double largest_force);
 
 /// A sentence where a fixed step is more than twice as long.

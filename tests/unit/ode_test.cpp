@@ -145,7 +145,8 @@ TEST_CASE("an initial velocity and a shape see the start of the ode variables", 
 }
 
 TEST_CASE("a step from the CFL number sees the ode variables in the body force", "[unit]") {
-  const Json scene = scene_run::with(accelerated, {R"(/time={"end": 1, "cfl": 0.5})", "/particles/0/velocity=[0, 0]"});
+  const Json scene = scene_run::with(accelerated, {R"(/time={"end": 1, "cfl": 0.5})", "/particles/0/velocity=[0, 0]",
+                                                   R"(/quadrature={"scheme": "mixed"})"});
   const Scene read = scene_run::read(scene);
   World world;
   seed_world(read, "scene.json", world);
