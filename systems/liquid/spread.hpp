@@ -24,13 +24,9 @@ struct RowsOfSites {
   }
 };
 
-/// The largest value within some steps along every axis, over rows that know each other. Where rows between are missing
-/// it misses some: rows for which may_miss(row) holds then look at every site around. On several ranks it is that of
-/// the rows that a rank owns.
-template <int Dim, int Reach, class MayMiss>
-void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer,
-                    const MayMiss& may_miss) {
-  const std::vector<double> of_row(value.begin(), value.end());
+/// The largest value within some steps along every axis, over rows that know each other.
+template <int Dim, int Reach>
+void spread_over_neighbours(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer) {
   for (std::size_t d = 0; d < Dim; ++d) {
     for_each_row(value.size(), [&](std::size_t i) {
       double most = value[i];
@@ -46,6 +42,15 @@ void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::sp
     });
     for_each_row(value.size(), [&](std::size_t i) { value[i] = buffer[i]; });
   }
+}
+
+/// The same over all rows: where rows between are missing those for which may_miss(row) holds look at every site
+/// around. On several ranks it is that of the rows that a rank owns.
+template <int Dim, int Reach, class MayMiss>
+void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer,
+                    const MayMiss& may_miss) {
+  const std::vector<double> of_row(value.begin(), value.end());
+  spread_over_neighbours<Dim, Reach>(of, value, buffer);
   for_each_row(value.size(), [&](std::size_t i) {
     if (!may_miss(i)) return;
     for_each_row_around<Dim, Reach>(of.splines, of.rows, of.site[i], [&](std::uint32_t j, const auto&, const auto&) {
@@ -61,7 +66,7 @@ std::vector<double> near_any(const RowsOfSites<Dim>& of, const IsOne& is_one) {
   std::vector<double> is_near(of.site.size());
   std::vector<double> buffer(of.site.size());
   for_each_row(is_near.size(), [&](std::size_t i) { is_near[i] = is_one(i) ? 1 : 0; });
-  spread_largest<Dim, Reach>(of, is_near, buffer, [](std::size_t) { return false; });
+  spread_over_neighbours<Dim, Reach>(of, is_near, buffer);
   return is_near;
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 /// The ranks that had particles in the blocks of the cells that touch a site.
 template <int Dim>
-std::set<int> ranks_at(const Grid<Dim>& grid, const Splines<Dim>& splines, const RankMap& map, const Index<Dim>& site) {
-  const CellBlocks<Dim> blocks(grid, grid.cells);
+std::set<int> ranks_at(const CellBlocks<Dim>& blocks, const Splines<Dim>& splines, const RankMap& map,
+                       const Index<Dim>& site) {
   std::set<int> found;
   for_each_corner_cell<Dim>(
       splines, site, [&](const Index<Dim>& cell) { found.insert(map.owner(morton_key<Dim>(blocks.place_of(cell)))); });
@@ -56,10 +56,11 @@ void AskForFormerRows<Dim>::operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, 
                                        Read<SiteExchange> shared, Read<FormerRows<Dim>> former,
                                        Update<multiplier::Force> lambda, Update<face::ExactVolume<Dim>> volume) const {
   if (former->map.begin.empty()) return;
+  const CellBlocks<Dim> blocks(*grid, grid->cells);
   std::map<int, std::vector<Index<Dim>>> wanted;
   for (std::size_t i = 0; i < site.size(); ++i) {
     if (shared->knows_in_part(i) || former->rows.find(site[i])) continue;
-    for (const int rank : ranks_at(*grid, *splines, former->map, site[i])) {
+    for (const int rank : ranks_at(blocks, *splines, former->map, site[i])) {
       if (rank != (*ranks)->rank()) wanted[rank].push_back(site[i]);
     }
   }
