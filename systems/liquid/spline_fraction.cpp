@@ -34,7 +34,6 @@ SplineFraction<Dim>::SplineFraction(const Splines<Dim>& splines, const Index<Dim
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto part = [&](std::size_t d) { return std::abs(n[static_cast<Eigen::Index>(d)]); };
   std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) { return part(one) > part(other); });
-  std::size_t count = 0;
   for (const std::size_t d : order) {
     const TruncatedPowers& along = splines.axis[d].powers_of_multiplier(site[d]);
     const double m = -n[static_cast<Eigen::Index>(d)];
@@ -42,7 +41,7 @@ SplineFraction<Dim>::SplineFraction(const Splines<Dim>& splines, const Index<Dim
       shift_ -= m * along.moments[1];
       continue;
     }
-    Axis& axis = axes_[count++];
+    Axis& axis = axes_[count_++];
     axis.count = along.count;
     axis.low = std::numeric_limits<double>::infinity();
     axis.high = -axis.low;
@@ -56,10 +55,9 @@ SplineFraction<Dim>::SplineFraction(const Splines<Dim>& splines, const Index<Dim
     for (std::size_t k = 0; k < along.moments.size(); ++k)
       axis.moments[k] = along.moments[k] * power_of(-m, static_cast<int>(k));
   }
-  axes_[count] = {.terms = {}, .count = 0, .low = 0, .high = 0, .moments = {1}};
-  for (std::size_t a = count; a-- > 0;) {
-    Axis& axis = axes_[a];
-    const Axis& others = axes_[a + 1];
+  for (std::size_t a = count_; a-- > 1;) {
+    Axis& axis = axes_[a - 1];
+    const Axis& others = axes_[a];
     axis.low += others.low;
     axis.high += others.high;
     for (std::size_t k = axis.moments.size(); k-- > 0;) {
@@ -72,19 +70,23 @@ SplineFraction<Dim>::SplineFraction(const Splines<Dim>& splines, const Index<Dim
 
 template <int Dim>
 typename SplineFraction<Dim>::Value SplineFraction<Dim>::mean_power(std::size_t a, double z, int p) const {
-  const Axis& axis = axes_[a];
-  if (z <= axis.low) return {0, 0};
-  Value sum{0, 0};
-  if (z >= axis.high) {
+  const bool is_last = a == count_;
+  if (z <= (is_last ? 0 : axes_[a].low)) return {0, 0};
+  if (is_last || z >= axes_[a].high) {
+    Value sum{0, 0};
     double power = 1;  // z^k/k!
     for (int k = 0; k <= p; ++k) {
-      const auto others = static_cast<std::size_t>(p - k);
-      sum.share += power * axis.moments[others];
-      if (k < p) sum.slope += power * axis.moments[others - 1];
+      const auto moment = [&](int order) {
+        return is_last ? (order == 0 ? 1.0 : 0.0) : axes_[a].moments[static_cast<std::size_t>(order)];
+      };
+      sum.share += power * moment(p - k);
+      if (k < p) sum.slope += power * moment(p - 1 - k);
       power *= z / (k + 1);
     }
     return sum;
   }
+  Value sum{0, 0};
+  const Axis& axis = axes_[a];
   for (std::size_t t = 0; t < axis.count; ++t) {
     const TruncatedPowers::Term& term = axis.terms[t];
     const Value of_others = mean_power(a + 1, z - term.at, p + term.power);

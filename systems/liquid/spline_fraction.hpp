@@ -35,8 +35,9 @@ class SplineFraction {
   /// Mean of (z - y)_+^p/p!, y of an axis and those after it, and its derivative by z.
   Value mean_power(std::size_t axis, double z, int p) const;
 
-  std::array<Axis, static_cast<std::size_t>(Dim + 1)> axes_;  ///< those across the plane; after them one without y
-  double shift_ = 0;                                          ///< of psi, by axes along which the plane lies
+  std::array<Axis, static_cast<std::size_t>(Dim)> axes_;
+  std::size_t count_ = 0;
+  double shift_ = 0;  ///< of psi, by axes along which the plane lies
 };
 
 }  // namespace minamo
