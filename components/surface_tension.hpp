@@ -5,6 +5,8 @@
 #include "components/rigid.hpp"
 #include "components/staggered.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace minamo {
@@ -22,9 +24,12 @@ struct SurfaceTension {
   static constexpr ComponentInfo info{"surface_tension", "sigma, cos theta", "N/m, 1", Lifetime::constant};
 };
 
-/// The free surface in the middle of the step: segments in the plane, triangles in space, each by itself.
+/// The free surface in the middle of the step: segments in the plane, polygons in space, each by itself.
 template <int Dim>
 struct FreeSurface {
+  /// How many times the elements cover the surface: in space cubes are divided in two ways, which together prefer no
+  /// diagonal.
+  static constexpr int covers = Dim == 2 ? 1 : 2;
   struct Areas {
     double free = 0;              ///< of the surface, its length in the plane [m^(d-1)]
     double wetted = 0;            ///< of the sides of the box under the liquid [m^(d-1)]
@@ -57,8 +62,27 @@ struct FreeSurface {
     Vec<Dim> normal;  ///< of the body [1]
     std::int32_t body;
   };
-  /// A segment with the liquid to its left, or a triangle, counterclockwise seen from outside.
-  using Element = std::array<Corner, static_cast<std::size_t>(Dim)>;
+  /// A segment with the liquid to its left, or a flat convex polygon, counterclockwise seen from outside.
+  class Element {
+   public:
+    /// What a plane cuts from a tetrahedron has four corners at most, and another plane adds one.
+    static constexpr std::size_t most = Dim == 2 ? 2 : 5;
+
+    void push_back(const Corner& corner) { corner_[size_++] = corner; }
+    void turn_around() { std::reverse(begin(), end()); }
+
+    std::size_t size() const { return size_; }
+    Corner& operator[](std::size_t k) { return corner_[k]; }
+    const Corner& operator[](std::size_t k) const { return corner_[k]; }
+    Corner* begin() { return corner_.data(); }
+    Corner* end() { return corner_.data() + size_; }
+    const Corner* begin() const { return corner_.data(); }
+    const Corner* end() const { return corner_.data() + size_; }
+
+   private:
+    std::array<Corner, most> corner_;
+    std::size_t size_ = 0;
+  };
   /// Where an element meets a side of the box or a body: in a point in the plane, along a segment in space.
   struct Contact {
     std::array<Corner, static_cast<std::size_t>(Dim) - 1> corner;

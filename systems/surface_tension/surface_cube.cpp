@@ -8,23 +8,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace minamo {
 
 template <int Dim>
-double area_of(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim)>& x) {
+Vec<Dim> area_vector(const typename FreeSurface<Dim>::Element& element) {
   if constexpr (Dim == 2) {
-    return (x[1] - x[0]).norm();
+    return {element[1].x[1] - element[0].x[1], element[0].x[0] - element[1].x[0]};
   } else {
-    return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t k = 2; k < element.size(); ++k)
+      sum += 0.5 * (element[k - 1].x - element[0].x).cross(element[k].x - element[0].x);
+    return sum;
   }
-}
-
-template <int Dim>
-double area_of(const typename FreeSurface<Dim>::Element& element) {
-  std::array<Vec<Dim>, static_cast<std::size_t>(Dim)> x;
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] = element[k].x;
-  return area_of<Dim>(x);
 }
 
 template <std::size_t N>
@@ -52,13 +49,23 @@ double positive_share_of_both(const std::array<double, N>& first, const std::arr
 
 namespace {
 
-/// Not of length 1.
+/// Of a segment or a triangle. [m^(d-1)]
 template <int Dim>
-Vec<Dim> normal_of(const typename FreeSurface<Dim>::Element& element) {
+double area_between(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim)>& x) {
   if constexpr (Dim == 2) {
-    return {element[1].x[1] - element[0].x[1], element[0].x[0] - element[1].x[0]};
+    return (x[1] - x[0]).norm();
   } else {
-    return (element[1].x - element[0].x).cross(element[2].x - element[0].x);
+    return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+  }
+}
+
+/// Calls use(corners) for the divisions of a cube that its surface is found in, (E112); of a square one of two.
+template <int Dim, class Use>
+void for_each_simplex(const Use& use) {
+  if constexpr (Dim == 2) {
+    for (const auto& triangle : simplices_of_box<2>()) use(triangle);
+  } else {
+    for (const auto& of_box : symmetric_simplices_of_box<3>()) use(of_box.corner);
   }
 }
 
@@ -122,16 +129,19 @@ void SurfaceCube<Dim>::add_to(Piece& piece) const {
       return add_undivided(piece);
     }
   } else {
-    add_along(simplices_of_box<Dim>(), piece);
+    for_each_simplex<Dim>([&](const Simplex& simplex) { add_of(simplex, piece); });
   }
 }
 
 template <int Dim>
-void SurfaceCube<Dim>::add_along(const Simplices& simplices, Piece& piece) const {
-  for (const auto& simplex : simplices) {
-    if (has_body_) add_wetted_of_body(simplex, piece);
-    if (is_cut_) cut(simplex, piece);
-  }
+void SurfaceCube<Dim>::add_of(const Simplex& simplex, Piece& piece) const {
+  if (has_body_) add_wetted_of_body(simplex, piece);
+  if (is_cut_) cut(simplex, piece);
+}
+
+template <int Dim>
+void SurfaceCube<Dim>::add_along(const Simplices& triangles, Piece& piece) const requires(Dim == 2) {
+  for (const auto& triangle : triangles) add_of(triangle, piece);
 }
 
 /// Of a square; of the distance from a body, if that is not straight.
@@ -159,13 +169,12 @@ void SurfaceCube<Dim>::add_undivided(Piece& piece) const requires(Dim == 2) {
   if (!is_cut_) return;
   constexpr std::array<std::array<std::size_t, 2>, 4> sides{{{0, 1}, {2, 3}, {0, 2}, {1, 3}}};
   Corners ends;
-  std::size_t count = 0;
   for (const auto& [a, b] : sides) {
     const bool a_is_in = node_[a].psi > 0;
-    if (a_is_in == (node_[b].psi > 0) || count == ends.size()) continue;
-    ends[count++] = a_is_in ? between(a, b) : between(b, a);
+    if (a_is_in == (node_[b].psi > 0) || ends.count == 2) continue;
+    ends.push_back(a_is_in ? between(a, b) : between(b, a));
   }
-  if (count < ends.size()) return;
+  if (ends.count < 2) return;
   // Of a plane, by the triangle of the corners 0, 1 and 2.
   Slopes directions{-gradient({0, 1, 2}, &Node::psi)};
   if (!has_body_) return add(piece, directions, ends);
@@ -177,7 +186,7 @@ void SurfaceCube<Dim>::add_undivided(Piece& piece) const requires(Dim == 2) {
 template <int Dim>
 void SurfaceCube<Dim>::add_wetted(Piece& piece) const {
   for (const SidesOfBox side : {1U, 2U, 4U, 8U, 16U, 32U}) {
-    for (const auto& simplex : simplices_of_box<Dim>()) add_wetted(simplex, side, piece);
+    for_each_simplex<Dim>([&](const Simplex& simplex) { add_wetted(simplex, side, piece); });
   }
 }
 
@@ -195,7 +204,8 @@ void SurfaceCube<Dim>::add_wetted(const Simplex& simplex, SidesOfBox side, Piece
     solid[count++] = node_[c].solid;
   }
   if (count != Dim) return;
-  const double area = area_of<Dim>(x) * (has_body_ ? positive_share_of_both(psi, solid) : positive_share(psi));
+  const double share = has_body_ ? positive_share_of_both(psi, solid) : positive_share(psi);
+  const double area = area_between<Dim>(x) * share / Surface::covers;
   piece.areas.wetted += area;
   piece.areas.gained += cosine_of_sides_ * area;
 }
@@ -213,7 +223,7 @@ void SurfaceCube<Dim>::add_wetted_of_body(Simplex corner, Piece& piece) const {
       x[k] = a.x + part * (b.x - a.x);
       psi[k] = a.psi + part * (b.psi - a.psi);
     }
-    const double area = area_of<Dim>(x) * positive_share(psi);
+    const double area = area_between<Dim>(x) * positive_share(psi) / Surface::covers;
     piece.areas.wetted_of_bodies += area;
     piece.areas.gained += cosine_of_body_ * area;
   });
@@ -259,95 +269,93 @@ template <int Dim>
 void SurfaceCube<Dim>::cut(Simplex corner, Piece& piece) const {
   const std::size_t inside = put_inside_first(corner, [&](std::size_t c) { return node_[c].psi > 0; });
   if (inside == 0 || inside == corner.size()) return;
-  const Slopes directions = slopes(corner, inside);
+  Corners on_edges;
+  // Of two triangles side by side the second has a corner more.
   for_each_cut(corner, inside, [&](const auto& edges) {
-    Corners on_edge;
-    for (std::size_t k = 0; k < edges.size(); ++k) on_edge[k] = between(edges[k][0], edges[k][1]);
-    if (has_body_) {
-      add_outside_of_bodies(piece, directions, on_edge);
-    } else {
-      add(piece, directions, on_edge);
-    }
+    for (std::size_t k = on_edges.count == 0 ? 0 : Dim - 1; k < edges.size(); ++k)
+      on_edges.push_back(between(edges[k][0], edges[k][1]));
   });
+  const Slopes directions = slopes(corner, inside);
+  if (has_body_) {
+    add_outside_of_bodies(piece, directions, on_edges);
+  } else {
+    add(piece, directions, on_edges);
+  }
 }
 
 template <int Dim>
-void SurfaceCube<Dim>::add_outside_of_bodies(Piece& piece, const Slopes& slopes, const Corners& corner) const {
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> order;
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  const std::size_t open = put_inside_first(order, [&](std::size_t k) { return corner[k].solid > 0; });
-  if (open == 0) return;
-  if (open == order.size()) return add(piece, slopes, corner);
-  const auto on_wall = [&](std::size_t from, std::size_t to) {
-    const Corner& a = corner[order[from]];
-    const Corner& b = corner[order[to]];
-    const double part = a.solid / (a.solid - b.solid);
-    Corner between = a;
-    between.place.x += part * (b.place.x - a.place.x);
-    between.on &= b.on;
+void SurfaceCube<Dim>::add_outside_of_bodies(Piece& piece, const Slopes& slopes, const Corners& outline) const {
+  const auto on_wall = [&](const Corner& open, const Corner& closed) {
+    const double part = open.solid / (open.solid - closed.solid);
+    Corner between = open;
+    between.place.x += part * (closed.place.x - open.place.x);
+    between.on &= closed.on;
     between.solid = 0;
     between.place.on_body = static_cast<std::int32_t>(piece.on_bodies.size());
-    piece.on_bodies.push_back({b.place.in, b.place.out, b.place.share, part, slopes.off_body, body_});
+    piece.on_bodies.push_back({closed.place.in, closed.place.out, closed.place.share, part, slopes.off_body, body_});
     return between;
   };
-  if constexpr (Dim == 2) {
-    add(piece, slopes, {corner[order[0]], on_wall(0, 1)});
-  } else if (open == 1) {
-    add(piece, slopes, {corner[order[0]], on_wall(0, 1), on_wall(0, 2)});
-  } else {
-    const Corner far = on_wall(1, 2);
-    add(piece, slopes, {corner[order[0]], corner[order[1]], far});
-    add(piece, slopes, {corner[order[0]], far, on_wall(0, 2)});
+  Corners open;
+  const std::size_t edges = Dim == 2 ? 1 : outline.count;
+  for (std::size_t k = 0; k < edges; ++k) {
+    const Corner& from = outline.at[k];
+    const Corner& to = outline.at[(k + 1) % outline.count];
+    if (from.solid > 0) open.push_back(from);
+    if ((from.solid > 0) != (to.solid > 0)) open.push_back(from.solid > 0 ? on_wall(from, to) : on_wall(to, from));
+    if (Dim == 2 && to.solid > 0) open.push_back(to);
   }
+  add(piece, slopes, open);
 }
 
 template <int Dim>
-void SurfaceCube<Dim>::add(Piece& piece, const Slopes& slopes, Corners corner) const {
+void SurfaceCube<Dim>::add(Piece& piece, const Slopes& slopes, const Corners& outline) const {
+  if (outline.count < Dim) return;
   typename Surface::Element element;
-  for (std::size_t k = 0; k < corner.size(); ++k) element[k] = corner[k].place;
+  for (std::size_t k = 0; k < outline.count; ++k) element.push_back(outline.at[k].place);
   // The direction of less than that would be rounding.
   constexpr double least = 1e-12;
-  const double area = area_of<Dim>(element);
-  if (area <= least * std::pow((node_[corners - 1].x - node_[0].x).norm(), Dim - 1)) return;
-  if (normal_of<Dim>(element).dot(slopes.out) < 0) std::swap(element[0], element[1]);
-  piece.areas.free += area;
+  const Vec<Dim> area = area_vector<Dim>(element);
+  if (area.norm() <= least * std::pow((node_[corners - 1].x - node_[0].x).norm(), Dim - 1)) return;
+  if (area.dot(slopes.out) < 0) element.turn_around();
+  piece.areas.free += area.norm() / Surface::covers;
   piece.elements.push_back(element);
   for (std::size_t side = 0; side < 2 * Dim; ++side) {
-    add_contact(piece, corner, Vec<Dim>::Unit(static_cast<Eigen::Index>(side / 2)), slopes.out, staggered::none,
-                [&](const Corner& c) { return (c.on & 1U << side) != 0; });
+    add_contacts(piece, outline, Vec<Dim>::Unit(static_cast<Eigen::Index>(side / 2)), slopes.out, staggered::none,
+                 [&](const Corner& c) { return (c.on & 1U << side) != 0; });
   }
   if (!has_body_) return;
-  add_contact(piece, corner, slopes.off_body, slopes.out, body_,
-              [&](const Corner& c) { return c.place.on_body != staggered::none; });
+  add_contacts(piece, outline, slopes.off_body, slopes.out, body_,
+               [&](const Corner& c) { return c.place.on_body != staggered::none; });
 }
 
-/// Where all but one of the corners are on a wall.
+/// Ends of a segment, or sides of a polygon, that are on a wall. What lies in the wall has none.
 template <int Dim>
 template <class IsOn>
-void SurfaceCube<Dim>::add_contact(Piece& piece, const Corners& corner, const Vec<Dim>& normal, Vec<Dim> out,
-                                   std::int32_t body, const IsOn& is_on) const {
-  typename Surface::Contact contact;
-  std::size_t count = 0;
-  for (const Corner& c : corner) {
-    if (is_on(c) && count < contact.corner.size()) contact.corner[count++] = c.place;
+void SurfaceCube<Dim>::add_contacts(Piece& piece, const Corners& outline, const Vec<Dim>& normal, const Vec<Dim>& out,
+                                    std::int32_t body, const IsOn& is_on) const {
+  const std::span at(outline.at.data(), outline.count);
+  if (std::all_of(at.begin(), at.end(), is_on)) return;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const Corner& next = at[(k + 1) % at.size()];
+    if (!is_on(at[k]) || (Dim == 3 && !is_on(next))) continue;
+    typename Surface::Contact contact;
+    contact.corner[0] = at[k].place;
+    Vec<Dim> outward = out - out.dot(normal) * normal;
+    if constexpr (Dim == 3) {
+      contact.corner[1] = next.place;
+      const Vec<3> line = next.place.x - at[k].place.x;
+      if (line.squaredNorm() == 0) continue;
+      outward -= outward.dot(line) / line.squaredNorm() * line;
+    }
+    if (outward.squaredNorm() == 0) continue;
+    contact.outward = outward.normalized();
+    contact.body = body;
+    piece.contacts.push_back(contact);
   }
-  if (count < contact.corner.size()) return;
-  out -= out.dot(normal) * normal;
-  if constexpr (Dim == 3) {
-    const Vec<3> line = contact.corner[1].x - contact.corner[0].x;
-    if (line.squaredNorm() == 0) return;
-    out -= out.dot(line) / line.squaredNorm() * line;
-  }
-  if (out.squaredNorm() == 0) return;
-  contact.outward = out.normalized();
-  contact.body = body;
-  piece.contacts.push_back(contact);
 }
 
-template double area_of<2>(const std::array<Vec<2>, 2>&);
-template double area_of<3>(const std::array<Vec<3>, 3>&);
-template double area_of<2>(const FreeSurface<2>::Element&);
-template double area_of<3>(const FreeSurface<3>::Element&);
+template Vec<2> area_vector<2>(const FreeSurface<2>::Element&);
+template Vec<3> area_vector<3>(const FreeSurface<3>::Element&);
 template double positive_share_of_both<2>(const std::array<double, 2>&, const std::array<double, 2>&);
 template double positive_share_of_both<3>(const std::array<double, 3>&, const std::array<double, 3>&);
 template class SurfaceCube<2>;

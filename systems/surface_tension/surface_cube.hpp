@@ -1,8 +1,8 @@
 #pragma once
 /// \file
 /// (E112) (E121) What of the free surface lies in a cube of the lattice that it is found on: between the nodes, linear
-/// in triangles or tetrahedra, and outside of bodies, whose distance is linear there, too. Triangles prefer no side, so
-/// that a drop in the plane is the same in the mirror; tetrahedra lie along the same diagonal of every cube.
+/// in triangles or tetrahedra, and outside of bodies, whose distance is linear there, too. They prefer no side, so that
+/// a drop is the same in the mirror.
 
 #include "components/surface_tension.hpp"
 #include "systems/bodies/cut.hpp"
@@ -64,7 +64,13 @@ class SurfaceCube {
     SidesOfBox on;
     double solid;  ///< [m]
   };
-  using Corners = std::array<Corner, static_cast<std::size_t>(Dim)>;
+  /// Of a segment or a polygon.
+  struct Corners {
+    std::array<Corner, Surface::Element::most> at;
+    std::size_t count = 0;
+
+    void push_back(const Corner& corner) { at[count++] = corner; }
+  };
   /// Directions in a simplex.
   struct Slopes {
     Vec<Dim> out;                          ///< across the surface, to where there is no liquid
@@ -73,7 +79,8 @@ class SurfaceCube {
 
   void find_bodies(const SurfaceBodies<Dim>& bodies);
   Bend bend() const requires(Dim == 2);
-  void add_along(const Simplices& simplices, Piece& piece) const;
+  void add_of(const Simplex& simplex, Piece& piece) const;
+  void add_along(const Simplices& triangles, Piece& piece) const requires(Dim == 2);
   void add_undivided(Piece& piece) const requires(Dim == 2);
   void add_wetted(Piece& piece) const;
   void add_wetted(const Simplex& simplex, SidesOfBox side, Piece& piece) const;
@@ -82,11 +89,11 @@ class SurfaceCube {
   Vec<Dim> gradient(const Simplex& corner, double Node::*value) const;
   Slopes slopes(const Simplex& corner, std::size_t inside) const;
   void cut(Simplex corner, Piece& piece) const;
-  void add_outside_of_bodies(Piece& piece, const Slopes& slopes, const Corners& corner) const;
-  void add(Piece& piece, const Slopes& slopes, Corners corner) const;
+  void add_outside_of_bodies(Piece& piece, const Slopes& slopes, const Corners& outline) const;
+  void add(Piece& piece, const Slopes& slopes, const Corners& outline) const;
   template <class IsOn>
-  void add_contact(Piece& piece, const Corners& corner, const Vec<Dim>& normal, Vec<Dim> out, std::int32_t body,
-                   const IsOn& is_on) const;
+  void add_contacts(Piece& piece, const Corners& outline, const Vec<Dim>& normal, const Vec<Dim>& out,
+                    std::int32_t body, const IsOn& is_on) const;
 
   std::array<Node, corners> node_;
   bool is_cut_;
@@ -97,11 +104,14 @@ class SurfaceCube {
   double cosine_of_sides_;
 };
 
-/// Length of a segment, area of a triangle. [m^(d-1)]
+/// Normal of a segment, to its right, or of a polygon, as long as the one and as large as the other. [m^(d-1)]
 template <int Dim>
-double area_of(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim)>& x);
+Vec<Dim> area_vector(const typename FreeSurface<Dim>::Element& element);
+/// Length of a segment, area of a polygon. [m^(d-1)]
 template <int Dim>
-double area_of(const typename FreeSurface<Dim>::Element& element);
+double area_of(const typename FreeSurface<Dim>::Element& element) {
+  return area_vector<Dim>(element).norm();
+}
 
 /// Share of a segment (N = 2) or triangle (3) on which two functions, linear in between the corners, are both positive.
 template <std::size_t N>

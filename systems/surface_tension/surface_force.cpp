@@ -76,7 +76,7 @@ double contact_lines_of(const FreeSurface<Dim>& surface) {
       for (const auto& contact : piece.contacts) length += (contact.corner[1].x - contact.corner[0].x).norm();
     }
   }
-  return length;
+  return length / FreeSurface<Dim>::covers;
 }
 
 /// (E59)  What the energy of the surface changes by when it passes the lattice that it is found on and keeps its shape.

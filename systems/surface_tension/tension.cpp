@@ -11,15 +11,16 @@
 namespace minamo {
 
 template <int Dim>
-std::array<Vec<Dim>, static_cast<std::size_t>(Dim)> area_gradient(const typename FreeSurface<Dim>::Element& element) {
+AreaGradient<Dim> area_gradient(const typename FreeSurface<Dim>::Element& element) {
   if constexpr (Dim == 2) {
     const Vec<2> along = (element[1].x - element[0].x).normalized();
     return {Vec<2>(-along), along};
   } else {
-    const Vec<3> normal = (element[1].x - element[0].x).cross(element[2].x - element[0].x).normalized();
-    std::array<Vec<3>, 3> gradient;
-    for (std::size_t k = 0; k < 3; ++k)
-      gradient[k] = 0.5 * normal.cross(element[(k + 2) % 3].x - element[(k + 1) % 3].x);
+    const Vec<3> normal = area_vector<3>(element).normalized();
+    const std::size_t size = element.size();
+    AreaGradient<3> gradient;
+    for (std::size_t k = 0; k < size; ++k)
+      gradient[k] = 0.5 * normal.cross(element[(k + size - 1) % size].x - element[(k + 1) % size].x);
     return gradient;
   }
 }
@@ -98,16 +99,15 @@ class CornerForces {
 template <int Dim, class Use>
 void for_each_corner_force(const typename FreeSurface<Dim>::Piece& piece, const SurfaceTension& tension,
                            const Use& use) {
+  const double sigma = tension.coefficient / FreeSurface<Dim>::covers;
   for (const auto& element : piece.elements) {
     const auto gradient = area_gradient<Dim>(element);
-    for (std::size_t k = 0; k < element.size(); ++k)
-      use(element[k], Vec<Dim>(-tension.coefficient * gradient[k]), staggered::none);
+    for (std::size_t k = 0; k < element.size(); ++k) use(element[k], Vec<Dim>(-sigma * gradient[k]), staggered::none);
   }
   for (const auto& contact : piece.contacts) {
-    double pull =
-        tension.coefficient * (contact.body == staggered::none
-                                   ? tension.cosine_of_contact_angle
-                                   : tension.bodies[static_cast<std::size_t>(contact.body)].cosine_of_contact_angle);
+    double pull = sigma * (contact.body == staggered::none
+                               ? tension.cosine_of_contact_angle
+                               : tension.bodies[static_cast<std::size_t>(contact.body)].cosine_of_contact_angle);
     if (pull == 0) continue;
     if constexpr (Dim == 3) pull *= 0.5 * (contact.corner[1].x - contact.corner[0].x).norm();
     for (const auto& corner : contact.corner) use(corner, Vec<Dim>(pull * contact.outward), contact.body);
@@ -192,8 +192,8 @@ void FindSurfaceTraction<Dim>::operator()(Read<SurfaceTension> tension, Read<Gri
   });
 }
 
-template std::array<Vec<2>, 2> area_gradient<2>(const FreeSurface<2>::Element&);
-template std::array<Vec<3>, 3> area_gradient<3>(const FreeSurface<3>::Element&);
+template AreaGradient<2> area_gradient<2>(const FreeSurface<2>::Element&);
+template AreaGradient<3> area_gradient<3>(const FreeSurface<3>::Element&);
 template struct MeasureSurfaceAround<2>;
 template struct MeasureSurfaceAround<3>;
 template struct FindSurfaceTraction<2>;

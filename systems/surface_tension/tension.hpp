@@ -15,9 +15,11 @@
 
 namespace minamo {
 
-/// dA/dx of the corners of an element. [m^(d-2)]
+/// dA/dx of the corners of an element, one after the other. [m^(d-2)]
 template <int Dim>
-std::array<Vec<Dim>, static_cast<std::size_t>(Dim)> area_gradient(const typename FreeSurface<Dim>::Element& element);
+using AreaGradient = std::array<Vec<Dim>, FreeSurface<Dim>::Element::most>;
+template <int Dim>
+AreaGradient<Dim> area_gradient(const typename FreeSurface<Dim>::Element& element);
 
 /// (E113)  A_i = integral of N_i over the surface.
 template <int Dim>

@@ -57,6 +57,26 @@ Vec<Dim> sum_of_forces(World& world) {
   return sum;
 }
 
+/// Many points of a segment, or of the triangles of a polygon.
+template <int Dim, class Use>
+void for_each_fine_point(const typename FreeSurface<Dim>::Element& element, const Use& use) {
+  constexpr int parts = 12;
+  if constexpr (Dim == 2) {
+    const double area = area_of<2>(element) / parts;
+    for (int i = 0; i < parts; ++i) use(Vec<2>(element[0].x + (i + 0.5) / parts * (element[1].x - element[0].x)), area);
+  } else {
+    for (std::size_t k = 2; k < element.size(); ++k) {
+      const Vec<3> a = element[k - 1].x - element[0].x;
+      const Vec<3> b = element[k].x - element[0].x;
+      const double area = a.cross(b).norm() / (parts * (parts + 1));
+      for (int i = 0; i < parts; ++i) {
+        for (int j = 0; j < parts - i; ++j)
+          use(Vec<3>(element[0].x + (i + 1.0 / 3) / parts * a + (j + 1.0 / 3) / parts * b), area);
+      }
+    }
+  }
+}
+
 /// Mean velocity of the surface around a site: the quadratic splines once more, for sites that are not beside walls.
 template <int Dim, class Velocity>
 Vec<Dim> mean_around(const std::vector<typename FreeSurface<Dim>::Element>& elements, const Grid<Dim>& grid,
@@ -68,20 +88,12 @@ Vec<Dim> mean_around(const std::vector<typename FreeSurface<Dim>::Element>& elem
   for (const auto& element : elements) {
     // A spline reaches 1.5 h, an element is within a cell.
     if ((element[0].x - place).cwiseAbs().maxCoeff() > 2.5 * grid.spacing) continue;
-    // Many points of equal weight.
-    constexpr int parts = 12;
-    for (int i = 0; i < parts; ++i) {
-      for (int j = 0; j < (Dim == 2 ? 1 : parts - i); ++j) {
-        const double a = (i + (Dim == 2 ? 0.5 : 1.0 / 3)) / parts;
-        const double b = Dim == 2 ? 1 - a : (j + 1.0 / 3) / parts;
-        Vec<Dim> x = a * element[0].x + b * element[1].x;
-        if constexpr (Dim == 3) x += (1 - a - b) * element[2].x;
-        double weight = area_of<Dim>(element);
-        for (int d = 0; d < Dim; ++d) weight *= quadratic_spline((x[d] - place[d]) / grid.spacing);
-        sum += weight * velocity(x);
-        around += weight;
-      }
-    }
+    for_each_fine_point<Dim>(element, [&](const Vec<Dim>& x, double area) {
+      double weight = area;
+      for (int d = 0; d < Dim; ++d) weight *= quadratic_spline((x[d] - place[d]) / grid.spacing);
+      sum += weight * velocity(x);
+      around += weight;
+    });
   }
   return sum / around;
 }
@@ -149,8 +161,15 @@ TEMPLATE_TEST_CASE_SIG("the free surface of a drop has its area, and looks outwa
 
 TEMPLATE_TEST_CASE_SIG("the area gradient is that of a finite difference", "[unit]", ((int Dim), Dim), 2, 3) {
   kernels::Random random(1);
+  // Of a flat polygon with as many corners as one may have.
   typename FreeSurface<Dim>::Element element;
-  for (auto& corner : element) corner.x = random.vector<Dim>(-1, 1);
+  const Vec<Dim> along = random.vector<Dim>(-1, 1);
+  const Vec<Dim> across = random.vector<Dim>(-1, 1);
+  for (std::size_t k = 0; k < element.most; ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / element.most + 0.3;
+    element.push_back({});
+    element[k].x = std::cos(angle) * along + std::sin(angle) * across;
+  }
   const auto gradient = area_gradient<Dim>(element);
   for (std::size_t k = 0; k < element.size(); ++k) {
     for (int d = 0; d < Dim; ++d) {
@@ -197,7 +216,7 @@ TEMPLATE_TEST_CASE_SIG("the force of surface tension is what the energy of the s
     for (auto element : elements) {
       for (auto& corner : element)
         corner.x += time * ((1 - corner.share) * mean_at(corner.in) + corner.share * mean_at(corner.out));
-      area += area_of<Dim>(element);
+      area += area_of<Dim>(element) / FreeSurface<Dim>::covers;
     }
     return area;
   };
@@ -235,7 +254,7 @@ TEMPLATE_TEST_CASE_SIG("a drop on the floor wets it, and its contact line is pul
       if constexpr (Dim == 2) {
         line += 1;
       } else {
-        line += (contact.corner[1].x - contact.corner[0].x).norm();
+        line += (contact.corner[1].x - contact.corner[0].x).norm() / FreeSurface<Dim>::covers;
       }
     }
   }
@@ -345,7 +364,7 @@ TEMPLATE_TEST_CASE_SIG("a drop on a body wets it, and its contact line is pulled
       if constexpr (Dim == 2) {
         line += 1;
       } else {
-        line += (contact.corner[1].x - contact.corner[0].x).norm();
+        line += (contact.corner[1].x - contact.corner[0].x).norm() / FreeSurface<Dim>::covers;
       }
     }
   }
@@ -400,6 +419,7 @@ TEMPLATE_TEST_CASE_SIG("on a body the force of surface tension is what the energ
       rate -= 0.5 * length * along.dot(contact.outward);
     }
   }
+  rate /= FreeSurface<Dim>::covers;
   CHECK(std::abs(rate) > 0.01);
   CHECK(power == Approx(-sigma * rate).epsilon(0.03));  // what faces far out do not take goes to others
 }

@@ -258,3 +258,23 @@ TEST_CASE("drops in the plane are the same in the mirror", "[verification]") {
         R"([{"name": "body", "shape": {"ball": {"center": [0.03, -0.1], "radius": 0.1}}, "wall": "slip"}])");
   check_image<2>(scene, mirror, 5, 1e-10);
 }
+
+TEST_CASE("drops in space are the same in the mirror", "[verification]") {
+  const std::string drop = GENERATE(R"({"ball": {"center": [0.03, 0.01, 0.05], "radius": 0.16}})",
+                                    R"({"intersection": [{"ball": {"center": [0.03, -0.02, -0.17], "radius": 0.19}},
+                                                         {"box": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.3]}}]})");
+  const bool on_body = GENERATE(false, true);
+  const Mirror<3> mirror = GENERATE(in_z, exchanged_in_space);
+  CAPTURE(drop, on_body, mirror.axis, mirror.mirrored);
+  Json scene = Json::parse(R"json({
+    "dimension": 3, "grid": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.3], "cells": [6, 4, 5]}, "walls": "slip",
+    "fluid": {"density": 1000, "viscosity": 2}, "surface_tension": {"coefficient": 20, "contact_angle": 60},
+    "solver": {"scheme": "block", "tolerance": 1e-13}, "time": {"end": 1, "step": 0.01}})json");
+  scene["particles"] = {
+      {{"shape", Json::parse(drop)}, {"per_cell", 2}, {"velocity", {"0.3*sin(7*y)", "0.4*x", "0.2*y"}}}};
+  if (on_body)
+    scene["bodies"] = Json::parse(
+        R"([{"name": "body", "shape": {"ball": {"center": [0.03, 0, -0.1], "radius": 0.1}}, "wall": "slip"}])");
+  // Faces with next to no mass amplify rounding: up to 5e-8. Before: 2e-3 of the kinetic energy.
+  check_image<3>(scene, mirror, 3, 2e-7);
+}
