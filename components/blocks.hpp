@@ -14,11 +14,7 @@ namespace minamo {
 class BlockNumbers {
  public:
   /// No block of so many has a number.
-  void start(std::size_t blocks) {
-    for (const std::uint32_t block : used_) one_past_[block] = 0;
-    used_.clear();
-    one_past_.resize(blocks, 0);
-  }
+  void start(std::size_t blocks);
   /// The number of a block; one that has none gets the next, 0, 1, 2, ...
   std::uint32_t number(std::size_t block) {
     std::uint32_t& one_past = one_past_[block];

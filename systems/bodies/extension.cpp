@@ -4,8 +4,7 @@
 #include "systems/conforming/friction_matrices.hpp"
 #include "systems/conforming/sites_around.hpp"
 #include "systems/conforming/support.hpp"
-
-#include <Eigen/Dense>
+#include "systems/solve/dense.hpp"
 
 #include <algorithm>
 
@@ -53,7 +52,7 @@ void fit(const Around<Dim>& around, std::span<double> weight) {
   }
   // Slopes that few faces tell of tend to zero.
   for (int d = 1; d <= Dim; ++d) normal(d, d) += 1e-3 * sum;
-  const Basis at_origin = normal.ldlt().solve(Basis::Unit(0));
+  const Basis at_origin = solve_small_symmetric<Dim + 1>(normal, Basis::Unit(0));
   for (std::size_t k = 0; k < around.count; ++k) weight[k] *= at_origin.dot(basis(k));
 }
 
@@ -70,7 +69,7 @@ void fit_beside_wall(const Around<Dim>& around, const Vec<Dim>& wall, std::span<
     sum += near;
   }
   normal += 1e-4 * sum * Mat<Dim>::Identity();
-  const Vec<Dim> slope = normal.ldlt().solve(Vec<Dim>(-wall));
+  const Vec<Dim> slope = solve_small_symmetric<Dim>(normal, -wall);
   for (std::size_t k = 0; k < around.count; ++k) {
     const Vec<Dim> from_wall = around.offset[k] - wall;
     weight[k] = around.filled[k] / around.offset[k].squaredNorm() * slope.dot(from_wall);

@@ -5,8 +5,7 @@
 #include "systems/conforming/sites_around.hpp"
 #include "systems/conforming/value_range.hpp"
 #include "systems/grid/filled_nodes.hpp"
-
-#include <Eigen/Cholesky>
+#include "systems/solve/dense.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -154,7 +153,7 @@ class PressureOfFewParticles {
     if (weights == 0) return {};
     // Slopes that none around tell of are zero.
     for (int d = 1; d <= Dim; ++d) normal(d, d) += 1e-6 * weights;
-    return range.limit(normal.ldlt().solve(right)[0], range.width());
+    return range.limit(solve_small_symmetric<Dim + 1>(normal, right)[0], range.width());
   }
 
   /// Open share below which a multiplier that carries no force lies inside of a body, not in the air.

@@ -18,12 +18,7 @@ inline Mat<2> rotation(double angle) {
 }
 
 /// By an angle [rad] about an axis of any length but zero (Rodrigues 1840).
-inline Mat<3> rotation(double angle, const Vec<3>& axis) {
-  const Vec<3> e = axis.stableNormalized();
-  Mat<3> cross;
-  cross << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;
-  return Mat<3>::Identity() + std::sin(angle) * cross + (1 - std::cos(angle)) * cross * cross;
-}
+Mat<3> rotation(double angle, const Vec<3>& axis);
 
 /// By a vector along the axis, as long as the angle. [rad]
 inline Mat<2> rotation_by(const Vec<1>& turn) { return rotation(turn[0]); }

@@ -3,10 +3,9 @@
 #include "systems/bodies/cut.hpp"
 #include "systems/conforming/quadratic_spline.hpp"
 #include "systems/conforming/sites_around.hpp"
+#include "systems/solve/dense.hpp"
 #include "systems/surface_tension/free_surface.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 
@@ -47,7 +46,7 @@ class LinearFit {
     auto matrix = matrix_;
     // Slopes that few values tell of tend to zero.
     for (int d = 1; d <= Dim; ++d) matrix(d, d) += 1e-3 * matrix_(0, 0);
-    return matrix.ldlt().solve(right_)[0];
+    return solve_small_symmetric<Dim + 1>(matrix, right_)[0];
   }
 
  private:
