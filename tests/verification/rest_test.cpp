@@ -58,7 +58,7 @@ double late_unrest(const Json& scene) {
 
 }  // namespace
 
-TEST_CASE("water rests at any angle of gravity to the grid, in the plane", "[verification]") {
+TEST_CASE("water rests at any angle of gravity to the grid, in the plane", "[verification][long]") {
   std::mt19937 random(20);
   std::uniform_real_distribution<double> share(0, 1);
   const double angle = std::numbers::pi * (0.02 + 0.21 * share(random));
@@ -92,7 +92,7 @@ TEST_CASE("two liquids, one above the other, rest at an angle", "[verification]"
   CHECK(late_unrest<2>(scene) < 0.02);
 }
 
-TEST_CASE("water rests beside bodies, wherever they are in the grid", "[verification]") {
+TEST_CASE("water rests beside bodies, wherever they are in the grid", "[verification][long]") {
   // On a beach, around a post, in a tank and in one that is turned; places and heights by chance. With "mixed" the
   // fastest particle has 0.22 m/s around the post and 0.27 m/s in the turned tank from 4 to 8 s; on the beach and in
   // the straight tank water rests here with both.
