@@ -8,6 +8,7 @@
 #include "systems/bodies/cut.hpp"
 #include "systems/bodies/cut_friction.hpp"
 #include "systems/bodies/divergence_ahead.hpp"
+#include "systems/bodies/dry_sides.hpp"
 #include "systems/bodies/extension.hpp"
 #include "systems/bodies/fill.hpp"
 #include "systems/bodies/forces.hpp"
@@ -24,6 +25,7 @@
 #include "systems/bodies/wall_flux.hpp"
 #include "systems/bodies/watch_bodies.hpp"
 #include "systems/conforming/friction_choice.hpp"
+#include "systems/grid/grid_of.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/scene_checks.hpp"
@@ -241,6 +243,16 @@ void seed_bodies(BodySet<Dim> set, World& world) {
   }
 }
 
+/// \return whether a wall is so thin that it has any
+template <int Dim>
+bool seed_dry_sides(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
+  const auto dry =
+      dry_sides_of<Dim>(bodies.of<Dim>(), grid_of<Dim>(scene.grid), scene.facts.get<Discretization>().degree);
+  if (!dry) return false;
+  recipe.seed([dry](const Scene&, World& world, SeedProblems&) { world.resource<DrySides<Dim>>() = *dry; });
+  return true;
+}
+
 void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
   const bool rubs = finds_friction(bodies, scene);
   recipe.add("configure", "place_bodies", When::step);
@@ -249,6 +261,9 @@ void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Reci
   if (any_moves && std::find(periodic.begin(), periodic.end(), true) != periodic.end())
     recipe.add("configure", "require_repeats", When::step);
   recipe.add("sort", "place_bodies", When::standing);
+  const bool any_is_thin =
+      with_dimension(scene.dimension, [&](auto dim) { return seed_dry_sides<dim()>(bodies, scene, recipe); });
+  if (any_is_thin) recipe.add("sort", "find_dry_sides");
   recipe.add("sort", "cut_faces");
   recipe.add("sort", "find_face_extension");
   if (rubs) recipe.add("sort", "find_cut_friction");
@@ -344,6 +359,7 @@ bool finds_friction(const BodiesOfScene& bodies, const Scene& scene) {
 void add_bodies(SystemRegistry& registry) {
   registry.add<PlaceBodies>("place_bodies");
   registry.add<RequireRepeats>("require_repeats");
+  registry.add<FindDrySides>("find_dry_sides");
   registry.add<CutFaces>("cut_faces");
   registry.add<FindFaceExtension>("find_face_extension");
   registry.add<FindCutFriction>("find_cut_friction");

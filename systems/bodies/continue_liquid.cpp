@@ -212,15 +212,15 @@ void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>
 
 template <int Dim>
 void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                                     Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
-                                     Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows,
-                                     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                     Read<multiplier::OpenShare> open, Read<multiplier::Volume> v_l,
-                                     Read<multiplier::Capacity> capacity, Update<face::ExactShare<Dim>> share,
-                                     Update<multiplier::SurfaceDistance> psi,
+                                     Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                                     Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                                     Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                     Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
+                                     Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                                     Update<face::ExactShare<Dim>> share, Update<multiplier::SurfaceDistance> psi,
                                      Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
                                      Write<ContinuedLiquid<Dim>> continued) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(), open.span(), share.span(), cuts,
                             *continued);

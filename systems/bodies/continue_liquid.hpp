@@ -14,7 +14,7 @@ template <int Dim>
 struct ContinueLiquid {
   static constexpr std::string_view doc = "(E135) the liquid continued into bodies";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,

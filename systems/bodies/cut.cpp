@@ -307,13 +307,20 @@ StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
 
 template <int Dim>
 PlacedBodies<Dim>::PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim>> position,
-                                std::span<const Mat<Dim>> rotation)
-    : set_(set) {
+                                std::span<const Mat<Dim>> rotation, const DrySides<Dim>* dry)
+    : set_(set), dry_(dry) {
   for (std::size_t b = 0; b < set.bodies.size(); ++b) {
     const auto& body = set.bodies[b];
     placement_.push_back({body.pivot, position[b], rotation[b]});
     (body.moves() ? moving_ : resting_).push_back(b);
-    if (body.moves()) moving_bounds_.push_back(placement_.back().bounds(body.shape->bounds()));
+    if (body.moves()) {
+      Bounds<Dim> bounds = placement_.back().bounds(body.shape->bounds());
+      if (dry != nullptr && dry->of_body[b]) {
+        bounds.low.array() -= dry->of_body[b]->reach_of_dry();
+        bounds.high.array() += dry->of_body[b]->reach_of_dry();
+      }
+      moving_bounds_.push_back(bounds);
+    }
     bounded_ = bounded_ && body.shape->is_bounded_by_distance();
   }
 }
@@ -329,7 +336,10 @@ template <int Dim>
 typename PlacedBodies<Dim>::Nearest PlacedBodies<Dim>::nearest(const Vec<Dim>& x, bool moving) const {
   Nearest nearest;
   for (const std::size_t b : moving ? moving_ : resting_) {
-    const double distance = placement_[b].distance(*set_.bodies[b].shape, x);
+    const Shape<Dim>& shape = *set_.bodies[b].shape;
+    const Vec<Dim> in_body = placement_[b].to_body(x);
+    double distance = shape.distance(in_body);
+    if (dry_ != nullptr && dry_->of_body[b]) distance = dry_->of_body[b]->shaded(shape, in_body, distance);
     if (distance < nearest.distance) nearest = {distance, static_cast<int>(b)};
   }
   return nearest;
@@ -341,6 +351,11 @@ bool PlacedBodies<Dim>::may_be_near(const Vec<Dim>& x, double reach) const {
     if (((x - bounds.low).array() > -reach).all() && ((bounds.high - x).array() > -reach).all()) return true;
   }
   return false;
+}
+
+template <int Dim>
+SiteCut<Dim> SiteCuts<Dim>::cut_by_resting(const Index<Dim>& site) const {
+  return cut_site<Dim>(places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return bodies_.distance(x, false); });
 }
 
 template <int Dim>
@@ -369,16 +384,16 @@ double SiteCuts<Dim>::open_below(const Index<Dim>& site, double psi, const Vec<D
 
 template <int Dim>
 void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                               Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
-                               Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b,
-                               Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-                               Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
-                               Read<staggered::Neighbour<Dim>> neighbour, Write<face::Open<Dim>> open,
-                               Write<face::OpenVolume<Dim>> open_volume, Write<face::WallFlux<Dim>> flux,
-                               Write<face::OldWallFlux<Dim>> old_flux, Write<face::Closed<Dim>> closed,
-                               Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share,
-                               Update<multiplier::Capacity> capacity) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+                               Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                               Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                               Read<body::MeanVelocity<Dim>> V_b, Read<body::Velocity<Dim>> V_old,
+                               Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b,
+                               Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                               Write<face::Open<Dim>> open, Write<face::OpenVolume<Dim>> open_volume,
+                               Write<face::WallFlux<Dim>> flux, Write<face::OldWallFlux<Dim>> old_flux,
+                               Write<face::Closed<Dim>> closed, Write<face::Closer<Dim>> closer,
+                               Write<multiplier::OpenShare> share, Update<multiplier::Capacity> capacity) const {
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const SitePlaces<Dim>& places = cuts.places();
   for_each_row(site.size(), [&](std::size_t i) {

@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
+#include "systems/bodies/thin_walls.hpp"
 #include "systems/conforming/sites_around.hpp"
 #include "systems/conforming/splines.hpp"
 
@@ -117,11 +118,21 @@ struct StaticCut {
 template <int Dim>
 StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines);
 
+/// (E136) What is dry behind the thin walls of bodies. Only where a body has one.
+template <int Dim>
+struct DrySides {
+  std::vector<std::optional<ThinWalls<Dim>>> of_body;
+  std::vector<SiteCut<Dim>> at_rest;  ///< as StaticCut::of, by bodies with what is dry behind them
+  static constexpr ComponentInfo info{"bodies.dry_sides", "", "", Lifetime::cache};
+};
+
 /// The bodies of a scene at some place each.
 template <int Dim>
 class PlacedBodies {
  public:
-  PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim>> position, std::span<const Mat<Dim>> rotation);
+  /// \param dry  what of the surroundings of bodies counts as part of them; null: nothing
+  PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim>> position, std::span<const Mat<Dim>> rotation,
+               const DrySides<Dim>* dry = nullptr);
   static PlacedBodies at_start(const BodySet<Dim>& set);
 
   struct Nearest {
@@ -136,9 +147,11 @@ class PlacedBodies {
   bool may_be_near(const Vec<Dim>& x, double reach) const;
   bool bounded() const { return bounded_; }
   const Placement<Dim>& placement(std::size_t b) const { return placement_[b]; }
+  const DrySides<Dim>* dry() const { return dry_; }
 
  private:
   const BodySet<Dim>& set_;
+  const DrySides<Dim>* dry_;
   std::vector<Placement<Dim>> placement_;
   std::vector<std::size_t> moving_;
   std::vector<std::size_t> resting_;
@@ -155,8 +168,11 @@ class SiteCuts {
       : places_(grid, splines), at_rest_(at_rest), bodies_(bodies) {}
 
   SiteCut<Dim> by_resting(const Index<Dim>& site) const {
-    return at_rest_.of.empty() ? SiteCut<Dim>{} : at_rest_.at(site);
+    if (at_rest_.of.empty()) return {};
+    return bodies_.dry() != nullptr ? bodies_.dry()->at_rest[row_in<Dim>(at_rest_.sites, site)] : at_rest_.at(site);
   }
+  /// The same, found anew.
+  SiteCut<Dim> cut_by_resting(const Index<Dim>& site) const;
   SiteCut<Dim> at(const Index<Dim>& site) const;
   /// Integral of N_l of a site over what of the open volume lies below a plane, over that of N_l.
   /// \param psi  signed distance of the middle of the multiplier from the plane, in units of h
@@ -188,7 +204,7 @@ template <int Dim>
 struct CutFaces {
   static constexpr std::string_view doc = "(E85) what bodies leave open of faces and multipliers";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b,
                   Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,

@@ -27,13 +27,14 @@ constexpr double inside_below = 1e-6;
 
 template <int Dim>
 void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                                       Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
-                                       Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
-                                       Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> share,
-                                       Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                                       Update<multiplier::FillFraction> phi, Update<multiplier::FillAround> around,
+                                       Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                                       Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                                       Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                       Read<multiplier::OpenShare> share, Read<multiplier::Volume> v_l,
+                                       Read<multiplier::Capacity> capacity, Update<multiplier::FillFraction> phi,
+                                       Update<multiplier::FillAround> around,
                                        Update<multiplier::LeastFill> least) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const double cell_volume = std::pow(grid->spacing, Dim);
   struct Beside {
@@ -95,14 +96,14 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
 template <int Dim>
 void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                     Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
-                                    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                                    Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open_face,
-                                    Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
-                                    Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least,
-                                    Read<face::Mass<Dim>> m_f, Optional<Read<face::Density<Dim>>> rho_f,
-                                    Write<face::UncutMass<Dim>> uncut) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+                                    Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
+                                    Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows,
+                                    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                    Read<face::Open<Dim>> open_face, Read<face::OpenVolume<Dim>> open_volume,
+                                    Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+                                    Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
+                                    Optional<Read<face::Density<Dim>>> rho_f, Write<face::UncutMass<Dim>> uncut) const {
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {

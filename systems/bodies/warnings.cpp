@@ -2,6 +2,7 @@
 
 #include "components/grid.hpp"
 #include "systems/bodies/bodies_part.hpp"
+#include "systems/bodies/dry_sides.hpp"
 #include "systems/bodies/outlines.hpp"
 #include "systems/bodies/seed_cut.hpp"
 #include "systems/bodies/surface_samples.hpp"
@@ -224,6 +225,29 @@ class BodyWarnings {
 /// Less of the liquid than this is rounding.
 constexpr double least_cut = 1e-9;
 
+/// Of thin walls that part liquid from liquid at the start.
+template <int Dim>
+std::vector<std::string> warnings_of_thin_walls(const BodySet<Dim>& set, const Grid<Dim>& grid, int degree,
+                                                std::span<const Vec<Dim>> x_p) {
+  std::vector<std::string> found;
+  auto dry = dry_sides_of<Dim>(set, grid, degree);
+  if (!dry) return found;
+  for (std::size_t b = 0; b < set.bodies.size(); ++b) {
+    auto& walls = dry->of_body[b];
+    const Shape<Dim>& shape = *set.bodies[b].shape;
+    if (!walls) continue;
+    for (const Vec<Dim>& x : x_p) walls->light(shape, x);
+    walls->find_dry();
+    const auto wet = walls->wet_on_both_sides(shape);
+    if (!wet) continue;
+    found.push_back(fmt::format(
+        "body \"{}\" is thinner than {} cells and wet on both sides at {}: a cell there has one pressure for "
+        "both, and liquid on different levels gets through; thicker than {:.3g} m, or cells of {:.3g} m",
+        set.bodies[b].name, degree, place_text<Dim>(wet->middle), degree * grid.spacing, wet->thickness / degree));
+  }
+  return found;
+}
+
 std::vector<std::string> warning_of_cut(const LiquidCut& cut, int dimension) {
   if (cut.volume <= least_cut * cut.of) return {};
   return {fmt::format("bodies take the place of {:.4g} m^{} of the liquid, {:.3g} %, which is cut away", cut.volume,
@@ -241,6 +265,10 @@ std::vector<std::string> warnings_of_bodies(const Scene& scene, World& world) {
                      .all();
     const auto of_cut = warning_of_cut(world.resource<LiquidCut>(), Dim);
     found.insert(found.end(), of_cut.begin(), of_cut.end());
+    const auto of_thin = warnings_of_thin_walls<Dim>(world.resource<BodySet<Dim>>(), world.resource<Grid<Dim>>(),
+                                                     world.resource<Splines<Dim>>().degree,
+                                                     world.template column<particle::Position<Dim>>());
+    found.insert(found.end(), of_thin.begin(), of_thin.end());
     return found;
   });
 }

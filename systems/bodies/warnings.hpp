@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// What a scene with bodies may not mean: gaps too thin for the grid, bodies that overlap others at the start,
-/// liquid that bodies take the place of.
+/// liquid that bodies take the place of, thin walls between liquid and liquid.
 
 #include "engine/world.hpp"
 #include "systems/setup/scene.hpp"

@@ -4,6 +4,7 @@
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
 #include "systems/grid/capacity.hpp"
+#include "systems/grid/grid_of.hpp"
 #include "systems/grid/number_nodes.hpp"
 #include "systems/parts.hpp"
 #include "systems/setup/discretization.hpp"
@@ -12,20 +13,6 @@
 namespace minamo {
 
 namespace {
-
-template <int Dim>
-Grid<Dim> make_grid(const GridScene& scene) {
-  Grid<Dim> grid;
-  grid.spacing = scene.spacing;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    const auto axis = static_cast<Eigen::Index>(d);
-    grid.low[axis] = scene.low[d];
-    grid.high[axis] = scene.high[d];
-    grid.cells[d] = scene.cells[d];
-    grid.periodic[d] = scene.periodic[d];
-  }
-  return grid;
-}
 
 void read_box(Input& in, std::size_t dimension, GridScene& grid) {
   grid.low = in.numbers("low", dimension, {.unit = "m", .doc = "corner of the box"});
@@ -58,7 +45,7 @@ Contribution read_grid(Input& input, Scene& scene) {
     add_systems(of, recipe, "sort", {{"bin", "number_nodes", "find_capacity"}, sort_on_faces(of)});
     add_systems(of, recipe, "boundaries", {{"activate", "find_neighbours"}, {}});
     with_dimension(of.dimension, [&](auto dim) {
-      const auto grid = make_grid<dim()>(of.grid);
+      const auto grid = grid_of<dim()>(of.grid);
       recipe.constant(grid);
       if (is_conforming(of)) recipe.constant(make_splines(grid, of.facts.get<Discretization>().degree));
     });

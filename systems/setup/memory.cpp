@@ -4,6 +4,7 @@
 #include "systems/bodies/cut_friction.hpp"
 #include "systems/bodies/outlines.hpp"
 #include "systems/conforming/friction_choice.hpp"
+#include "systems/grid/grid_of.hpp"
 #include "systems/openings/openings_part.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/setup/schemes.hpp"
@@ -43,9 +44,7 @@ double bytes_of_bodies(const Scene& scene) {
     const Bounds<Dim> box{vec_of<Dim>(scene.grid.low), vec_of<Dim>(scene.grid.high)};
     const double of_outlines = outlines_bytes<Dim>(bodies->of<Dim>(), box, scene.grid.spacing);
     if (!finds_friction(*bodies, scene)) return of_outlines;
-    Grid<Dim> grid{.low = box.low, .high = box.high, .spacing = scene.grid.spacing};
-    std::copy_n(scene.grid.cells.begin(), Dim, grid.cells.begin());
-    return of_outlines + cut_friction_bytes<Dim>(bodies->of<Dim>(), grid, scene.facts.get<Discretization>().degree);
+    return of_outlines + cut_friction_bytes<Dim>(bodies->of<Dim>(), grid_of<Dim>(scene.grid), scene.facts.get<Discretization>().degree);
   });
 }
 
