@@ -11,6 +11,8 @@ namespace {
 
 /// Share of a part from which on it makes a particle, but for rounding.
 constexpr double least_share = 0.3 - 1e-9;
+/// Of lengths, as a share of the edge of a part.
+constexpr double rounding = 1e-9;
 /// Samples of a part per direction.
 constexpr int samples = 8;
 
@@ -61,9 +63,13 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
   for_each_row(parts, [&](std::size_t p) {
     const CutRegion<Dim>& region = regions[seeds.region[p]];
     const Vec<Dim>& x = seeds.position[p];
-    if (!region.shape) {
+    if (!region.is_cut) {
       pieces[p] =
           piece_of<Dim>(x, region.size, bodies.bounded(), [&](const Vec<Dim>& y) { return bodies.distance(y); });
+      if (seeds.is_beyond.empty() || seeds.is_beyond[p] == 0) return;
+      const bool is_inside = region.shape->distance(pieces[p].middle) <= rounding * region.size;
+      if (pieces[p].share == 1 || !is_inside) pieces[p].share = 0;
+      within[p] = pieces[p].share;
       return;
     }
     const bool bounded = region.shape->is_bounded_by_distance();
@@ -100,7 +106,7 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     if (pieces[p].share <= 0 || pieces[p].share >= least_share) continue;
     // As near as the nearest, whatever rounding says: each has its part.
-    const double rounding = 1e-9 * regions[seeds.region[p]].size;
+    const double alike = rounding * regions[seeds.region[p]].size;
     double nearest = std::numeric_limits<double>::infinity();
     std::vector<std::size_t> heirs;
     for (std::size_t k = 0; k < power(3, Dim); ++k) {
@@ -114,8 +120,8 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
       if (found == in_cell.end()) continue;
       for (const std::size_t q : found->second) {
         const double distance = (kept.position[q] - pieces[p].middle).norm();
-        if (kept.region[q] != seeds.region[p] || distance > nearest + rounding) continue;
-        if (distance < nearest - rounding) heirs.clear();
+        if (kept.region[q] != seeds.region[p] || distance > nearest + alike) continue;
+        if (distance < nearest - alike) heirs.clear();
         heirs.push_back(q);
         nearest = std::min(nearest, distance);
       }

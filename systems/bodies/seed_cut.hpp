@@ -13,6 +13,9 @@ struct Seeds {
   std::vector<Vec<Dim>> position;
   std::vector<std::size_t> region;  ///< that each comes from
   std::vector<double> share;        ///< of the volume of its part of a cell [1]
+  /// Whether the middle of its part lies outside of a region that has its middles: what a body leaves of the part may
+  /// have its own inside. One per particle, or none at all.
+  std::vector<std::uint8_t> is_beyond;
 };
 
 /// What bodies have cut away of the liquid.
@@ -26,12 +29,14 @@ struct LiquidCut {
 template <int Dim>
 struct CutRegion {
   double size = 0;         ///< edge of a part [m]
-  SharedShape<Dim> shape;  ///< that cuts parts; none: they are whole
+  SharedShape<Dim> shape;  ///< of the region, where it has a distance
+  bool is_cut = false;     ///< whether its surface cuts parts
 };
 
-/// (E91)  A particle gets the volume that bodies, and the surface of its region, leave of its part of a cell, and the
-/// place of its middle; what is less than 0.3 of a part goes to the nearest particle, and where there is none is cut
-/// away, too. The volume of the liquid is that of what is left.
+/// (E91)  A part that a body cuts is in a region if the middle of what is left of it is. A particle gets the volume
+/// that bodies, and the surface of its region, leave of its part of a cell, and the place of its middle; what is less
+/// than 0.3 of a part goes to the nearest particle, and where there is none is cut away, too. The volume of the liquid
+/// is that of what is left.
 template <int Dim>
 LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<CutRegion<Dim>>& regions,
                    Seeds<Dim>& seeds);

@@ -25,6 +25,9 @@ constexpr double heaviest_ratio = 10;
 /// Share w_f from which on a face beside what no particle touches is without an unknown: in what moves it would get
 /// energy from nowhere.
 constexpr double at_rest_from = 0.9;
+/// Fill that particles may not see: the surface reaches so far into the spline of a multiplier before a lattice of
+/// 2 x 2 touches it. Were faces let go from less on, small waves would meet walls that do not answer.
+constexpr double unseen = 0.03;
 
 /// Calls use(cell, offset, place) for the cells of the grid that a spline of a site reaches, `extent` cells along every
 /// axis; `offset` is that of the site from the first one of the cell, `place` its number among as many, x fastest.
@@ -107,27 +110,30 @@ void find_surface_cells(const Liquid<Dim>& of) {
 
 /// psi of the multipliers of a cell, x fastest. Those that are full or empty are as far as a plane that just leaves
 /// their splines, in the mean direction of the others: one farther away would not answer while the surface moves there.
-/// Not in scenes with bodies: full or empty may be what is on the other side of a thin wall.
+/// Not beside bodies: full or empty may be what is on the other side of a thin wall.
 template <int Dim, int K>
 std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index<Dim>& cell) {
   std::array<double, power(K, Dim)> psi;
-  std::array<bool, power(K, Dim)> is_cut;
+  std::array<bool, power(K, Dim)> is_known;
   Vec<Dim> direction = Vec<Dim>::Zero();
   typename SiteRows<Dim>::Finder find(of.rows);
   std::size_t m = 0;
   for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
     const Index<Dim> site = of.splines.site(cell, offset);
     const auto row = find(site);
-    is_cut[m] = row && liquid::is_cut(of.phi[*row]);
-    if (is_cut[m]) direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
-    psi[m++] = of.psi_at(site, row);
+    is_known[m] = row && liquid::is_cut(of.phi[*row]);
+    if (is_known[m]) direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
+    psi[m] = of.psi_at(site, row);
+    is_known[m] = is_known[m] ||
+                  (of.continued != nullptr && of.continued->rows.find(site) && std::abs(psi[m]) < liquid::farthest);
+    ++m;
   });
   const double length = direction.norm();
   constexpr double none = 1e-6;
-  if (of.continued != nullptr || length < none) return psi;
+  if (length < none) return psi;
   const double end = 0.5 * K * direction.template lpNorm<1>() / length;
   for (std::size_t k = 0; k < psi.size(); ++k) {
-    if (!is_cut[k]) psi[k] = std::copysign(end, psi[k]);
+    if (!is_known[k]) psi[k] = std::copysign(end, psi[k]);
   }
   return psi;
 }
@@ -229,7 +235,7 @@ bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d) {
   const auto lacks_particles = [&](const Index<Dim>& site, std::int32_t row) {
     if (row != staggered::none && of.phi[static_cast<std::size_t>(row)] > 0) return false;
     const auto c = of.continued->rows.find(site);
-    return c && of.continued->fill[*c] > liquid::edge;
+    return c && of.continued->fill[*c] > unseen;
   };
   if (lacks_particles(of.site[i], static_cast<std::int32_t>(i))) return true;
   const auto below = site_beside(of.splines, of.site[i], 2 * d);

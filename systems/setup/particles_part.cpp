@@ -155,8 +155,8 @@ void cut_seeds(const Scene& scene, const Grid<Dim>& grid, World& world, Seeds<Di
   std::vector<CutRegion<Dim>> regions;
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
     const ParticleScene& region = scene.particles[r];
-    regions.push_back({grid.spacing / region.per_cell, nullptr});
-    if (cut_regions.is_cut[r]) regions.back().shape = std::get<SharedShape<Dim>>(region.shape);
+    const auto* shape = std::get_if<SharedShape<Dim>>(&region.shape);
+    regions.push_back({grid.spacing / region.per_cell, shape ? *shape : nullptr, cut_regions.is_cut[r]});
   }
   const bool any = is_any(seeds);
   const LiquidCut cut = cut_away<Dim>(bodies ? bodies->of<Dim>() : BodySet<Dim>{}, grid, regions, seeds);
@@ -169,11 +169,47 @@ void cut_seeds(const Scene& scene, const Grid<Dim>& grid, World& world, Seeds<Di
   }
 }
 
+/// The shape of a region if it has a distance and its particles are in the middle of parts; else null.
+template <int Dim>
+const Shape<Dim>* shape_with_distance(const ParticleScene& region) {
+  const auto* shape = std::get_if<SharedShape<Dim>>(&region.shape);
+  const bool has_distance = shape != nullptr && (*shape)->is_bounded_by_distance() && !region.jitter;
+  return has_distance ? shape->get() : nullptr;
+}
+
+/// Adds the parts that reach into a region but have their middle outside, and in no other: bodies may cut them.
+/// \param inside  those that have it inside, in the order of the grid
+template <int Dim>
+void add_parts_beyond(const Scene& scene, const Grid<Dim>& grid, std::size_t r, std::span<const Vec<Dim>> inside,
+                      Seeds<Dim>& seeds) {
+  const ParticleScene& region = scene.particles[r];
+  const auto is_elsewhere = [&](const Vec<Dim>& x) {
+    return std::any_of(scene.particles.begin(), scene.particles.end(), [&](const ParticleScene& other) {
+      const auto* shape = shape_with_distance<Dim>(other);
+      return &other != &region && (shape == nullptr || shape->distance(x) < grid.spacing / other.per_cell);
+    });
+  };
+  seeds.is_beyond.resize(seeds.position.size(), 0);
+  std::size_t next = 0;
+  for (const Vec<Dim>& x :
+       lattice<Dim>(region, grid, scene.start, PartsTaken::within_reach, own_layers<Dim>(scene, grid))) {
+    if (next < inside.size() && inside[next] == x) {
+      ++next;
+    } else if (!is_elsewhere(x)) {
+      seeds.position.push_back(moved_at_walls<Dim>(scene, grid, region.per_cell, x));
+      seeds.region.push_back(r);
+      seeds.share.push_back(1);
+      seeds.is_beyond.push_back(1);
+    }
+  }
+}
+
 template <int Dim>
 Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, SeedProblems& problems) {
   Seeds<Dim> seeds;
   std::unordered_map<std::size_t, double> filled;
   const Layers layers = own_layers<Dim>(scene, grid);
+  const bool has_bodies = scene.facts.find<BodiesOfScene>() != nullptr;
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
     const ParticleScene& region = scene.particles[r];
     const bool is_cut = scene.facts.get<CutRegions>().is_cut[r];
@@ -195,11 +231,14 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
       seeds.region.push_back(r);
       seeds.share.push_back(1);
     }
+    if (has_bodies && !is_cut && shape_with_distance<Dim>(region) != nullptr)
+      add_parts_beyond<Dim>(scene, grid, r, positions, seeds);
     if (overlap) {
       problems.note(pointer + "/shape", "overlaps an earlier one", "no cell more than full",
                     "more than a full cell at " + place_text<Dim>(*overlap));
     }
   }
+  if (!seeds.is_beyond.empty()) seeds.is_beyond.resize(seeds.position.size(), 0);
   cut_seeds<Dim>(scene, grid, world, seeds, problems);
   return seeds;
 }
