@@ -77,10 +77,10 @@ std::string recommended_quadrature(const Input& input, const Scene& scene) {
   for (const char* key : {"openings", "surface_tension"}) {
     if (input.has(key)) return "mixed";
   }
-  std::vector<std::string> bodies;
+  std::vector<std::string> motions;
   for (std::size_t b = 0; b < input.elements("bodies").value_or(0); ++b)
-    bodies.push_back("bodies/" + std::to_string(b));
-  if (!bodies.empty() && (input.has("fluids") || any_has(input, bodies, {"motion"}))) return "mixed";
+    motions.push_back("bodies/" + std::to_string(b) + "/motion");
+  if (!motions.empty() && (input.has("fluids") || any_has(input, motions, {"free"}))) return "mixed";
   std::vector<std::string> laws{"fluid/rheology"};
   if (input.has("fluids")) {
     laws = input.names("fluids");
@@ -107,7 +107,7 @@ void add_quadrature(SystemRegistry& registry) {
   const DefaultScheme fallback{
       recommended_quadrature,
       "\"exact\" in the plane under a body_force, with degree 2, without yield stress, openings and surface_tension; "
-      "beside bodies where all of these are at rest, without fluids"};
+      "beside bodies where none of these is free, without fluids"};
   registry.add(choice<Quadrature>("quadrature", "integrals of the balances", fallback));
 }
 

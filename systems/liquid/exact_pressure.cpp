@@ -13,7 +13,7 @@ namespace {
 /// Least mass around a face of which an acceleration is told, as a share of that of a full grid.
 constexpr double least_mass = 1e-3;
 /// phi of a multiplier from which on liquid is near, and from which on it is so in full; multipliers from it.
-constexpr double liquid_from = 0.8;
+constexpr double spray_below = 0.8;
 constexpr double liquid_to = 0.95;
 constexpr int liquid_reach = 2;
 /// Open share of a multiplier from which on its particles tell whether there is liquid.
@@ -164,7 +164,7 @@ void FindExactShare<Dim>::operator()(
                                     [&](std::size_t i) { return v_l[i] > 0 && near[i] < liquid_to; });
   if (shared) shared->copy_from_owner(near.span());
   for_each_row(near.size(), [&](std::size_t i) {
-    const double t = std::clamp((near[i] - liquid_from) / (liquid_to - liquid_from), 0.0, 1.0);
+    const double t = std::clamp((near[i] - spray_below) / (liquid_to - spray_below), 0.0, 1.0);
     near[i] = t * t * (3 - 2 * t);
   });
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};

@@ -110,22 +110,24 @@ void find_surface_cells(const Liquid<Dim>& of) {
 
 /// psi of the multipliers of a cell, x fastest. Those that are full or empty are as far as a plane that just leaves
 /// their splines, in the mean direction of the others: one farther away would not answer while the surface moves there.
-/// Not beside bodies: full or empty may be what is on the other side of a thin wall.
+/// Not those to which bodies have the liquid continued: their planes tell.
 template <int Dim, int K>
 std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index<Dim>& cell) {
   std::array<double, power(K, Dim)> psi;
-  std::array<bool, power(K, Dim)> is_known;
+  std::array<bool, power(K, Dim)> is_told;
   Vec<Dim> direction = Vec<Dim>::Zero();
   typename SiteRows<Dim>::Finder find(of.rows);
   std::size_t m = 0;
   for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
     const Index<Dim> site = of.splines.site(cell, offset);
     const auto row = find(site);
-    is_known[m] = row && liquid::is_cut(of.phi[*row]);
-    if (is_known[m]) direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
     psi[m] = of.psi_at(site, row);
-    is_known[m] = is_known[m] ||
-                  (of.continued != nullptr && of.continued->rows.find(site) && std::abs(psi[m]) < liquid::farthest);
+    is_told[m] = row && liquid::is_cut(of.phi[*row]);
+    if (is_told[m]) {
+      direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
+    } else if (of.continued != nullptr && std::abs(psi[m]) < liquid::farthest) {
+      is_told[m] = of.continued->rows.find(site).has_value();
+    }
     ++m;
   });
   const double length = direction.norm();
@@ -133,7 +135,7 @@ std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index
   if (length < none) return psi;
   const double end = 0.5 * K * direction.template lpNorm<1>() / length;
   for (std::size_t k = 0; k < psi.size(); ++k) {
-    if (!is_known[k]) psi[k] = std::copysign(end, psi[k]);
+    if (!is_told[k]) psi[k] = std::copysign(end, psi[k]);
   }
   return psi;
 }

@@ -9,6 +9,7 @@
 #include "systems/shapes/primitives.hpp"
 
 #include <catch2/catch.hpp>
+#include <spdlog/fmt/fmt.h>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -16,14 +17,15 @@ using namespace minamo::scene_run;
 namespace {
 
 /// Ten cells of 0.1 m; the particles are given.
-/// On nodes, for which the lattice is nearer to walls.
-Json box(const std::string& particles) {
+Json staggered_box(const std::string& particles) {
   Json scene = Json::parse(R"({
     "dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [10, 10]},
     "fluid": {"density": 1000, "viscosity": 0}, "time": {"end": 1, "step": 0.001}})");
   scene["particles"] = Json::parse(particles);
-  return of_equal_order(scene);
+  return scene;
 }
+/// On nodes, for which the lattice is nearer to walls.
+Json box(const std::string& particles) { return of_equal_order(staggered_box(particles)); }
 
 std::vector<Vec<2>> places(const Json& scene) {
   SceneRun run(scene);
@@ -148,6 +150,38 @@ TEST_CASE("liquid that the surface of its shape cuts has the volume and the midd
   const auto x_p = run.world().column<particle::Position<2>>();
   for (std::size_t p = 0; p < x_p.size(); ++p) moment += run.world().column<particle::Mass>()[p] * x_p[p];
   CHECK((moment / total_mass(run.world()) - middle).norm() < 1e-3);
+}
+
+TEST_CASE("liquid between walls of bodies reaches to them, wherever they lie", "[unit]") {
+  const double off = GENERATE(0.0, 0.1, 0.2, 0.3, 0.45);  // [h]
+  const int per_cell = GENERATE(2, 3);
+  CAPTURE(off, per_cell);
+  // 0.6 m wide, its floor on a line of the grid, as high as a lattice.
+  const double low = 0.2 + 0.1 * off;
+  Json scene =
+      staggered_box(fmt::format(R"([{{"shape": {{"box": {{"low": [{}, 0.2], "high": [{}, 0.5]}}}}, "per_cell": {}}}])",
+                                low, low + 0.6, per_cell));
+  scene["bodies"] = Json::array();
+  scene["bodies"].push_back(Json::parse(
+      fmt::format(R"({{"name": "tank", "shape": {{"invert": {{"box": {{"low": [{}, 0.2], "high": [{}, 0.8]}}}}}}}})",
+                  low, low + 0.6)));
+  SceneRun run(scene);
+  CHECK(total_mass(run.world()) == Approx(1000 * 0.6 * 0.3).epsilon(1e-9));
+}
+
+TEST_CASE("a part that bodies cut belongs to one of two regions", "[unit]") {
+  // Their common side lies in parts that a beach cuts.
+  Json scene = staggered_box(R"([{"shape": {"box": {"low": [0, 0], "high": [1, 0.33]}}, "per_cell": 2},
+                       {"shape": {"box": {"low": [0, 0.33], "high": [1, 0.6]}}, "per_cell": 2}])");
+  const Json one = staggered_box(R"([{"shape": {"box": {"low": [0, 0], "high": [1, 0.6]}}, "per_cell": 2}])");
+  const Json beach =
+      Json::parse(R"([{"name": "beach", "shape": {"half_space": {"point": [0.3, 0], "normal": [-0.7, 1]}}}])");
+  const auto mass_of = [&](Json of) {
+    of["bodies"] = beach;
+    SceneRun run(of);
+    return total_mass(run.world());
+  };
+  CHECK(mass_of(scene) == Approx(mass_of(one)).epsilon(1e-9));
 }
 
 TEST_CASE("jittered particles are the same for the same seed", "[unit]") {
