@@ -2,6 +2,7 @@
 WORK."""
 
 import os
+import select
 import shutil
 import signal
 import subprocess
@@ -124,6 +125,21 @@ class Configuring(unittest.TestCase):
         other = self.tree / "other"
         other.symlink_to(self.tree)
         self.assertEqual(self.configure(other, other / "build", "build.ninja"), "")
+
+    def test_a_build_says_at_once_how_far_it_is(self):
+        # What is built next ends when the test has read of what is built already.
+        go_on = self.tree / "go_on"
+        os.mkfifo(go_on)
+        (self.tree / "bin/cmake").write_text(f"#!/bin/sh\necho '1 9 12.0 an object'\nread line < {go_on}\n")
+        path = f"{self.tree / 'bin'}:{os.environ['PATH']}"
+        with subprocess.Popen(["bash", "-c", f"source {self.tree}/tools/setup; build {self.tree}/build all"], text=True,
+                              env=os.environ | {"PATH": path}, stderr=subprocess.PIPE) as build:
+            seen, _, _ = select.select([build.stderr], [], [], 10)
+            with go_on.open("w") as line:
+                line.write("go\n")
+            said = build.stderr.read()
+        self.assertTrue(seen, "nothing until the build has ended")
+        self.assertEqual(said, "Building all: 1 of 9, about 2 min left\n")
 
 
 if __name__ == "__main__":

@@ -44,7 +44,8 @@ double bytes_of_bodies(const Scene& scene) {
     const Bounds<Dim> box{vec_of<Dim>(scene.grid.low), vec_of<Dim>(scene.grid.high)};
     const double of_outlines = outlines_bytes<Dim>(bodies->of<Dim>(), box, scene.grid.spacing);
     if (!finds_friction(*bodies, scene)) return of_outlines;
-    return of_outlines + cut_friction_bytes<Dim>(bodies->of<Dim>(), grid_of<Dim>(scene.grid), scene.facts.get<Discretization>().degree);
+    return of_outlines + cut_friction_bytes<Dim>(bodies->of<Dim>(), grid_of<Dim>(scene.grid),
+                                                 scene.facts.get<Discretization>().degree);
   });
 }
 
