@@ -44,11 +44,7 @@ std::optional<ThinWalls<Dim>> ThinWalls<Dim>::find(const Shape<Dim>& shape, cons
         if (shape.is_bounded_by_distance() && std::abs(shape.distance(middle)) > half_diagonal) return;
         const double size = spacing / fineness;
         for (std::size_t k = 0; k < per_block && is_thin[block] == 0; ++k) {
-          Index<Dim> sides;
-          sides.fill(fineness);
-          const Index<Dim> at = index_in<Dim>(sides, k);
-          Vec<Dim> x = middle - Vec<Dim>::Constant(0.5 * (spacing - size));
-          for (std::size_t d = 0; d < Dim; ++d) x[static_cast<Eigen::Index>(d)] += size * at[d];
+          const Vec<Dim> x = walls.middle_within(block, k);
           const double distance = shape.distance(x);
           if (distance <= 0 || distance > 2 * size) continue;
           is_thin[block] = walls.thickness_at(shape, x, distance) < thin * spacing ? 1 : 0;
@@ -192,12 +188,12 @@ Vec<Dim> ThinWalls<Dim>::middle_of_block(std::size_t block) const {
 }
 
 template <int Dim>
-Vec<Dim> ThinWalls<Dim>::middle_of_small(std::size_t small) const {
+Vec<Dim> ThinWalls<Dim>::middle_within(std::size_t block, std::size_t within) const {
   Index<Dim> sides;
   sides.fill(fineness);
-  const Index<Dim> at = index_in<Dim>(sides, small % per_block);
+  const Index<Dim> at = index_in<Dim>(sides, within);
   const double size = spacing_ / fineness;
-  Vec<Dim> x = middle_of_block(kept_[small / per_block]) - Vec<Dim>::Constant(0.5 * (spacing_ - size));
+  Vec<Dim> x = middle_of_block(block) - Vec<Dim>::Constant(0.5 * (spacing_ - size));
   for (std::size_t d = 0; d < Dim; ++d) x[static_cast<Eigen::Index>(d)] += size * at[d];
   return x;
 }

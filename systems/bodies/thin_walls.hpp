@@ -61,13 +61,17 @@ class ThinWalls {
   /// Wall next to an open point at a distance from it, along its normal; at most that of a thin one. [m]
   double thickness_at(const Shape<Dim>& shape, const Vec<Dim>& x, double distance) const;
   bool is_inside(const Vec<Dim>& x) const;
-  void keep_blocks(const std::vector<std::uint8_t>& is_near);
+  void keep_blocks(const std::vector<std::uint8_t>& is_thin);
   void join(const Shape<Dim>& shape);
   /// To small cells farther from the wall; and the least up to half a cell away, because where two walls meet the
   /// normal of one leads along the other.
   void spread_thickness();
   Vec<Dim> middle_of_block(std::size_t block) const;
-  Vec<Dim> middle_of_small(std::size_t small) const;
+  /// Of a small cell by its number in a block, or among all.
+  Vec<Dim> middle_within(std::size_t block, std::size_t within) const;
+  Vec<Dim> middle_of_small(std::size_t small) const {
+    return middle_within(kept_[small / per_block], small % per_block);
+  }
   std::int32_t small_at(const Vec<Dim>& x) const;
   std::int32_t neighbour(std::size_t small, std::size_t side) const;
   bool has(std::size_t small, std::size_t flag) const { return (flags_[small] >> flag & 1U) != 0; }

@@ -1,8 +1,9 @@
 #include "systems/bodies/warnings.hpp"
 
 #include "components/grid.hpp"
+#include "components/particle.hpp"
 #include "systems/bodies/bodies_part.hpp"
-#include "systems/bodies/dry_sides.hpp"
+#include "systems/bodies/cut.hpp"
 #include "systems/bodies/outlines.hpp"
 #include "systems/bodies/seed_cut.hpp"
 #include "systems/bodies/surface_samples.hpp"
@@ -225,15 +226,13 @@ class BodyWarnings {
 /// Less of the liquid than this is rounding.
 constexpr double least_cut = 1e-9;
 
-/// Of thin walls that part liquid from liquid at the start.
+/// Of thin walls that part liquid from liquid at the start. \param dry  which the run has for itself
 template <int Dim>
 std::vector<std::string> warnings_of_thin_walls(const BodySet<Dim>& set, const Grid<Dim>& grid, int degree,
-                                                std::span<const Vec<Dim>> x_p) {
+                                                DrySides<Dim> dry, std::span<const Vec<Dim>> x_p) {
   std::vector<std::string> found;
-  auto dry = dry_sides_of<Dim>(set, grid, degree);
-  if (!dry) return found;
   for (std::size_t b = 0; b < set.bodies.size(); ++b) {
-    auto& walls = dry->of_body[b];
+    auto& walls = dry.of_body[b];
     const Shape<Dim>& shape = *set.bodies[b].shape;
     if (!walls) continue;
     for (const Vec<Dim>& x : x_p) walls->light(shape, x);
@@ -265,9 +264,10 @@ std::vector<std::string> warnings_of_bodies(const Scene& scene, World& world) {
                      .all();
     const auto of_cut = warning_of_cut(world.resource<LiquidCut>(), Dim);
     found.insert(found.end(), of_cut.begin(), of_cut.end());
-    const auto of_thin = warnings_of_thin_walls<Dim>(world.resource<BodySet<Dim>>(), world.resource<Grid<Dim>>(),
-                                                     world.resource<Splines<Dim>>().degree,
-                                                     world.template column<particle::Position<Dim>>());
+    if (!world.has<DrySides<Dim>>()) return found;
+    const auto of_thin = warnings_of_thin_walls<Dim>(
+        world.resource<BodySet<Dim>>(), world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>().degree,
+        world.resource<DrySides<Dim>>(), world.template column<particle::Position<Dim>>());
     found.insert(found.end(), of_thin.begin(), of_thin.end());
     return found;
   });

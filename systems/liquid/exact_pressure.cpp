@@ -13,8 +13,8 @@ namespace {
 /// Least mass around a face of which an acceleration is told, as a share of that of a full grid.
 constexpr double least_mass = 1e-3;
 /// phi of a multiplier from which on liquid is near, and from which on it is so in full; multipliers from it.
-constexpr double spray_below = 0.8;
-constexpr double liquid_to = 0.95;
+constexpr double near_from = 0.8;
+constexpr double near_to = 0.95;
 constexpr int liquid_reach = 2;
 /// Open share of a multiplier from which on its particles tell whether there is liquid.
 constexpr double least_open = 0.05;
@@ -161,10 +161,10 @@ void FindExactShare<Dim>::operator()(
   });
   const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span()};
   spread_largest<Dim, liquid_reach>(of, near.span(), buffer.span(),
-                                    [&](std::size_t i) { return v_l[i] > 0 && near[i] < liquid_to; });
+                                    [&](std::size_t i) { return v_l[i] > 0 && near[i] < near_to; });
   if (shared) shared->copy_from_owner(near.span());
   for_each_row(near.size(), [&](std::size_t i) {
-    const double t = std::clamp((near[i] - spray_below) / (liquid_to - spray_below), 0.0, 1.0);
+    const double t = std::clamp((near[i] - near_from) / (near_to - near_from), 0.0, 1.0);
     near[i] = t * t * (3 - 2 * t);
   });
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};

@@ -180,8 +180,8 @@ const Shape<Dim>* shape_with_distance(const ParticleScene& region) {
 /// Adds the parts that reach into a region but have their middle outside, and in no other: bodies may cut them.
 /// \param inside  those that have it inside, in the order of the grid
 template <int Dim>
-void add_parts_beyond(const Scene& scene, const Grid<Dim>& grid, std::size_t r, std::span<const Vec<Dim>> inside,
-                      Seeds<Dim>& seeds) {
+void add_parts_beyond(const Scene& scene, const Grid<Dim>& grid, const Layers& layers, std::size_t r,
+                      std::span<const Vec<Dim>> inside, Seeds<Dim>& seeds) {
   const ParticleScene& region = scene.particles[r];
   const auto is_elsewhere = [&](const Vec<Dim>& x) {
     return std::any_of(scene.particles.begin(), scene.particles.end(), [&](const ParticleScene& other) {
@@ -191,8 +191,7 @@ void add_parts_beyond(const Scene& scene, const Grid<Dim>& grid, std::size_t r, 
   };
   seeds.is_beyond.resize(seeds.position.size(), 0);
   std::size_t next = 0;
-  for (const Vec<Dim>& x :
-       lattice<Dim>(region, grid, scene.start, PartsTaken::within_reach, own_layers<Dim>(scene, grid))) {
+  for (const Vec<Dim>& x : lattice<Dim>(region, grid, scene.start, PartsTaken::within_reach, layers)) {
     if (next < inside.size() && inside[next] == x) {
       ++next;
     } else if (!is_elsewhere(x)) {
@@ -232,7 +231,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
       seeds.share.push_back(1);
     }
     if (has_bodies && !is_cut && shape_with_distance<Dim>(region) != nullptr)
-      add_parts_beyond<Dim>(scene, grid, r, positions, seeds);
+      add_parts_beyond<Dim>(scene, grid, layers, r, positions, seeds);
     if (overlap) {
       problems.note(pointer + "/shape", "overlaps an earlier one", "no cell more than full",
                     "more than a full cell at " + place_text<Dim>(*overlap));

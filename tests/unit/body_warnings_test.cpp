@@ -186,3 +186,25 @@ TEST_CASE("a mesh whose triangles turn inward is told once, by check and by run"
   CHECK(ran.code == 0);
   CHECK((ran.err.find(remark) != std::string::npos) == is_inward);
 }
+
+TEST_CASE("a thin wall is told once, with its place, if it is wet on both sides", "[unit]") {
+  const auto wall = [](double thickness) {
+    return beside_bodies(fmt::format(
+        R"([{{"name": "wall", "shape": {{"box": {{"low": [0.5, -1], "high": [{}, 2]}}}}}}])", 0.5 + thickness));
+  };
+  const auto of_wall = [](const Json& scene) {
+    auto found = sentences_of(scene);
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [](const std::string& text) { return text.find("wet on both") == std::string::npos; }),
+                found.end());
+    return found;
+  };
+  const auto found = of_wall(wall(0.02));
+  REQUIRE(found.size() == 1);
+  CHECK_THAT(found[0], Contains("body \"wall\" is thinner than 2 cells and wet on both sides at x = 0.51, y = 0:"));
+  CHECK_THAT(found[0], Contains("thicker than 0.1 m, or cells of 0.01 m"));
+  CHECK(of_wall(wall(0.11)).empty());
+  Json left = wall(0.02);
+  left["particles"][0]["shape"]["box"]["high"][0] = 0.5;
+  CHECK(of_wall(left).empty());
+}
