@@ -29,6 +29,9 @@ void add_surface_tension(SystemRegistry& registry);  // surface_tension/
 void add_separating(SystemRegistry& registry);       // separating/
 void add_behind_bodies(SystemRegistry& registry);    // bodies/
 void add_probes(SystemRegistry& registry);           // measure/
+void add_gauges(SystemRegistry& registry);           // measure/
+void add_meters(SystemRegistry& registry);           // measure/
+void add_patches(SystemRegistry& registry);          // measure/
 void add_exact(SystemRegistry& registry);            // measure/
 void add_output(SystemRegistry& registry);           // output/
 void add_behind_openings(SystemRegistry& registry);  // openings/

@@ -28,6 +28,9 @@ void register_parts(SystemRegistry& registry) {
   add_separating(registry);
   add_behind_bodies(registry);
   add_probes(registry);
+  add_gauges(registry);
+  add_meters(registry);
+  add_patches(registry);
   add_exact(registry);
   add_output(registry);
   add_behind_openings(registry);

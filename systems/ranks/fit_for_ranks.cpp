@@ -20,9 +20,9 @@ const std::set<std::string, std::less<>> fit{
     "limit_particle_shift", "count_face_force_work", "accept_step_on_faces", "measure_energy", "measure_momentum",
     "measure_max_speed", "measure_error_velocity", "measure_error_pressure", "measure_face_divergence",
     "measure_multiplier_overlap", "watch_volume", "find_viscosity", "measure_probes_on_faces",
-    "measure_probes_on_faces_at_start",
+    "measure_probes_on_faces_at_start", "measure_gauges", "pass_meters",
     // alike on all ranks
-    "hold_ode", "integrate_ode", "begin_energy_given", "measure_energy_balance",
+    "hold_ode", "integrate_ode", "begin_energy_given", "measure_energy_balance", "measure_meters",
     // the first rank writes
     "write_history", "flush_history", "write_frame", "write_xdmf", "write_surfaces",
     // of own particles, cells, and sites
@@ -37,7 +37,7 @@ const std::set<std::string, std::less<>> fit{
     "g2p_faces_flip", "g2p_faces_tpic", "g2p_faces_tpic2", "g2p_faces_apic", "g2p_faces_xpic", "g2p_faces_fmpm",
     "g2p_face_acceleration_pic", "g2p_face_acceleration_tpic", "g2p_face_acceleration_apic", "limit_gradient",
     "carry_gradient_by_faces", "g2p_face_force_gradient", "advect_by_faces", "stir_particles", "gather_face_shift",
-    "apply_particle_shift", "soak_velocity", "soak_gradient", "note_step"};
+    "apply_particle_shift", "soak_velocity", "soak_gradient", "note_step", "keep_former_positions"};
 
 }  // namespace
 

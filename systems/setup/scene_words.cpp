@@ -150,8 +150,14 @@ constexpr auto meanings = std::to_array<Meaning>({
     {Of::key, "/output/every", "frames n_frames fps frame_rate data_export_fps frequency",
      "seconds from one frame to the next: one over the rate"},
     {Of::key, "/output/checkpoint", "restart restart_interval checkpoint_interval snapshot snapshot_interval backup"},
-    {Of::key, "/probes", "sensors sensor gauges gauge monitors monitor probe measure_points",
+    {Of::key, "/probes", "sensors sensor monitors monitor probe measure_points",
      R"(a list of {"name": ..., "at": [...]})"},
+    {Of::key, "/gauges", "gauge wave_gauges wave_gauge wave_probes water_levels surface_elevation interface_height",
+     R"(a list of {"name": ..., "at": [...]})"},
+    {Of::key, "/meters", "meter flow_meters flow_meter flux_planes flux_plane flow_rates surface_field_value",
+     R"(a list of {"name": ..., "plane": {...}})"},
+    {Of::key, "/patches", "patch pressure_patches force_patches pressure_sensors force_sensors",
+     R"(a list of {"name": ..., "body": ...})"},
     {Of::key, "at", "position pos point location coordinates"},
 
     // Names.

@@ -1,0 +1,74 @@
+#include "systems/measure/gauges.hpp"
+#include "systems/measure/own_column.hpp"
+#include "systems/parts.hpp"
+#include "systems/setup/scene_checks.hpp"
+
+namespace minamo {
+
+namespace {
+
+/// Against a constant body force; without one along y.
+std::vector<double> upwards(const Scene& scene) {
+  std::vector<double> up(static_cast<std::size_t>(scene.dimension), 0);
+  bool is_known = false;
+  if (const auto* force = scene.facts.find<BodyForce>()) {
+    for (std::size_t d = 0; d < force->of_place_and_time.size(); ++d) {
+      if (!force->of_place_and_time[d].is_constant()) {
+        is_known = false;
+        break;
+      }
+      up[d] = -force->of_place_and_time[d]({});
+      is_known = is_known || up[d] != 0;
+    }
+  }
+  if (is_known) return up;
+  std::fill(up.begin(), up.end(), 0);
+  up[1] = 1;
+  return up;
+}
+
+template <int Dim>
+void read_gauge(Input& input, Scene& scene, Gauges<Dim>& gauges) {
+  typename Gauges<Dim>::Gauge gauge;
+  gauge.name = input.text("name", {.doc = "of its column"});
+  const auto at = input.numbers("at", Dim, {.unit = "m", .doc = "where heights begin"});
+  const auto along = input.optional_numbers(
+      "along", Dim, {.doc = "out of the liquid, of any length but zero; else against a constant body_force, or along y"});
+  if (input.describing()) return;
+  if (input.sound("name")) check_own_column(input, gauge.name, "gauge", scene);
+  if (!input.sound("at") || !input.sound("along")) return;
+  check_probe(input, at, scene.grid);
+  gauge.at = vec_of<Dim>(at);
+  gauge.along = vec_of<Dim>(along ? *along : upwards(scene));
+  if (gauge.along.norm() == 0) {
+    input.problem("along", "no direction", "a vector that is not zero");
+    return;
+  }
+  gauge.along.stableNormalize();
+  gauges.gauges.push_back(std::move(gauge));
+}
+
+template <int Dim>
+Contribution read_gauges_in(Input& input, Scene& scene) {
+  Gauges<Dim> gauges;
+  input.list("gauges", "lines along which the height of the liquid's surface goes into the history", 0,
+             [&](Input& in, std::size_t) { read_gauge<Dim>(in, scene, gauges); });
+  if (gauges.gauges.empty()) return {};
+  return [gauges](const Scene&, Recipe& recipe) {
+    recipe.constant(gauges);
+    recipe.add("measure", "measure_gauges");
+  };
+}
+
+Contribution read_gauges(Input& input, Scene& scene) {
+  return with_dimension(scene.dimension, [&](auto dim) { return read_gauges_in<dim()>(input, scene); });
+}
+
+}  // namespace
+
+void add_gauges(SystemRegistry& registry) {
+  registry.add<MeasureGauges>("measure_gauges");
+  registry.add(Part{"gauges", "lines along which the height of the liquid's surface goes into the history", read_gauges});
+}
+
+}  // namespace minamo
