@@ -7,5 +7,6 @@ endfunction()
 
 file(REMOVE_RECURSE ${PREFIX})
 run(${CMAKE_COMMAND} --install ${MINAMO_BUILD} --prefix ${PREFIX})
+run(${CMAKE_COMMAND} -E compare_files ${SCENES}/../LICENSE ${PREFIX}/share/doc/minamo/LICENSE)
 run(${PREFIX}/bin/minamo --version)
 run(${PREFIX}/bin/minamo run ${SCENES}/dam_break.json --steps 3 --out ${PREFIX}/out)

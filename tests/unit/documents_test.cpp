@@ -61,8 +61,8 @@ std::vector<std::string> documents() {
   std::vector<std::string> paths;
   for (fs::recursive_directory_iterator at(source), end; at != end; ++at) {
     const std::string name = at->path().filename();
-    if (at->is_directory() && (name.starts_with(".") || name == "build" || name == "out"))
-      at.disable_recursion_pending();
+    const bool is_hidden = name.starts_with(".") && name != ".github";
+    if (at->is_directory() && (is_hidden || name == "build" || name == "out")) at.disable_recursion_pending();
     if (at->path().extension() == ".md") paths.push_back(fs::relative(at->path(), source));
   }
   std::sort(paths.begin(), paths.end());

@@ -10,7 +10,13 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(TARGETS minamo_program COMPONENT program)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/minamo COMPONENT program
   FILES_MATCHING PATTERN "*.json" PATTERN "README.md")
-install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES README.md LICENSE tools/cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+# Code of these is in the program or in the python module, and their licences are to come along. Debian has them here.
+foreach(package libaec-dev libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libspdlog-dev libtbb-dev nlohmann-json3-dev
+    pybind11-dev zlib1g-dev)
+  install(FILES /usr/share/doc/${package}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}/packages RENAME ${package}
+    COMPONENT program OPTIONAL)
+endforeach()
 install(TARGETS minamo EXPORT minamoTargets)
 install(EXPORT minamoTargets NAMESPACE minamo:: DESTINATION ${minamo_package})
 install(DIRECTORY engine components systems DESTINATION ${minamo_headers} FILES_MATCHING PATTERN "*.hpp")
@@ -25,7 +31,7 @@ install(FILES ${PROJECT_BINARY_DIR}/minamoConfig.cmake ${PROJECT_BINARY_DIR}/min
 # A Debian package and an archive, of the program and the python module.
 set(CPACK_GENERATOR DEB TGZ)
 set(CPACK_PACKAGE_NAME minamo)
-set(CPACK_PACKAGE_CONTACT "minamo developers <minamo@localhost>")
+set(CPACK_PACKAGE_CONTACT "minamo contributors <minamo@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program)
