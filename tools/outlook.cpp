@@ -58,7 +58,7 @@ std::string limit_of(const Scene& scene, const Drive& drive, double step) {
     return fmt::format("{}: the fastest particle, {:.3g} m/s", cells, drive.speed);
   if (drive.force * step * step + drive.speed * step >= 0.5 * distance)
     return fmt::format("{}: the body force, {:.3g} m/s^2, which makes it faster", cells, drive.force);
-  return fmt::format("{}: what moves beside the liquid", cells);
+  return fmt::format("{}: bodies, or what comes in", cells);
 }
 
 /// The step that a run begins with, and why it is no longer. Where a run would refuse to choose one, it is none.

@@ -33,7 +33,7 @@ double overlap_of(std::span<const double> V_p, std::span<const double> capacity,
       sum(volume.size(), [&](std::size_t i) { return owns(shared, i) ? std::max(0.0, volume[i] - capacity[i]) : 0; }),
       sum(V_p.size(), [&](std::size_t p) { return V_p[p]; })};
   if (shared != nullptr) shared->ranks().sum(sums);
-  return sums[0] / sums[1];
+  return sums[1] > 0 ? sums[0] / sums[1] : 0;
 }
 
 template <int Dim>

@@ -214,6 +214,23 @@ opening::SideVelocity<Dim> prescribed_velocity(const Opening<Dim>& opening, cons
 }
 
 template <int Dim>
+double largest_prescribed_speed(const OpeningSet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines,
+                                double time) {
+  double largest = 0;
+  for (const Opening<Dim>& opening : set.openings) {
+    if (!opening.is_prescribed()) continue;
+    const auto velocity = prescribed_velocity<Dim>(opening, set, grid, splines, time);
+    Vec<Dim> most = Vec<Dim>::Zero();
+    for (std::size_t d = 0; d < Dim; ++d) {
+      for (const double v : velocity.of[d])
+        most[static_cast<Eigen::Index>(d)] = std::max(most[static_cast<Eigen::Index>(d)], std::abs(v));
+    }
+    largest = std::max(largest, most.norm());
+  }
+  return largest;
+}
+
+template <int Dim>
 double pressure_outside(const Opening<Dim>& opening, const OpeningSet<Dim>& set, double density, const Vec<Dim>& x,
                         double time) {
   if (opening.kind == OpeningKind::level) {
@@ -234,6 +251,8 @@ template opening::SideVelocity<2> prescribed_velocity<2>(const Opening<2>&, cons
                                                          const Splines<2>&, double);
 template opening::SideVelocity<3> prescribed_velocity<3>(const Opening<3>&, const OpeningSet<3>&, const Grid<3>&,
                                                          const Splines<3>&, double);
+template double largest_prescribed_speed<2>(const OpeningSet<2>&, const Grid<2>&, const Splines<2>&, double);
+template double largest_prescribed_speed<3>(const OpeningSet<3>&, const Grid<3>&, const Splines<3>&, double);
 template double pressure_outside<2>(const Opening<2>&, const OpeningSet<2>&, double, const Vec<2>&, double);
 template double pressure_outside<3>(const Opening<3>&, const OpeningSet<3>&, double, const Vec<3>&, double);
 

@@ -95,6 +95,12 @@ template <int Dim>
 opening::SideVelocity<Dim> prescribed_velocity(const Opening<Dim>& opening, const OpeningSet<Dim>& set,
                                                const Grid<Dim>& grid, const Splines<Dim>& splines, double time);
 
+/// (E34)  The largest velocity that an opening prescribes at a time, about: of components of neighbouring faces. [m/s]
+/// \throws std::runtime_error if one is not finite
+template <int Dim>
+double largest_prescribed_speed(const OpeningSet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines,
+                                double time);
+
 /// (E99)  Pressure outside an opening at a point, zero above its level. [Pa]
 template <int Dim>
 double pressure_outside(const Opening<Dim>& opening, const OpeningSet<Dim>& set, double density, const Vec<Dim>& x,

@@ -337,13 +337,29 @@ void check_fluids_used(Input& input, const Scene& scene) {
   }
 }
 
+/// Whether there is an opening through which liquid comes in, or may come back. Openings are read later.
+bool may_come_in(const Input& root) {
+  for (std::size_t k = 0; k < root.elements("openings").value_or(0); ++k) {
+    const std::string opening = fmt::format("openings/{}", k);
+    const auto keys = root.names(opening);
+    if (std::find(keys.begin(), keys.end(), "inflow") != keys.end() || !root.names(opening + "/outflow").empty())
+      return true;
+  }
+  return false;
+}
+
 Contribution read_regions(Input& input, Scene& scene) {
   FluidsOfRegions fluids;
   CutRegions cut;
-  input.list("particles", "regions filled with liquid", 1, [&](Input& in, std::size_t) {
-    fluids.of.push_back(read_fluid_of(in, scene));
-    scene.particles.push_back(read_particles(in, scene, cut));
-  });
+  input.list("particles", "regions filled with liquid; none where all of it comes in through openings", 0,
+             [&](Input& in, std::size_t) {
+               fluids.of.push_back(read_fluid_of(in, scene));
+               scene.particles.push_back(read_particles(in, scene, cut));
+             });
+  if (!input.describing() && scene.particles.empty() && input.sound("particles") && !may_come_in(input)) {
+    input.problem("particles", "no liquid", "at least one region, or an opening through which it comes in",
+                  input.has("particles") ? "" : "none");
+  }
   scene.facts.set(fluids);
   scene.facts.set(cut);
   check_fluids_used(input, scene);

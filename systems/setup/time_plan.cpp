@@ -6,6 +6,7 @@
 #include "engine/communicator.hpp"
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/bodies/motion.hpp"
+#include "systems/openings/opening_set.hpp"
 #include "systems/pipeline.hpp"
 #include "systems/setup/discretization.hpp"
 #include "systems/surface_tension/capillary_step.hpp"
@@ -22,11 +23,15 @@ namespace minamo {
 
 namespace {
 
+/// Of particles, and of what comes in.
 template <int Dim>
 double largest_speed(World& world) {
   double squared = 0;
   for (const Vec<Dim>& v : world.column<particle::Velocity<Dim>>()) squared = std::max(squared, v.squaredNorm());
-  return std::sqrt(squared);
+  const double inside = std::sqrt(squared);
+  if (!world.has<OpeningSet<Dim>>()) return inside;
+  return std::max(inside, largest_prescribed_speed<Dim>(world.resource<OpeningSet<Dim>>(), world.resource<Grid<Dim>>(),
+                                                        world.resource<Splines<Dim>>(), world.resource<Clock>().time));
 }
 
 /// The largest |b_p|, now.
@@ -35,17 +40,21 @@ double largest_force(const BodyForce& force, World& world) {
   Instant now{.time = world.resource<Clock>().time, .ode = {}, .ode_count = 0};
   if (world.has<ode::Values>()) now = world.resource<ode::Values>();
   Arguments arguments(now);
-  const bool is_uniform = force.is_uniform();
   double squared = 0;
-  for (const Vec<Dim>& x : world.column<particle::Position<Dim>>()) {
-    const double of_particle = vector_at<Dim>(force.of_place_and_time, arguments.at<Dim>(x)).squaredNorm();
-    if (!std::isfinite(of_particle)) {
+  const auto add = [&](const Vec<Dim>& x) {
+    const double of_place = vector_at<Dim>(force.of_place_and_time, arguments.at<Dim>(x)).squaredNorm();
+    if (!std::isfinite(of_place)) {
       throw std::runtime_error(
           fmt::format("time: no step can be chosen, body_force is not finite at ({:.6g}) m, t = {:.6g} s",
                       fmt::join(x.begin(), x.end(), ", "), now.time));
     }
-    squared = std::max(squared, of_particle);
-    if (is_uniform) break;
+    squared = std::max(squared, of_place);
+  };
+  // Liquid may come in where there is none.
+  if (force.is_uniform()) {
+    add(world.resource<Grid<Dim>>().low);
+  } else {
+    for (const Vec<Dim>& x : world.column<particle::Position<Dim>>()) add(x);
   }
   return std::sqrt(squared);
 }

@@ -8,6 +8,7 @@
 #include "components/measure.hpp"
 #include "components/openings.hpp"
 #include "systems/openings/particles.hpp"
+#include "systems/setup/time_plan.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -477,4 +478,78 @@ TEST_CASE("a sponge reflects less than a twentieth of a wave", "[verification][l
   CAPTURE(by_wall, by_sponge);
   CHECK(by_wall > 0.04);  // of 0.07 m/s that went by
   CHECK(by_sponge < 0.05 * by_wall);
+}
+
+namespace {
+
+/// A tap over an empty box of 1 m with a drain; it runs up to a time and from a later one on.
+template <int Dim>
+Json empty_box(double until, double again) {
+  const std::string velocity = fmt::format("-0.5*(t < {} || t > {})", until, again);
+  const std::size_t up = Dim - 1;
+  std::vector<double> gravity(Dim, 0);
+  gravity[up] = -9.81;
+  std::vector<Json> inflow(Dim, 0);
+  inflow[up] = velocity;
+  Json scene{{"dimension", Dim},
+             {"grid", {{"low", std::vector<double>(Dim, 0)}, {"high", std::vector<double>(Dim, 1)},
+                       {"cells", std::vector<int>(Dim, 10)}}},
+             {"fluid", {{"density", 1000}, {"viscosity", 1e-3}}},
+             {"body_force", gravity},
+             {"time", {{"end", 9}, {"step", 0.02}}}};
+  scene["openings"] = {{{"name", "tap"},
+                        {"side", fmt::format("{}_high", "xyz"[up])},
+                        {"where", "abs(x - 0.5) < 0.2"},
+                        {"inflow", {{"velocity", inflow}}}},
+                       {{"name", "drain"}, {"side", fmt::format("{}_low", "xyz"[up])}, {"outflow", "free"}}};
+  return scene;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("an empty box is filled through a tap", "[verification]", ((int Dim), Dim), 2, 3) {
+  Json scene = empty_box<Dim>(100, 200);
+  scene["openings"].erase(1);
+  std::vector<double> corner(Dim, 0.0);
+  scene["gauges"] = {{{"name", "level"}, {"at", corner}}};
+  SceneRun run(scene);
+  run.start();
+  CHECK(run.world().template rows<Particles>() == 0);
+  CHECK(measured(run.world(), "level") == 0);
+  const double seconds = 1.2;
+  Largest overlap;
+  for (int k = 0; k < 60; ++k) {
+    run.step();
+    overlap.add(run.world().template resource<measure::Overlap>().value);
+  }
+  // A tap of 0.4 m, or 0.4 x 1 m, without the row of particles that is about to come in.
+  CHECK(measured(run.world(), "tap_mass_in") / 1000 == Approx(0.4 * 0.5 * seconds).margin(0.4 / 30));
+  Largest above;
+  for (const Vec<Dim>& x : run.world().template column<particle::Position<Dim>>()) above.add(x[Dim - 1]);
+  CHECK(above.value() <= 1);
+  CHECK(overlap.value() < 0.1);
+}
+
+TEST_CASE("a box runs dry and is filled again", "[verification]") {
+  SceneRun run(empty_box<2>(0.2, 3));
+  run.start();
+  run.step(20);
+  CHECK(run.world().rows<Particles>() > 0);
+  run.step(125);
+  CHECK(run.world().rows<Particles>() == 0);
+  CHECK(measured(run.world(), "tap_mass_in") == Approx(-measured(run.world(), "drain_mass_in")));
+  CHECK(run.world().resource<measure::Overlap>().value == 0);
+  run.step(30);
+  CHECK(run.world().rows<Particles>() > 0);
+}
+
+TEST_CASE("without a fixed step what comes in is told apart from rest", "[verification]") {
+  Json scene = empty_box<2>(100, 200);
+  scene["time"] = {{"end", 9}, {"cfl", 1}};
+  scene["output"] = {{"every", 1}};
+  SceneRun run(scene);
+  run.start();
+  const double step = make_time_plan(run.scene()).choose_step(run.world());
+  // (w + |b| dt) dt = h.
+  CHECK((0.5 + 9.81 * step) * step == Approx(0.1).epsilon(1e-9));
 }

@@ -86,7 +86,7 @@ def _cost(run: Run) -> dict[str, str]:
     particles = f"{summary['particles']}{' at the end' if run.scene.get('openings') else ''}"
     return {
         "Simulated": f"{summary['time']:.6g} s in {steps} steps",
-        "Particles": f"{particles}, {run.scene['particles'][0].get('per_cell')} per cell and direction",
+        "Particles": f"{particles}, {run.per_cell} per cell and direction",
         "Unknowns": f"at most {summary['unknowns_max']}",
         "Wall time": f"{duration(wall)}, {1e3 * wall / max(1, steps):.3g} ms per step",
         "CPU time": f"{duration(summary['cpu_s'])} on {_threads(summary)}",

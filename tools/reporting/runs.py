@@ -201,9 +201,16 @@ class Run:
         return float((high[0] - low[0]) / self.scene["grid"]["cells"][0])
 
     @property
+    def per_cell(self) -> int:
+        """Particles per cell and direction: the most of those at the start and those that come in."""
+        flows = [flow for opening in self.scene.get("openings", []) for flow in opening.values()
+                 if isinstance(flow, dict)]
+        return max(region.get("per_cell", 3) for region in self.scene["particles"] + flows)
+
+    @property
     def particle_size(self) -> float:
         """Distance of the particles at the start. [m]"""
-        return self.spacing / max(region.get("per_cell", 2) for region in self.scene["particles"])
+        return self.spacing / self.per_cell
 
     @property
     def up(self) -> int:
