@@ -36,11 +36,11 @@ class FillOfHats {
   double open_share(const Vec<Dim>& node, const DistanceToBodies<Dim>& distance) const;
 
   const Grid<Dim>& grid_;
-  Index<Dim> first_{};           ///< node
-  Index<Dim> count_{};           ///< of nodes
-  std::vector<double> volume_;   ///< sum_p V_p N_i [m^d]
-  std::vector<double> share_;    ///< a_i [1]
-  std::vector<double> integral_; ///< V_i [m^d]
+  Index<Dim> first_{};            ///< node
+  Index<Dim> count_{};            ///< of nodes
+  std::vector<double> volume_;    ///< sum_p V_p N_i [m^d]
+  std::vector<double> share_;     ///< a_i [1]
+  std::vector<double> integral_;  ///< V_i [m^d]
 };
 
 struct FillSample {

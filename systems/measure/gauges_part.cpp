@@ -33,7 +33,8 @@ void read_gauge(Input& input, Scene& scene, Gauges<Dim>& gauges) {
   gauge.name = input.text("name", {.doc = "of its column"});
   const auto at = input.numbers("at", Dim, {.unit = "m", .doc = "where heights begin"});
   const auto along = input.optional_numbers(
-      "along", Dim, {.doc = "out of the liquid, of any length but zero; else against a constant body_force, or along y"});
+      "along", Dim,
+      {.doc = "out of the liquid, of any length but zero; else against a constant body_force, or along y"});
   if (input.describing()) return;
   if (input.sound("name")) check_own_column(input, gauge.name, "gauge", scene);
   if (!input.sound("at") || !input.sound("along")) return;
@@ -68,7 +69,8 @@ Contribution read_gauges(Input& input, Scene& scene) {
 
 void add_gauges(SystemRegistry& registry) {
   registry.add<MeasureGauges>("measure_gauges");
-  registry.add(Part{"gauges", "lines along which the height of the liquid's surface goes into the history", read_gauges});
+  registry.add(
+      Part{"gauges", "lines along which the height of the liquid's surface goes into the history", read_gauges});
 }
 
 }  // namespace minamo

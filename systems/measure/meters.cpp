@@ -30,9 +30,7 @@ Vec<Dim> moved(const Grid<Dim>& grid, const Vec<Dim>& from, const Vec<Dim>& to) 
 /// Of the volume of a particle that goes straight from one place to another.
 template <int Dim>
 double share_passed(const typename Meters<Dim>::Meter& meter, const Vec<Dim>& from, const Vec<Dim>& to) {
-  const auto passed_at = [&](const Vec<Dim>& x) {
-    return passed((x - meter.point).dot(meter.normal) / meter.width);
-  };
+  const auto passed_at = [&](const Vec<Dim>& x) { return passed((x - meter.point).dot(meter.normal) / meter.width); };
   const double share = passed_at(to) - passed_at(from);
   return share != 0 && meter.within && !meter.within->contains(0.5 * (from + to)) ? 0 : share;
 }

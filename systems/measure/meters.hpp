@@ -15,11 +15,11 @@ namespace minamo {
 template <int Dim>
 struct Meters {
   struct Meter {
-    std::string name;                      ///< column of the history
-    Vec<Dim> point = Vec<Dim>::Zero();     ///< of the plane [m]
-    Vec<Dim> normal = Vec<Dim>::UnitX();   ///< unit, in the direction that counts as positive [1]
-    double width = 0;                      ///< to either side of the plane, over which passing is spread [m]
-    SharedShape<Dim> within;               ///< what passes outside of it does not count; null: all counts
+    std::string name;                     ///< column of the history
+    Vec<Dim> point = Vec<Dim>::Zero();    ///< of the plane [m]
+    Vec<Dim> normal = Vec<Dim>::UnitX();  ///< unit, in the direction that counts as positive [1]
+    double width = 0;                     ///< to either side of the plane, over which passing is spread [m]
+    SharedShape<Dim> within;              ///< what passes outside of it does not count; null: all counts
   };
   std::vector<Meter> meters;
   static constexpr ComponentInfo info{"meters", "", "m", Lifetime::constant};

@@ -31,8 +31,8 @@ double room_beside(const GridScene& grid, const Vec<Dim>& point, const Vec<Dim>&
 template <int Dim>
 void read_plane(Input& input, const Scene& scene, typename Meters<Dim>::Meter& meter) {
   const auto point = input.numbers("point", Dim, {.unit = "m", .doc = "that the plane goes through"});
-  const auto normal = input.numbers(
-      "normal", Dim, {.doc = "in the direction that counts as positive, of any length but zero"});
+  const auto normal =
+      input.numbers("normal", Dim, {.doc = "in the direction that counts as positive, of any length but zero"});
   if (input.describing() || !input.sound("point") || !input.sound("normal")) return;
   meter.point = vec_of<Dim>(point);
   meter.normal = vec_of<Dim>(normal);
@@ -42,7 +42,7 @@ void read_plane(Input& input, const Scene& scene, typename Meters<Dim>::Meter& m
   }
   meter.normal.stableNormalize();
   if (scene.grid.spacing == 0) return;  // the grid has problems of its own
-  constexpr double least = 1e-3;  // of a cell: what passes sooner is at the side already
+  constexpr double least = 1e-3;        // of a cell: what passes sooner is at the side already
   meter.width = std::min(scene.grid.spacing, room_beside<Dim>(scene.grid, meter.point, meter.normal));
   if (meter.width < least * scene.grid.spacing)
     input.problem("point", "the plane does not pass the inside of the box", "a plane with liquid on both sides of it");
@@ -78,9 +78,8 @@ Contribution read_meters_in(Input& input, Scene& scene) {
   if (meters.meters.empty()) return {};
   return [meters](const Scene&, Recipe& recipe) {
     recipe.constant(meters);
-    recipe.seed([count = meters.meters.size()](const Scene&, World& world, SeedProblems&) {
-      seed_meters(world, count);
-    });
+    recipe.seed(
+        [count = meters.meters.size()](const Scene&, World& world, SeedProblems&) { seed_meters(world, count); });
     recipe.add("p2g", "keep_former_positions", When::step);
     recipe.add("accept", "pass_meters", When::step);
     recipe.add("measure", "measure_meters");

@@ -156,8 +156,7 @@ void MeasurePatches<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
                                      Read<Patches<Dim>> patches, Read<BodySet<Dim>> set,
                                      Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
                                      Read<body::MiddleRotation<Dim>> R_b, Read<multiplier::OpenShare> share,
-                                     Read<multiplier::Pressure> p_l,
-                                     Update<measure::Columns> columns) const {
+                                     Read<multiplier::Pressure> p_l, Update<measure::Columns> columns) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const PlacedBodies<Dim> and_dry_sides(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const PressureBeside<Dim> pressure(*grid, *splines, *rows, bodies, share.span(), p_l.span());
@@ -171,7 +170,8 @@ void MeasurePatches<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
       const Vec<Dim> normal = placement.direction_to_world(piece.normal);
       const Vec<Dim> outside = x + before * normal;
       Load<Dim> load;
-      const bool is_in_box = (outside.array() > grid->low.array()).all() && (outside.array() < grid->high.array()).all();
+      const bool is_in_box =
+          (outside.array() > grid->low.array()).all() && (outside.array() < grid->high.array()).all();
       if (!is_in_box || bodies.distance(outside) < 0) return load;
       load.area = piece.area;
       if (and_dry_sides.distance(outside) < 0) return load;

@@ -44,7 +44,8 @@ struct MeasurePatches {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<Patches<Dim>> patches, Read<BodySet<Dim>> set, Optional<Read<DrySides<Dim>>> dry,
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                  Read<multiplier::OpenShare> share, Read<multiplier::Pressure> p_l, Update<measure::Columns> columns) const;
+                  Read<multiplier::OpenShare> share, Read<multiplier::Pressure> p_l,
+                  Update<measure::Columns> columns) const;
 };
 
 }  // namespace minamo

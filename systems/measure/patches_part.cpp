@@ -33,7 +33,8 @@ void read_patch(Input& input, Scene& scene, const std::vector<std::string>& bodi
   const auto found = std::find(bodies.begin(), bodies.end(), body);
   if (found == bodies.end()) {
     input.problem("body", "no body of that name",
-                  bodies.empty() ? "one of /bodies, of which there are none" : fmt::format("{}", fmt::join(bodies, ", ")),
+                  bodies.empty() ? "one of /bodies, of which there are none"
+                                 : fmt::format("{}", fmt::join(bodies, ", ")),
                   shown(Json(body)), input.closest(body, bodies));
     return;
   }
@@ -69,9 +70,8 @@ Contribution read_patches_in(Input& input, Scene& scene) {
              [&](Input& in, std::size_t) { read_patch<Dim>(in, scene, bodies, patches); });
   if (patches.patches.empty()) return {};
   return [patches](const Scene&, Recipe& recipe) {
-    recipe.seed([patches](const Scene&, World& world, SeedProblems& problems) {
-      seed_patches<Dim>(patches, world, problems);
-    });
+    recipe.seed(
+        [patches](const Scene&, World& world, SeedProblems& problems) { seed_patches<Dim>(patches, world, problems); });
     recipe.add("measure", "recover_pressure");
     recipe.add("measure", "measure_patches");
   };
@@ -85,8 +85,7 @@ Contribution read_patches(Input& input, Scene& scene) {
 
 void add_patches(SystemRegistry& registry) {
   registry.add<MeasurePatches>("measure_patches");
-  registry.add(
-      Part{"patches", "parts of the surfaces of bodies whose pressure goes into the history", read_patches});
+  registry.add(Part{"patches", "parts of the surfaces of bodies whose pressure goes into the history", read_patches});
 }
 
 }  // namespace minamo

@@ -108,7 +108,8 @@ TEST_CASE("the gauge of a standing wave follows linear theory", "[verification]"
   scene["fluid"]["viscosity"] = 0;
   scene["particles"][0] = {{"shape", {{"distance", "y - 0.5 - 0.005*cos(pi*x)"}}}, {"arrangement", "cut"}};
   scene["grid"]["cells"] = {32, 32};
-  scene["gauges"] = {{{"name", "wall"}, {"at", {0, depth}}}, {{"name", "quarter"}, {"at", {0.27, depth}}},
+  scene["gauges"] = {{{"name", "wall"}, {"at", {0, depth}}},
+                     {{"name", "quarter"}, {"at", {0.27, depth}}},
                      {{"name", "node"}, {"at", {0.5, depth}}}};
   SceneRun run(scene);
   run.start();

@@ -492,8 +492,10 @@ Json empty_box(double until, double again) {
   std::vector<Json> inflow(Dim, 0);
   inflow[up] = velocity;
   Json scene{{"dimension", Dim},
-             {"grid", {{"low", std::vector<double>(Dim, 0)}, {"high", std::vector<double>(Dim, 1)},
-                       {"cells", std::vector<int>(Dim, 10)}}},
+             {"grid",
+              {{"low", std::vector<double>(Dim, 0)},
+               {"high", std::vector<double>(Dim, 1)},
+               {"cells", std::vector<int>(Dim, 10)}}},
              {"fluid", {{"density", 1000}, {"viscosity", 1e-3}}},
              {"body_force", gravity},
              {"time", {{"end", 9}, {"step", 0.02}}}};
