@@ -111,6 +111,9 @@ class Alike(unittest.TestCase):
         for column in ("kinetic_energy", "potential_energy"):
             difference = np.abs(ours[column] - theirs[column]).max() / energy[0]
             self.assertLess(difference, within, f"{folder}: {column}")
+        for column in ("W", "Q", "Q_volume"):
+            if column in theirs:
+                self.assertLess(np.abs(ours[column] - theirs[column]).max() / np.abs(theirs[column]).max(), within, column)
         frame, expected = last_frame(folder), last_frame(alone)
         np.testing.assert_array_equal(frame["id"], expected["id"])
         self.assertLess(np.abs(frame["position"] - expected["position"]).max(), 1e-6)
@@ -127,7 +130,9 @@ class Alike(unittest.TestCase):
                 self.assert_alike(run(f"{name}_{ranks}", ranks, scene, *options)[0], alone, within)
 
     def test_dam_break(self):
-        self.check("plane", SCENES / "dam_break.json", DAM_BREAK, [2, 3])
+        meters = ["--set", '/gauges=[{"name": "W", "at": [0.2, 0]}]', "--set",
+                  '/meters=[{"name": "Q", "plane": {"point": [0.2, 0], "normal": [1, 0]}}]']
+        self.check("plane", SCENES / "dam_break.json", [*DAM_BREAK, *meters], [2, 3])
 
     def test_dam_break_in_space(self):
         self.check("space", SCENES / "dam_break_3d.json", SPACE, [3])

@@ -104,13 +104,15 @@ void require_command(const CLI::App& app, int argc, const char* const* argv) {
 
 /// Adds the command line of `minamo run`.
 void add_run(CLI::App& app, RunOptions& options) {
+  app.footer("Writes fields.xdmf for ParaView, history.csv with a row per step, and summary.json. Ctrl-C ends a run\n"
+             "after the step; --resume goes on with it.");
   app.add_option("SCENE", options.scene, "scene file")->required();
   app.add_option("--out", options.out, "folder for the results; by default out/NAME");
   app.add_option("--threads", options.threads, "threads; by default one per processor")->check(whole_number(1));
-  app.add_option("--set", options.overrides, "overrides a key of the scene; may be given again")
+  app.add_option("--set", options.overrides, "replaces a value of the scene, like /fluid/viscosity=1; may be given again")
       ->allow_extra_args(false)
       ->option_text("/pointer=JSON");
-  app.add_option("--steps", options.steps, "stop after so many steps of the whole run")->check(whole_number(0));
+  app.add_option("--steps", options.steps, "stop after that many steps, counted from the start of the whole run")->check(whole_number(0));
   CLI::Option* resume =
       app.add_flag("--resume", options.resume, "go on from the checkpoint in the folder for the results");
   app.add_flag("--overwrite", options.overwrite, "replace the results of an unfinished run in that folder")
@@ -156,7 +158,7 @@ struct ShowOptions {
 
 /// Adds the commands that run nothing.
 void add_showing(CLI::App& app, ShowOptions& options) {
-  CLI::App* check = app.add_subcommand("check", "report every problem of every scene file");
+  CLI::App* check = app.add_subcommand("check", "check scene files: every problem, or the size, step and memory of the run");
   check->add_option("SCENE", options.scenes, "scene files")->required();
   CLI::App* graph = app.add_subcommand("graph", "show the systems that a scene needs, their data and edges");
   graph->add_option("SCENE", options.scene, "scene file")->required();
@@ -173,6 +175,10 @@ int dispatch(int argc, const char* const* argv, const SystemRegistry& registry) 
   CLI::App app("minamo: incompressible free-surface flow with the material point method");
   app.set_version_flag("--version", version_text);
   app.require_subcommand(1);
+  app.footer("A scene is a JSON file with a box of cells, a liquid and where it is at the start. To begin with one:\n"
+             "  minamo check SCENE      what is wrong with it, and how large the run is\n"
+             "  minamo run SCENE        results in out/NAME\n"
+             "scenes/README.md explains all keys; minamo COMMAND --help all options.");
 
   RunOptions run_options;
   CLI::App* run = app.add_subcommand("run", "run a scene");
