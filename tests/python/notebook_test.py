@@ -74,8 +74,14 @@ def rounded_as(word, got):
 
 class Documentation(unittest.TestCase):
     def test_examples_run_one_after_the_other_and_print_what_they_say(self):
-        text = (PYTHON / "README.md").read_text()
-        blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        self.expect_examples("README.md")
+
+    def test_examples_of_docstrings_do_so_too(self):
+        self.expect_examples("REFERENCE.md")
+
+    def expect_examples(self, page):
+        """The blocks of a page run in one interpreter, and print what stands behind `->`."""
+        blocks = re.findall(r"```python\n(.*?)```", (PYTHON / page).read_text(), re.DOTALL)
         self.assertGreater(len(blocks), 4)
         names, compared = {}, 0
         before = os.getcwd()
