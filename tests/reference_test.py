@@ -100,7 +100,8 @@ class Pages(unittest.TestCase):
         fragments = re.findall(r'<div class="fragment">(.*?)</div><!-- fragment -->', page, re.DOTALL)
         shown = [re.sub(r"<[^>]*>", "", fragment) for fragment in fragments]
         for expected in ("#include &lt;minamo/minamo.hpp&gt;", "struct MeanHeight", "struct MeasureMeanHeight",
-                         "struct LogMeanHeight", "log_mean_height&quot;);\n", "in.number(&quot;strain&quot;", "&quot;after&quot;"):
+                         "struct LogMeanHeight", "log_mean_height&quot;);\n", "in.number(&quot;strain&quot;",
+                         "&quot;after&quot;"):
             with self.subTest(expected=expected):
                 self.assertEqual(sum(expected in text for text in shown), 1)
         for name in ("structminamo_1_1Read", "structminamo_1_1particle_1_1Position", "classminamo_1_1SystemRegistry"):

@@ -1,7 +1,7 @@
 """Writes tools/python/REFERENCE.md from the docstrings of the Python module.
 
-Nothing is imported, so that no module has to be built. What is public and has no docstring, and what a docstring says of
-a parameter that is not there, is an error.
+Nothing is imported, so that no module has to be built. What is public and has no docstring, and what a docstring says
+of a parameter that is not there, is an error.
 """
 
 from __future__ import annotations

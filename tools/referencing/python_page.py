@@ -55,7 +55,8 @@ class Page:
             self.faults.append(f"{where}: {name} has no docstring")
         for parameter in described_parameters(text):
             if parameter not in known:
-                self.faults.append(f"{where}: the docstring of {name} describes {parameter}, which is no parameter of it")
+                self.faults.append(f"{where}: the docstring of {name} describes {parameter}, "
+                                   "which is no parameter of it")
         return text
 
     def function(self, node: ast.FunctionDef) -> None:

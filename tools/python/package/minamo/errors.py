@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Problem(NamedTuple):
-    """One thing wrong with an input; `str()` of it is what the program prints. All fields are texts, which may be empty.
+    """One thing wrong with an input; `str()` of it is what the program prints. All fields are texts; some may be empty.
 
         problem = minamo.check({"dimension": 4})[0]
         print(problem.pointer, problem.expected)   # -> /dimension a whole number in [2, 3]

@@ -306,7 +306,8 @@ def check(scene: Scene, *, systems: Iterable[System] = (), parts: Iterable[Part]
 def list(what: str) -> builtins.list[dict[str, Any]]:  # noqa: A001, named as the program's command
     """What the program has, a dict each.
 
-        print([s["name"] for s in minamo.list("schemes") if s["part"] == "transfer"][:3])   # -> ['apic', 'flip', 'fmpm']
+        schemes = [scheme["name"] for scheme in minamo.list("schemes") if scheme["part"] == "transfer"]
+        print(schemes[:3])   # -> ['apic', 'flip', 'fmpm']
 
     :param what: `"parts"` (`name`, `doc`, `schemes`), `"schemes"` or `"solvers"` (`name`, `doc`, `part`), `"systems"`
         (`name`, `doc`, `reads`, `writes`) or `"components"` (`name`, `table`, `symbol`, `unit`, `lifetime`)
