@@ -13,6 +13,7 @@
 
 namespace minamo {
 
+/// The dual cells that hold particles, and which of them may be scattered from at the same time.
 template <int Dim>
 struct OccupiedCells {
   /// Dual cells per direction of a block. Less than 3 would let the cut cells of two walls share a node.
@@ -20,17 +21,19 @@ struct OccupiedCells {
   /// Two per axis, and a third where a periodic axis has an odd number of blocks.
   static constexpr std::size_t colours = power(3, Dim);
 
+  /// A cell, the particles in it, and the rows of its nodes.
   struct Cell {
     Index<Dim> node;                                    ///< the node in its middle
     std::uint32_t begin;                                ///< first particle
     std::uint32_t end;                                  ///< past the last particle
     std::array<std::uint32_t, support_size<Dim>> rows;  ///< of its 3^d nodes, x fastest; from the system number_nodes
   };
+  /// A range of `cells`.
   struct Block {
     std::uint32_t begin;  ///< first cell
     std::uint32_t end;    ///< past the last cell
   };
-  std::vector<Cell> cells;
+  std::vector<Cell> cells;                         ///< in the order of the particles
   std::array<std::vector<Block>, colours> blocks;  ///< by colour
   static constexpr ComponentInfo info{"cells", "c", "1", Lifetime::scratch};
 };
@@ -86,8 +89,8 @@ struct BulkIndicator : Column<Cells, double> {
 /// of it. One entry per occupied cell. [m^3; m^2 in 2-D]
 template <int Dim>
 struct Moments {
-  std::vector<std::array<double, stencil_size<Dim>>> of_cell;
-  std::vector<std::uint8_t> is_filled;  ///< 1 where they are those of a filled cell, (E68)
+  std::vector<std::array<double, stencil_size<Dim>>> of_cell;  ///< row c is cell c
+  std::vector<std::uint8_t> is_filled;                         ///< 1 where they are those of a filled cell, (E68)
   static constexpr ComponentInfo info{"cells.moments", "M_c", "m^d", Lifetime::scratch};
 };
 

@@ -16,7 +16,7 @@ struct EnergyGiven {
   double by_forces = 0;                   ///< work of forces per unit mass that have no potential, (E128) [J]
   double weight = 0;                      ///< largest sum of |m b| so far [N]
   std::array<double, 3> uniform_force{};  ///< b of the last step, where it is the same everywhere [m/s^2]
-  bool has_stepped = false;
+  bool has_stepped = false;               ///< whether a step has set uniform_force
   static constexpr ComponentInfo info{"energy_given", "W", "J", Lifetime::state};
 };
 

@@ -11,6 +11,7 @@
 
 namespace minamo {
 
+/// The liquid, where there is one; of several see components/fluids.hpp.
 struct Fluid {
   double density = 0;    ///< rho [kg/m^3]
   double viscosity = 0;  ///< dynamic viscosity mu [Pa s]
@@ -19,8 +20,9 @@ struct Fluid {
 
 /// Body force per unit mass b, one expression in x, y, z, t per direction. [m/s^2]
 struct BodyForce {
-  std::vector<Expression> of_place_and_time;
+  std::vector<Expression> of_place_and_time;  ///< per direction
 
+  /// Whether it is zero everywhere, always.
   bool is_zero() const {
     return std::all_of(of_place_and_time.begin(), of_place_and_time.end(),
                        [](const Expression& b) { return b.is_constant() && b({}) == 0; });

@@ -9,15 +9,17 @@
 
 namespace minamo {
 
+/// The box and its cells. Read it as `Read<Grid<Dim>> grid`.
 template <int Dim>
 struct Grid {
   Vec<Dim> low = Vec<Dim>::Zero();   ///< corner of the box [m]
   Vec<Dim> high = Vec<Dim>::Zero();  ///< opposite corner [m]
   double spacing = 0;                ///< h, the same in all directions [m]
   Index<Dim> cells{};                ///< per direction, at least 3; at least 5 along a periodic axis
-  std::array<bool, static_cast<std::size_t>(Dim)> periodic{};
+  std::array<bool, static_cast<std::size_t>(Dim)> periodic{};  ///< per axis
   static constexpr ComponentInfo info{"grid", "h", "m", Lifetime::constant};
 
+  /// Nodes along an axis.
   int nodes(int axis) const {
     const auto d = static_cast<std::size_t>(axis);
     return cells[d] + (periodic[d] ? 0 : 1);
@@ -28,6 +30,7 @@ struct Grid {
     const int count = nodes(axis);
     return node < 0 ? node + count : node >= count ? node - count : node;
   }
+  /// Nodes of the box.
   std::size_t node_count() const {
     std::size_t count = 1;
     for (int d = 0; d < Dim; ++d) count *= static_cast<std::size_t>(nodes(d));
@@ -51,6 +54,7 @@ struct Grid {
     }
     return node;
   }
+  /// Where a node is. [m]
   Vec<Dim> position(const Index<Dim>& node) const {
     Vec<Dim> x;
     for (int d = 0; d < Dim; ++d) x[d] = low[d] + spacing * node[static_cast<std::size_t>(d)];

@@ -13,21 +13,22 @@
 
 namespace minamo {
 
+/// So many variables an `ode` block may have.
 inline constexpr std::size_t most_ode_variables = 16;
 
 /// A time, and what the ode variables of the scene are then, in the order of the scene. Plain data.
 struct Instant {
-  double time = 0;  ///< [s]
-  std::array<double, most_ode_variables> ode{};
-  std::size_t ode_count = 0;
+  double time = 0;                               ///< [s]
+  std::array<double, most_ode_variables> ode{};  ///< values of the ode variables
+  std::size_t ode_count = 0;                     ///< how many there are
 };
 
 namespace ode {
 
 /// The `ode` block of a scene.
 struct Equations {
-  std::vector<std::string> name;
-  std::vector<Expression> rate;  ///< in t and the variables, in this order [1/s times the variable's unit]
+  std::vector<std::string> name;  ///< of every variable
+  std::vector<Expression> rate;   ///< in t and the variables, in this order [1/s times the variable's unit]
   static constexpr ComponentInfo info{"ode.equations", "f_k", "", Lifetime::constant};
 };
 
@@ -46,6 +47,7 @@ struct AtBalances : Instant {
 /// The instants that systems evaluate expressions at: the end of the step, that of the balances. For a scene without
 /// `ode` block the clock and the rates tell; otherwise the ode components do.
 inline Instant instant_of(const Clock& clock) { return {.time = clock.end_of_step, .ode = {}, .ode_count = 0}; }
+/// That of the balances.
 inline Instant instant_of(const Rates& rates) { return {.time = rates.time, .ode = {}, .ode_count = 0}; }
 
 /// That of an optional ode component where there is one, of the clock or the rates where there is none.
@@ -58,6 +60,7 @@ Instant instant_of(const Ode& ode, const Otherwise& otherwise) {
 /// The values of x, y, z, t and the ode variables, in the order of scene_scope(), at places of one instant.
 class Arguments {
  public:
+  /// At this instant, for any place.
   explicit Arguments(const Instant& instant) : count_(4 + instant.ode_count) {
     values_[3] = instant.time;
     for (std::size_t k = 0; k < instant.ode_count; ++k) values_[4 + k] = instant.ode[k];

@@ -25,7 +25,7 @@ struct Node : Column<ActiveNodes, std::uint32_t> {
 /// The node at every place of the stencil, or none. [1]
 template <int Dim>
 struct Neighbour : Column<ActiveNodes, std::array<std::int32_t, stencil_size<Dim>>> {
-  static constexpr std::int32_t none = -1;
+  static constexpr std::int32_t none = -1;  ///< in place of a node
   static constexpr ComponentInfo info{"matrix.neighbour", "J", "1", Lifetime::scratch};
 };
 
@@ -95,10 +95,10 @@ struct Shift : Column<ActiveNodes, Vec<Dim>> {
 
 /// The equations of a step as one sparse matrix in compressed columns.
 struct Monolithic {
-  std::vector<int> outer;  ///< start of every column, and the end
-  std::vector<int> inner;  ///< row of every entry, rising within a column
-  std::vector<double> values;
-  using rows_of = ActiveNodes;
+  std::vector<int> outer;       ///< start of every column, and the end
+  std::vector<int> inner;       ///< row of every entry, rising within a column
+  std::vector<double> values;   ///< of every entry
+  using rows_of = ActiveNodes;  ///< it means nothing any more when their rows change
   static constexpr ComponentInfo info{"matrix.monolithic", "", "", Lifetime::scratch};
 };
 

@@ -10,6 +10,7 @@
 
 namespace minamo {
 
+/// The table of nodes: a row per node of an occupied dual cell.
 struct Nodes {
   static constexpr std::string_view name = "node";
 };

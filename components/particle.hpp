@@ -7,6 +7,7 @@
 
 namespace minamo {
 
+/// The table of particles: a row per particle.
 struct Particles {
   static constexpr std::string_view name = "particle";
 };

@@ -9,11 +9,12 @@
 
 namespace minamo {
 
+/// Rows of a node table by site: use find().
 template <int Dim>
 class SiteRows {
  public:
-  static constexpr int width_bits = 3;
-  static constexpr int width = 1 << width_bits;
+  static constexpr int width_bits = 3;           ///< of `width`
+  static constexpr int width = 1 << width_bits;  ///< sites of a page, per direction
 
   /// Where a site is kept: the sum of what its coordinates add.
   struct Address {
@@ -67,6 +68,7 @@ class SiteRows {
     }
   }
 
+  /// Pages that take memory.
   std::size_t page_count() const { return numbers_.size(); }
 
  private:

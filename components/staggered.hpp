@@ -9,6 +9,7 @@
 
 namespace minamo {
 
+/// The table of sites: a row per site, with its faces, one per direction, and its multiplier.
 struct Staggered {
   static constexpr std::string_view name = "staggered";
 };
@@ -21,14 +22,16 @@ struct StaggeredIndex : SiteRows<Dim> {
 
 /// The rows of the sites of every occupied cell, (degree + 1)^d each, x fastest.
 struct CellSites {
-  std::vector<std::uint32_t> rows;
-  std::size_t per_cell = 0;
+  std::vector<std::uint32_t> rows;  ///< all of them, cell by cell
+  std::size_t per_cell = 0;         ///< (degree + 1)^d
+  /// The first of the rows of a cell.
   const std::uint32_t* of(std::size_t cell) const { return rows.data() + cell * per_cell; }
   static constexpr ComponentInfo info{"cells.sites", "", "1", Lifetime::scratch};
 };
 
 namespace staggered {
 
+/// In place of a row: there is no such site in the table.
 inline constexpr std::int32_t none = -1;
 
 /// Where the site is: (i, j, k). [1]
@@ -212,6 +215,7 @@ namespace unknown {
 
 /// The right-hand sides of a step and what solves them: damping of the divergence, balances, correction of the volume.
 enum Which : std::size_t { damping = 0, balance = 1, volume = 2 };
+/// A right-hand side of each, by Which.
 using Sources = std::array<double, 3>;
 
 /// Row of the staggered table. [1]
@@ -219,6 +223,7 @@ struct Staggered : Column<Unknowns, std::uint32_t> {
   static constexpr ComponentInfo info{"unknown.staggered", "l", "1", Lifetime::scratch};
 };
 
+/// Where the multiplier is: (i, j, k). [1]
 template <int Dim>
 struct Site : Column<Unknowns, Index<Dim>> {
   static constexpr ComponentInfo info{"unknown.site", "", "1", Lifetime::scratch};

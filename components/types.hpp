@@ -15,10 +15,13 @@
 namespace minamo {
 
 // Not aligned: columns are plain arrays of doubles, and 2-D vectors pack without gaps.
+/// A vector: `v[0]` is its x-component.
 template <int Dim>
 using Vec = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
+/// A matrix: `A(i, j)`; of a gradient the derivative of component i along j.
 template <int Dim>
 using Mat = Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign>;
+/// Place of a node, cell or site in the grid: (i, j) or (i, j, k).
 template <int Dim>
 using Index = std::array<int, static_cast<std::size_t>(Dim)>;
 

@@ -6,6 +6,7 @@
 
 namespace minamo {
 
+/// The time of a step, for systems: `Read<Clock> clock`, then `clock->time`.
 struct Clock {
   double time = 0;         ///< at the start of the step [s]
   double step = 0;         ///< length of the step [s]

@@ -19,18 +19,20 @@ enum class Lifetime {
   cache,     ///< kept between steps to save work; no result depends on it
 };
 
+/// What a component says of itself, as `static constexpr ComponentInfo info`. From it come the checks of the schedule,
+/// checkpoints, `minamo list components` and the graph of a scene.
 struct ComponentInfo {
   std::string_view name;    ///< unique, `table.quantity`
   std::string_view symbol;  ///< as in systems/EQUATIONS.md
   std::string_view unit;    ///< SI; "1" is dimensionless
-  Lifetime lifetime;
+  Lifetime lifetime;        ///< how long its content means something
 };
 
 /// Base of a column component: one `Value` per row of `Table`. A table is an empty struct with a `name`.
 template <class Table, class Value>
 struct Column {
-  using table = Table;
-  using value_type = Value;
+  using table = Table;       ///< whose rows it has
+  using value_type = Value;  ///< what a row has of it
 };
 
 template <class C>

@@ -17,6 +17,7 @@ namespace minamo {
 /// What is wrong with an expression, and where.
 class ExpressionError : public std::runtime_error {
  public:
+  /// With the place of the fault, and the name that is not known.
   ExpressionError(const std::string& what, std::size_t at, std::string unknown)
       : std::runtime_error(what), position(at), token(std::move(unknown)) {}
   std::size_t position;  ///< of the first character at fault
@@ -32,16 +33,17 @@ struct ExpressionScope {
 /// Every name an expression of this scope may use, functions included.
 std::vector<std::string> known_names(const ExpressionScope& scope);
 
+/// A number, or a formula in variables as scenes have them, like `0.1*sin(2*pi*t)`.
 class Expression {
  public:
   /// A constant.
   explicit Expression(double value = 0);
   /// \throws ExpressionError if the text does not parse or names something outside the scope.
   Expression(const std::string& text, const ExpressionScope& scope);
-  Expression(const Expression&);
-  Expression(Expression&&) noexcept;
-  Expression& operator=(const Expression&);
-  Expression& operator=(Expression&&) noexcept;
+  Expression(const Expression&);                 ///< a copy of its own
+  Expression(Expression&&) noexcept;             ///< takes it over
+  Expression& operator=(const Expression&);      ///< a copy of its own
+  Expression& operator=(Expression&&) noexcept;  ///< takes it over
   ~Expression();
 
   /// The value at `values`, one per variable of the scope; a constant needs none. The result may be inf or NaN (1/0,

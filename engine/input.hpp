@@ -43,13 +43,17 @@ class Input {
   /// From here on messages know these words of other programs. \pre they outlive the document
   void use_words(std::span<const OtherWord> words);
 
+  /// A number within the rule, like `in.number("rate", {.unit = "1/s", .doc = "share lost", .at_least = 0})`.
   double number(std::string_view key, const Number& rule);
   /// Like number(), for a key that may be absent without a default.
   std::optional<double> optional_number(std::string_view key, const Number& rule);
+  /// A whole number.
   std::int64_t integer(std::string_view key, const Integer& rule);
+  /// A string.
   std::string text(std::string_view key, const Text& rule);
   /// Like text(), for a key that may be absent without a default.
   std::optional<std::string> optional_text(std::string_view key, std::string_view doc);
+  /// true or false; without a fallback the key is required.
   bool flag(std::string_view key, std::string_view doc, std::optional<bool> fallback);
   /// One of a few names.
   std::string choice(std::string_view key, std::span<const std::string> names, std::string_view doc,
@@ -60,6 +64,7 @@ class Input {
   std::vector<double> numbers(std::string_view key, std::size_t size, const Number& rule);
   /// Like numbers(), for a key that may be absent without a default.
   std::optional<std::vector<double>> optional_numbers(std::string_view key, std::size_t size, const Number& rule);
+  /// Exactly `size` whole numbers.
   std::vector<std::int64_t> integers(std::string_view key, std::size_t size, const Integer& rule);
   /// At least so many points, each a list of `size` numbers.
   std::vector<std::vector<double>> points(std::string_view key, std::size_t size, std::size_t at_least,
@@ -69,10 +74,12 @@ class Input {
   std::filesystem::path path(std::string_view key, std::string_view doc);
   /// A number or a string that is an expression.
   Expression expression(std::string_view key, const ExpressionScope& scope, const Number& rule);
+  /// Exactly `size` of them, like the components of a vector.
   std::vector<Expression> expressions(std::string_view key, std::size_t size, const ExpressionScope& scope,
                                       const Number& rule);
   /// Like expression() and expressions(), for a key that may be absent without a default.
   std::optional<Expression> optional_expression(std::string_view key, const ExpressionScope& scope, const Number& rule);
+  /// Like expressions(), for a key that may be absent without a default.
   std::optional<std::vector<Expression>> optional_expressions(std::string_view key, std::size_t size,
                                                               const ExpressionScope& scope, const Number& rule);
   /// An object with any keys whose values are numbers, like `constants`.
@@ -83,8 +90,9 @@ class Input {
   /// Schema (with "description"), `fallback` what is returned and echoed if it is absent.
   Json raw(std::string_view key, const Json& schema, const Json& fallback);
 
-  /// The object under a key, read by `read`; an absent one reads as `{}`, so that defaults apply, unless `required`.
+  /// What an absent object is: `{}`, so that defaults apply; a problem; not read at all.
   enum class Presence { optional, required, only_if_present };
+  /// The object under a key, read by `read`.
   void object(std::string_view key, std::string_view doc, Presence presence, const std::function<void(Input&)>& read);
   /// Every element of the list under a key, each an object. An absent list is empty.
   void list(std::string_view key, std::string_view doc, std::size_t at_least,
@@ -92,9 +100,10 @@ class Input {
   /// Every object of the object under a key, whose own keys are names that the user chooses. An absent one is empty.
   void named_objects(std::string_view key, std::string_view doc,
                      const std::function<void(Input&, const std::string& name)>& read);
+  /// Names, and what reads the further keys of each from the same Input.
+  using Variants = std::vector<std::pair<std::string, std::function<void(Input&)>>>;
   /// A name under `key` that decides which further keys of this object there are. A wrong name reads no variant, and
   /// the fallback or the first name is returned; the same holds for one_of().
-  using Variants = std::vector<std::pair<std::string, std::function<void(Input&)>>>;
   std::string variant(std::string_view key, std::string_view doc, const std::optional<std::string>& fallback,
                       const Variants& variants);
   /// Exactly one of the named sub-objects or values must be there, like shape {box | ball | where}.
@@ -118,7 +127,9 @@ class Input {
   std::optional<std::string> text_at(std::string_view key) const;
   /// The keys of the object at a key (as in problem()), read or not; none if there is no object.
   std::vector<std::string> names(std::string_view key) const;
+  /// Whether this is description mode: there is no document, values mean nothing.
   bool describing() const;
+  /// JSON pointer of this place; empty at the root.
   const std::string& pointer() const;
   /// Describes the keys here as those of a place further up, so that objects may hold others of their own kind: call it
   /// in description mode instead of reading the keys once more. `pointer` is that of an object under a key, with `*`

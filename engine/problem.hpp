@@ -12,6 +12,7 @@
 
 namespace minamo {
 
+/// JSON whose keys keep their order.
 using Json = nlohmann::ordered_json;
 
 /// One thing wrong with an input, in the voice of every message:
@@ -20,19 +21,20 @@ using Json = nlohmann::ordered_json;
 ///       got       "apci" (string)
 ///       closest   "apic"
 struct Problem {
-  std::string file;
-  std::string pointer;  ///< JSON pointer; empty where the document as a whole is meant
-  std::string what;
-  std::string expected;  ///< this and the next two may be empty
-  std::string got;
-  std::string closest;  ///< a name, which text() quotes, or a JSON value, which it leaves
-  std::string text() const;
+  std::string file;          ///< as the user has named it
+  std::string pointer;       ///< JSON pointer; empty where the document as a whole is meant
+  std::string what;          ///< what is wrong, in a few words
+  std::string expected;      ///< this and the next two may be empty
+  std::string got;           ///< what stands there, as shown() has it
+  std::string closest;       ///< a name, which text() quotes, or a JSON value, which it leaves
+  std::string text() const;  ///< the message, without a line end
 };
 
+/// An input is wrong; it has every problem of it. The program prints them and exits with 2.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(std::vector<Problem> problems);  ///< what(): all texts, one after the other
-  const std::vector<Problem>& problems() const { return problems_; }
+  explicit InputError(std::vector<Problem> problems);                 ///< what(): all texts, one after the other
+  const std::vector<Problem>& problems() const { return problems_; }  ///< all of them
 
  private:
   std::vector<Problem> problems_;

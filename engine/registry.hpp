@@ -14,18 +14,24 @@
 
 namespace minamo {
 
+/// What a scene can name. A program that links minamo gets it in the callback of run():
+///
+/// \code
+/// minamo::run(argc, argv, [](SystemRegistry& registry) { registry.add<MeasureMeanHeight>("mean_height"); });
+/// \endcode
 class SystemRegistry {
  public:
   /// What `minamo list systems` shows of a system.
   struct Entry {
-    std::string name;
-    std::string doc;  ///< `Kernel::doc` where it has one: one line, with the equation's number
+    std::string name;  ///< by which scenes name it
+    std::string doc;   ///< `Kernel::doc` where it has one: one line, with the equation's number
+    /// A kernel of one dimension.
     struct Kernel {
-      const detail::Erased* system;
+      const detail::Erased* system;                         ///< its declaration, and how it is called
       std::shared_ptr<const void> (*make)(Input* options);  ///< null if it has neither members nor options
     };
-    Kernel plane;
-    Kernel space;
+    Kernel plane;  ///< `Kernel<2>`
+    Kernel space;  ///< `Kernel<3>`
     /// \param options  may be null: no options given
     System make(int dimension, Input* options) const;
   };
@@ -49,8 +55,10 @@ class SystemRegistry {
     if (!is_new) throw std::logic_error("\"" + position->first + "\" is registered twice");
     in_order.push_back(std::move(choice));
   }
+  /// Choices of a type by their names.
   template <class Choice>
   using Named = std::map<std::string, Choice, std::less<>>;
+  /// All choices of a type.
   template <class Choice>
   const Named<Choice>& choices() const {
     return registered<Choice>().named;
@@ -61,13 +69,16 @@ class SystemRegistry {
     return registered<Choice>().in_order;
   }
 
+  /// Whether a system has this name.
   bool contains(std::string_view name) const { return entries_.contains(name); }
 
   /// \pre `dimension` is 2 or 3.
   /// \throws std::out_of_range for an unknown name, with the known ones and the closest.
   System make(std::string_view name, int dimension, Input* options = nullptr) const;
 
+  /// The names of all systems.
   std::vector<std::string> names() const;
+  /// All systems by name.
   const std::map<std::string, Entry, std::less<>>& entries() const { return entries_; }
 
  private:

@@ -17,8 +17,8 @@ namespace minamo {
 
 /// `to` waits for `from`; both are places in the list.
 struct Edge {
-  std::size_t from;
-  std::size_t to;
+  std::size_t from;  ///< runs first
+  std::size_t to;    ///< waits for it
   friend bool operator==(const Edge&, const Edge&) = default;
 };
 
@@ -41,6 +41,8 @@ std::vector<System> without_absent(std::vector<System> systems);
 /// `system "smooth" names row.height twice`. Empty if all is well.
 std::vector<std::string> repeated_accesses(std::span<const System> systems);
 
+/// The systems of a list do not fit together. `what()` has a line per problem, as of unwritten_reads(). The program
+/// prints it and exits with 2, before anything has run.
 class ScheduleError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -20,8 +20,9 @@
 
 namespace minamo {
 
+/// What a system does with a component.
 enum class Mode {
-  read,
+  read,    ///< looks at it
   write,   ///< every row is given a new value; the old ones are not looked at
   update,  ///< reads and writes
   resize,  ///< changes the rows of a table: all its columns are touched, its scratch becomes stale
@@ -29,7 +30,7 @@ enum class Mode {
 
 /// One line of a system's declaration.
 struct Access {
-  Mode mode;
+  Mode mode;                   ///< what it does
   std::string_view component;  ///< empty for Mode::resize
   std::string_view table;      ///< whose rows it has or, as a resource, belongs to; empty for other resources
   const ComponentInfo* info;   ///< null for Mode::resize
@@ -97,18 +98,29 @@ struct View<C, mode> {
 
 }  // namespace detail
 
+/// Parameter of a system that looks at the component C and does not change it.
+///
+/// Of a column: `x[row]`, `x.size()`, `x.span()`, `for (auto& value : x)`. Of a resource: `*x`, `x->member`.
 template <Described C>
 struct Read : detail::View<C, Mode::read>::type {
+  /// The schedule makes it.
   explicit Read(World& world) : detail::View<C, Mode::read>::type(world) {}
 };
 
+/// Parameter of a system that gives every row of C a new value, or the resource C a new content. It does not look at
+/// the old ones, which may be any. Members as of Read, values not const. Whoever reads C later in the step sees the new
+/// values.
 template <Described C>
 struct Write : detail::View<C, Mode::write>::type {
+  /// The schedule makes it.
   explicit Write(World& world) : detail::View<C, Mode::write>::type(world) {}
 };
 
+/// Parameter of a system that looks at C and changes it, like a force that adds to face::BodyForce. Members as of Read,
+/// values not const.
 template <Described C>
 struct Update : detail::View<C, Mode::update>::type {
+  /// The schedule makes it.
   explicit Update(World& world) : detail::View<C, Mode::update>::type(world) {}
 };
 
@@ -117,22 +129,28 @@ struct Update : detail::View<C, Mode::update>::type {
 template <class Reader>
 class Optional;
 
+/// Parameter of a system that looks at C where there is one: `if (x) use(x[row]);`.
 template <Described C>
 class Optional<Read<C>> {
  public:
+  /// The schedule makes it.
   Optional(World& world, const Absent& absent) {
     const bool is_absent = std::find(absent.begin(), absent.end(), C::info.name) != absent.end();
     if (!is_absent && world.has<C>()) view_.emplace(world);
   }
+  /// Its line in the declaration of the system.
   static constexpr Access access() {
     Access access = Read<C>::access();
     access.optional = true;
     return access;
   }
+  /// Whether it is there.
   explicit operator bool() const { return view_.has_value(); }
   /// \pre it is there.
   decltype(auto) operator*() const requires(!ColumnComponent<C>) { return **view_; }
+  /// \pre it is there.
   auto operator->() const requires(!ColumnComponent<C>) { return view_->operator->(); }
+  /// \pre it is there.
   decltype(auto) operator[](std::size_t row) const requires ColumnComponent<C> { return (*view_)[row]; }
   /// Empty where the component is not there.
   auto span() const requires ColumnComponent<C> { return view_ ? view_->span() : decltype(view_->span()){}; }
@@ -153,9 +171,13 @@ inline constexpr bool is_optional<Optional<Reader>> = true;
 template <class Table>
 class Resize {
  public:
+  /// The schedule makes it.
   explicit Resize(World& world) : world_(&world) { world.add_table<Table>(); }
+  /// Its line in the declaration of the system.
   static constexpr Access access() { return {Mode::resize, {}, Table::name, nullptr}; }
+  /// How many there are.
   std::size_t rows() const { return world_->rows<Table>(); }
+  /// As many rows as that; new ones are zero.
   void resize(std::size_t rows) const { world_->resize<Table>(rows); }
   /// Row k becomes what row `order[k]` was.
   void reorder(std::span<const std::uint32_t> order) const { world_->reorder<Table>(order); }
@@ -163,6 +185,7 @@ class Resize {
   void renumber(std::span<const std::optional<std::uint32_t>> from) const { world_->renumber<Table>(from); }
   /// Rows as bytes, and more of them, from a world with the same columns (world.hpp).
   std::vector<std::byte> pack(std::span<const std::uint32_t> rows) const { return world_->pack(Table::name, rows); }
+  /// Adds what pack() has packed.
   void append(std::span<const std::byte> packed) const { world_->append(Table::name, packed); }
 
  private:
@@ -171,10 +194,10 @@ class Resize {
 
 /// What the schedule runs.
 struct System {
-  std::string name;
-  std::vector<Access> access;
-  std::function<void(World&)> prepare;  ///< creates the components; called once, before anything runs
-  std::function<void(World&)> run;
+  std::string name;                                   ///< of its row in the profile
+  std::vector<Access> access;                         ///< its declaration
+  std::function<void(World&)> prepare;                ///< creates the components; called once, before anything runs
+  std::function<void(World&)> run;                    ///< calls it once
   std::function<System(const Absent&)> without = {};  ///< the same where optional components are absent
   std::vector<System> body = {};                      ///< of a loop (loop.hpp)
   std::function<bool(World&, int pass)> again = {};  ///< of a loop: whether its body is to run for this pass, 0, 1, ...

@@ -17,6 +17,7 @@ class Warnings {
   /// \param kind  a name for what is wrong, like "overlap"; not shown
   /// \param text  what is wrong and what to change, one sentence
   void add(std::string_view kind, std::string text);
+  /// Whether there was one of this kind.
   bool has(std::string_view kind) const;
   /// In the order in which they were found.
   std::vector<std::string> texts() const;

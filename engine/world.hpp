@@ -388,6 +388,7 @@ class World {
     return storage<C>().values();
   }
 
+  /// The column itself, made if it is not there.
   template <ColumnComponent C>
   ColumnStorage<typename C::value_type>& storage() {
     return static_cast<ColumnStorage<typename C::value_type>&>(stored(detail::component_type<C>));
@@ -404,11 +405,13 @@ class World {
     return added;
   }
 
+  /// The resource, made if it is not there: `world.resource<Fluid>().density`.
   template <ResourceComponent C>
   C& resource() {
     return *static_cast<C*>(static_cast<ResourceStorage&>(stored(detail::component_type<C>)).value());
   }
 
+  /// Whether the component is there.
   template <Described C>
   bool has() const {
     return has(detail::component_type<C>);
@@ -417,10 +420,12 @@ class World {
   /// For who has a component's description alone. \throws std::logic_error if another component has the same name
   Storage& stored(const detail::ComponentType& type);
 
+  /// Rows of a table; 0 of one that is not known.
   template <class Table>
   std::size_t rows() const {
     return rows(Table::name);
   }
+  /// The same by the table's name.
   std::size_t rows(std::string_view table) const;
 
   /// Makes the table known, with no rows, if it is not. Afterwards different tables may be resized at the same time.
@@ -428,6 +433,7 @@ class World {
   void add_table() {
     add_table(Table::name);
   }
+  /// The same by the table's name.
   void add_table(std::string_view name);
 
   /// Gives every column of the table this many rows; new ones are zero.
@@ -435,6 +441,7 @@ class World {
   void resize(std::size_t rows) {
     resize(Table::name, rows);
   }
+  /// The same by the table's name.
   void resize(std::string_view table, std::size_t rows);
   /// What outlives a step of some rows of a table, column by column in the order of their names, as bytes.
   std::vector<std::byte> pack(std::string_view table, std::span<const std::uint32_t> rows) const;

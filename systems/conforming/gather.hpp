@@ -13,8 +13,8 @@ namespace minamo {
 /// q(y) = sum_f N_f(y) q_f and, with the slopes of the splines, its gradient, row i of component i.
 template <int Dim>
 struct FaceJet {
-  Vec<Dim> value;
-  Mat<Dim> gradient;
+  Vec<Dim> value;     ///< q(y)
+  Mat<Dim> gradient;  ///< row i of component i [1/m]
 };
 
 namespace detail {
@@ -94,11 +94,11 @@ auto of_faces(std::span<const Vec<Dim>> q_f) {
 /// What a gather reads beside the field.
 template <int Dim>
 struct FaceTarget {
-  const Grid<Dim>& grid;
-  const Splines<Dim>& splines;
-  const OccupiedCells<Dim>& cells;
-  const CellSites& sites;
-  std::span<const Vec<Dim>> y_p;
+  const Grid<Dim>& grid;            ///< Read<Grid>
+  const Splines<Dim>& splines;      ///< Read<Splines>
+  const OccupiedCells<Dim>& cells;  ///< Read<GridCells>
+  const CellSites& sites;           ///< Read<CellSites>
+  std::span<const Vec<Dim>> y_p;    ///< particle::QuadraturePosition [m]
 };
 
 /// (E17), (E18)  use(c, p, jet of q at y_p) for every particle p, c its cell; at_face(row) is the vector of the faces

@@ -16,12 +16,12 @@ namespace minamo {
 /// What a scatter reads beside the quantity itself.
 template <int Dim>
 struct FaceSource {
-  const Grid<Dim>& grid;
-  const Splines<Dim>& splines;
-  const OccupiedCells<Dim>& cells;
-  const CellSites& sites;
-  std::span<const Vec<Dim>> y_p;
-  std::span<const double> m_p;
+  const Grid<Dim>& grid;                 ///< Read<Grid>
+  const Splines<Dim>& splines;           ///< Read<Splines>
+  const OccupiedCells<Dim>& cells;       ///< Read<GridCells>
+  const CellSites& sites;                ///< Read<CellSites>
+  std::span<const Vec<Dim>> y_p;         ///< particle::QuadraturePosition [m]
+  std::span<const double> m_p;           ///< particle::Mass [kg]
   const SiteExchange* shared = nullptr;  ///< with the particles of other ranks
 };
 

@@ -15,16 +15,16 @@ namespace series {
 /// q_f = q.
 template <int Dim>
 struct Constant {
-  static constexpr int order = 0;
-  Vec<Dim> value;
+  static constexpr int order = 0;  ///< of the series
+  Vec<Dim> value;                  ///< q of the particle
 };
 
 /// q_f = q + grad q r, r = x_f - y, x_f the Greville points of the face.
 template <int Dim>
 struct Linear {
-  static constexpr int order = 1;
-  Vec<Dim> value;
-  Mat<Dim> gradient;
+  static constexpr int order = 1;  ///< of the series
+  Vec<Dim> value;                  ///< q of the particle
+  Mat<Dim> gradient;               ///< grad q, row i of component i [1/m]
 };
 
 /// (E64) on faces: q_f = q + grad q r + sum_ab H_ab (r_a r_b - delta_ab s_a)/2, s_a the spread of the knots of the face
@@ -32,10 +32,10 @@ struct Linear {
 /// squares, and get none.
 template <int Dim>
 struct Quadratic {
-  static constexpr int order = 2;
-  Vec<Dim> value;
-  Mat<Dim> gradient;
-  SecondDerivatives<Dim> second;
+  static constexpr int order = 2;  ///< of the series
+  Vec<Dim> value;                  ///< q of the particle
+  Mat<Dim> gradient;               ///< grad q, row i of component i [1/m]
+  SecondDerivatives<Dim> second;   ///< H [1/m^2]
 };
 
 }  // namespace series

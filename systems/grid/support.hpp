@@ -36,12 +36,13 @@ using CellBasis = std::array<const AxisBasis*, static_cast<std::size_t>(Dim)>;
 /// Where the nodes of a dual cell are.
 template <int Dim>
 struct SupportBox {
-  CellBasis<Dim> basis;
-  Index<Dim> first;    ///< lowest node; -1 at the low end of a periodic axis
-  Vec<Dim> centre;     ///< the cell's own node [m]
-  Vec<Dim> corner;     ///< the lowest node [m]
-  double per_spacing;  ///< 1/h [1/m]
+  CellBasis<Dim> basis;  ///< weights along every axis
+  Index<Dim> first;      ///< lowest node; -1 at the low end of a periodic axis
+  Vec<Dim> centre;       ///< the cell's own node [m]
+  Vec<Dim> corner;       ///< the lowest node [m]
+  double per_spacing;    ///< 1/h [1/m]
 
+  /// \param own  the node in the middle of the cell
   SupportBox(const Grid<Dim>& grid, const Index<Dim>& own) : centre(grid.position(own)), per_spacing(1 / grid.spacing) {
     for (std::size_t d = 0; d < Dim; ++d) {
       basis[d] = &axis_basis<Dim>(grid, d, own[d]);
@@ -61,6 +62,7 @@ template <int Dim>
 struct Support : SupportBox<Dim> {
   std::array<std::size_t, support_size<Dim>> node;  ///< rows in the node tables
 
+  /// The nodes of `cell`.
   Support(const Grid<Dim>& grid, const typename OccupiedCells<Dim>::Cell& cell) : SupportBox<Dim>(grid, cell.node) {
     std::copy(cell.rows.begin(), cell.rows.end(), node.begin());
   }
@@ -75,9 +77,10 @@ struct Support : SupportBox<Dim> {
 /// S_Ip and its gradient at a point, for the nodes of a support.
 template <int Dim>
 struct Weights {
-  std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> value;
+  std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> value;  ///< per axis, of its three nodes
   std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> slope;  ///< [1/m]
 
+  /// At the point y in the cell of `support`.
   Weights(const SupportBox<Dim>& support, const Vec<Dim>& y) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
@@ -88,11 +91,13 @@ struct Weights {
       }
     }
   }
+  /// S_I of the node at an offset from the first.
   double operator()(const Index<Dim>& offset) const {
     double product = 1;
     for (std::size_t d = 0; d < Dim; ++d) product *= value[d][static_cast<std::size_t>(offset[d])];
     return product;
   }
+  /// grad S_I of it. [1/m]
   Vec<Dim> gradient(const Index<Dim>& offset) const {
     Vec<Dim> gradient;
     for (std::size_t i = 0; i < Dim; ++i) {

@@ -11,8 +11,10 @@
 
 namespace minamo {
 
+/// One value per type, kept by that type: a part sets `MyFact`, another one gets it.
 class Facts {
  public:
+  /// Keeps it, in place of one of that type.
   template <class Fact>
   void set(Fact fact) {
     facts_.insert_or_assign(typeid(Fact), std::move(fact));

@@ -18,8 +18,9 @@ struct Scene;
 
 /// Where problems of seeding are noted: what can only be seen once there are particles.
 struct SeedProblems {
-  std::string file;
-  std::vector<Problem> problems;
+  std::string file;               ///< the scene
+  std::vector<Problem> problems;  ///< found so far
+  /// Adds one; `pointer` is that of the key in the scene.
   void note(std::string pointer, std::string what, std::string expected, std::string got) {
     problems.push_back({file, std::move(pointer), std::move(what), std::move(expected), std::move(got), {}});
   }
@@ -34,9 +35,10 @@ enum class When { always, step, standing };
 
 /// A slot of the step, in the order of the step.
 struct Slot {
-  std::string_view name;
-  std::string_view doc;
+  std::string_view name;  ///< as in scenes and in Recipe::add()
+  std::string_view doc;   ///< what holds after it
 };
+/// All slots, in the order of the step.
 const std::vector<Slot>& slots();
 /// The first of the slots whose systems run only in steps that the history has a row of.
 inline constexpr std::string_view record_slots = "measure";
@@ -44,18 +46,20 @@ inline constexpr std::string_view record_slots = "measure";
 /// What a run is made of.
 class Recipe {
  public:
+  /// A system in a slot.
   struct Placed {
-    std::string_view slot;
-    When when;
-    System system;
+    std::string_view slot;  ///< its name
+    When when;              ///< in which lists
+    System system;          ///< what runs
   };
   /// A standing step: `configure`, the slots up to `solve`, and then `after`.
   struct StandingStep {
-    System configure;
-    std::vector<System> after;
+    System configure;           ///< takes the place of the slot `configure`
+    std::vector<System> after;  ///< what follows the slot `solve`
   };
 
   Recipe() = default;
+  /// \param dimension  2 or 3
   Recipe(const SystemRegistry& registry, int dimension) : registry_(&registry), dimension_(dimension) {}
 
   /// Adds a registered system at the end of a slot, unless the slot has it already: parts may need the same one.
@@ -65,10 +69,12 @@ class Recipe {
   void add(std::string_view slot, System system, When when = When::always);
   /// A system that runs once, before all others.
   void begin_with(const std::string& system) { first_.push_back(make(system)); }
+  /// One more standing step, behind those that are there.
   void add_standing_step(const std::string& configure, std::vector<System> after);
   /// A system that runs at every output time.
   void add_output(const std::string& system) { output_.push_back(make(system)); }
 
+  /// Calls `seed` before the first step; seeds are called in the order in which they were added.
   void seed(Seed seed) { seeds_.push_back(std::move(seed)); }
   /// Seeds a resource.
   template <ResourceComponent C>
@@ -76,13 +82,20 @@ class Recipe {
     seed([value = std::move(value)](const Scene&, World& world, SeedProblems&) { world.resource<C>() = value; });
   }
 
+  /// A registered system in the dimension of the scene, without options.
   System make(const std::string& system) const { return registry_->make(system, dimension_); }
+  /// What can be named.
   const SystemRegistry& registry() const { return *registry_; }
 
+  /// What add() has added, in its order.
   const std::vector<Placed>& placed() const { return placed_; }
+  /// What begin_with() has added.
   const std::vector<System>& first() const { return first_; }
+  /// What add_standing_step() has added.
   const std::vector<StandingStep>& standing_steps() const { return standing_; }
+  /// What add_output() has added.
   const std::vector<System>& output() const { return output_; }
+  /// What seed() and constant() have added.
   const std::vector<Seed>& seeds() const { return seeds_; }
 
  private:
@@ -98,6 +111,7 @@ class Recipe {
 /// What a part does once all parts have read their keys, in the order of the parts.
 using Contribution = std::function<void(const Scene&, Recipe&)>;
 
+/// A key of scenes and what comes of it. Register it: `registry.add(Part{"wind", "drag of the air", read_wind})`.
 struct Part {
   std::string name = {};  ///< its key in the scene
   std::string doc = {};   ///< one line
@@ -109,8 +123,8 @@ struct Part {
 
 /// One way to do what a part does, chosen by its name. Every choice derives a type of its own from it.
 struct Scheme {
-  std::string name;
-  std::string doc;  ///< one line
+  std::string name;  ///< as in the scene
+  std::string doc;   ///< one line
   /// Reads its options beside `scheme`. May be empty: no options, and nothing to add.
   std::function<Contribution(Input&, Scene&)> read;
 };
@@ -128,6 +142,7 @@ struct DefaultScheme {
   std::function<std::string(const Input&, const Scene&)> of;  ///< may depend on what else stands in the scene
   std::string other = {};  ///< which one it is when, if not always the same; a phrase
 };
+/// The same scheme whatever stands in the scene.
 inline DefaultScheme always(const std::string& scheme) {
   return {[scheme](const Input&, const Scene&) { return scheme; }};
 }
@@ -146,7 +161,9 @@ Part choice(const std::string& key, const std::string& doc, const DefaultScheme&
   });
 }
 
+/// What the scene can name.
 const SystemRegistry& registry_of(const Scene& scene);
+/// Puts down which scheme of a part the scene has, for Scene::schemes.
 void note_scheme(Scene& scene, const std::string& part, const std::string& scheme);
 
 template <class SchemeType>

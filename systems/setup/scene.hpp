@@ -17,6 +17,7 @@
 
 namespace minamo {
 
+/// What the scene says of the grid.
 struct GridScene {
   std::vector<double> low;     ///< corner of the box [m]
   std::vector<double> high;    ///< opposite corner [m]
@@ -27,9 +28,10 @@ struct GridScene {
 
 /// Wherever the expression is not zero.
 struct Where {
-  Expression inside;
+  Expression inside;  ///< of x, y, z
 };
 
+/// A region of particles.
 struct ParticleScene {
   std::variant<Where, SharedShape<2>, SharedShape<3>> shape;  ///< that of the dimension of the scene
   int per_cell = 2;                                           ///< per direction
@@ -37,6 +39,7 @@ struct ParticleScene {
   std::vector<Expression> velocity;                           ///< [m/s]
 };
 
+/// What the scene says of time and step.
 struct TimeScene {
   double end = 0;                  ///< [s]
   std::optional<double> step;      ///< fixed length [s]
@@ -44,6 +47,7 @@ struct TimeScene {
   std::optional<double> max_step;  ///< [s]
 };
 
+/// What the scene says of files.
 struct OutputScene {
   double every = 0;                  ///< simulated time between frames [s]
   std::optional<double> checkpoint;  ///< simulated time between checkpoints [s]
@@ -53,29 +57,31 @@ struct OutputScene {
 
 /// A system that the scene adds to the step.
 struct ExtraSystem {
-  System system;
+  System system;      ///< with its options
   std::string after;  ///< slot
 };
 
+/// A scene as read. A part gets it while keys are read, and again, whole, when it adds its systems.
 struct Scene {
   Scene() = default;
+  /// Of nothing yet.
   Scene(const SystemRegistry& registry, int dimension_of_space)
       : dimension(dimension_of_space), recipe(registry, dimension_of_space) {}
 
-  std::string title;
-  int dimension = 2;
-  std::map<std::string, double> constants;
+  std::string title;                        ///< its title; may be empty
+  int dimension = 2;                        ///< 2 or 3
+  std::map<std::string, double> constants;  ///< that its expressions may use
   ExpressionScope scope;  ///< x, y, z, t, the ode variables and the constants, as its expressions see them
   Instant start;          ///< t = 0 and the start values of the ode variables
-  GridScene grid;
-  std::vector<ParticleScene> particles;
-  TimeScene time;
-  OutputScene output;
+  GridScene grid;         ///< box and cells
+  std::vector<ParticleScene> particles;        ///< regions, in the order of the scene
+  TimeScene time;                              ///< end and step
+  OutputScene output;                          ///< files
   Facts facts;                                 ///< what parts tell each other
   std::map<std::string, std::string> schemes;  ///< the chosen ones, by the part's name
-  std::vector<ExtraSystem> systems;
-  Recipe recipe;                     ///< what the parts have added
-  std::vector<std::string> remarks;  ///< what was read and may not be meant, a sentence each
+  std::vector<ExtraSystem> systems;            ///< of the key `systems`
+  Recipe recipe;                               ///< what the parts have added
+  std::vector<std::string> remarks;            ///< what was read and may not be meant, a sentence each
 };
 
 /// Reads a scene; problems are noted in the document that `input` belongs to. Where there are any, the recipe of the

@@ -25,6 +25,7 @@ void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<co
   });
 }
 
+/// The same of a nodal column.
 template <int Dim, class Use>
 void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
             std::span<const Vec<Dim>> q_i, const Use& use) {

@@ -28,7 +28,7 @@ template <int Dim, class Use>
 /// Value and derivatives of a field q at a point.
 template <int Dim>
 struct Jet {
-  Vec<Dim> value;
+  Vec<Dim> value;                 ///< q
   Mat<Dim> gradient;              ///< row i: gradient of component i
   SecondDerivatives<Dim> second;  ///< on nodes zero across a wall in the half cell beside it
 };

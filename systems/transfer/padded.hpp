@@ -10,6 +10,7 @@ namespace minamo {
 template <int Dim>
 using PaddedVec = Eigen::Matrix<double, Dim == 3 ? 4 : Dim, 1>;
 
+/// The same vector with as many numbers as fill the lanes.
 template <int Dim>
 inline PaddedVec<Dim> padded(const Vec<Dim>& v) {
   if constexpr (Dim == 3) {
@@ -19,6 +20,7 @@ inline PaddedVec<Dim> padded(const Vec<Dim>& v) {
   }
 }
 
+/// The vector without the number that was added.
 template <int Dim>
 inline Vec<Dim> unpadded(const PaddedVec<Dim>& v) {
   return v.template head<Dim>();

@@ -14,11 +14,11 @@ namespace minamo {
 /// What a scatter reads beside the quantity itself.
 template <int Dim>
 struct ScatterSource {
-  const Grid<Dim>& grid;
-  const OccupiedCells<Dim>& cells;
-  std::span<const Vec<Dim>> y_p;
-  std::span<const double> m_p;
-  std::span<const double> m_i;
+  const Grid<Dim>& grid;            ///< Read<Grid>
+  const OccupiedCells<Dim>& cells;  ///< Read<OccupiedCells>
+  std::span<const Vec<Dim>> y_p;    ///< particle::QuadraturePosition [m]
+  std::span<const double> m_p;      ///< particle::Mass [kg]
+  std::span<const double> m_i;      ///< node::Mass [kg]
 };
 
 /// Calls add(p, support, weights, sum) for every particle, where `sum` holds 3^d nodal sums of its cell as PaddedVec,

@@ -1,4 +1,4 @@
-"""The notebook, run without a screen, and the examples of the documentation."""
+"""The notebooks, run without a screen, and the examples of the documentation."""
 
 import json
 import os
@@ -13,34 +13,74 @@ from support import ROOT, WORK
 PYTHON = ROOT / "tools/python"
 
 
+def executed(name, *cells):
+    """A notebook after all its cells have run, and then further ones; checks what holds for every notebook."""
+    import nbformat
+    from nbclient import NotebookClient
+
+    notebook = nbformat.read(PYTHON / name, as_version=4)
+    assert not any(cell.get("outputs") for cell in notebook.cells), f"{name}: the file has outputs"
+    notebook.cells += map(nbformat.v4.new_code_cell, cells)
+    # A kernel of the python that runs this, whatever kernels the machine has.
+    with tempfile.TemporaryDirectory() as jupyter:
+        kernel = Path(jupyter) / "kernels/python3"
+        kernel.mkdir(parents=True)
+        (kernel / "kernel.json").write_text(json.dumps(
+            {"argv": [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"], "language": "python",
+             "display_name": "python"}))
+        os.environ["JUPYTER_PATH"] = jupyter
+        os.environ.pop("MPLBACKEND", None)  # the kernel has its own
+        NotebookClient(notebook, timeout=300, kernel_name="python3",
+                       resources={"metadata": {"path": str(PYTHON)}}).execute()
+    nbformat.write(notebook, WORK / name)
+    return notebook
+
+
+def outputs(notebook):
+    """Those of all cells."""
+    return [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+
+
+def pictures(notebook):
+    """How many there are."""
+    return sum("image/png" in output.get("data", {}) for output in outputs(notebook))
+
+
 class Notebook(unittest.TestCase):
-    def test_runs_to_its_picture(self):
+    def setUp(self):
         try:
-            import nbformat
-            from nbclient import NotebookClient
+            import ipykernel  # noqa: F401
+            import nbclient  # noqa: F401
         except ImportError:
             self.skipTest("python3-nbclient and python3-ipykernel are not there")
-        path = PYTHON / "transfer_schemes.ipynb"
-        notebook = nbformat.read(path, as_version=4)
+
+    def test_first_steps_have_a_history_a_sweep_and_a_surface_that_are_right(self):
+        # Of a closed surface every edge is there in both directions.
+        notebook = executed("first_steps.ipynb", "edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)\n"
+                            "closed = set(map(tuple, edges)) == set(map(tuple, edges[:, ::-1]))\n"
+                            "print(json.dumps([error, list(measured), list(2 * viscosities / rho * k**2), closed]))")
+        self.assertLessEqual(len(notebook.cells) - 1, 12)
+        self.assertEqual([o for o in outputs(notebook) if o.output_type == "error"], [])
+        self.assertEqual(pictures(notebook), 4)
+        error, measured, theory, closed = json.loads(outputs(notebook)[-1].text)
+        self.assertLess(error, 0.019)  # 0.0096 was measured
+        for decay, expected in zip(measured, theory):
+            self.assertLess(abs(decay / expected - 1), 0.27)  # 0.138 was measured, of the smallest viscosity
+        self.assertTrue(closed)
+
+    def test_transfer_schemes_run_to_their_picture(self):
+        notebook = executed("transfer_schemes.ipynb")
         lines = [line for cell in notebook.cells if cell.cell_type == "code" for line in cell.source.splitlines()]
         self.assertLessEqual(len(lines), 20)
-        self.assertFalse(any(cell.get("outputs") for cell in notebook.cells), "the file has no outputs")
-        # A kernel of the python that runs this, whatever kernels the machine has.
-        with tempfile.TemporaryDirectory() as jupyter:
-            kernel = Path(jupyter) / "kernels/python3"
-            kernel.mkdir(parents=True)
-            (kernel / "kernel.json").write_text(json.dumps(
-                {"argv": [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"], "language": "python",
-                 "display_name": "python"}))
-            os.environ["JUPYTER_PATH"] = jupyter
-            os.environ.pop("MPLBACKEND", None)  # the kernel has its own
-            NotebookClient(notebook, timeout=300, kernel_name="python3",
-                           resources={"metadata": {"path": str(PYTHON)}}).execute()
-        outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
-        self.assertEqual([o for o in outputs if o.output_type == "error"], [])
-        pictures = [o for o in outputs if "image/png" in o.get("data", {})]
-        self.assertGreaterEqual(len(pictures), 2)
-        nbformat.write(notebook, WORK / "transfer_schemes.ipynb")
+        self.assertEqual([o for o in outputs(notebook) if o.output_type == "error"], [])
+        self.assertGreaterEqual(pictures(notebook), 2)
+
+    def test_the_tool_opens_the_first_steps_and_names_the_other(self):
+        text = (ROOT / "tools/notebook").read_text()
+        self.assertIn(":-$root/tools/python/first_steps.ipynb}", text)
+        for path in PYTHON.glob("*.ipynb"):
+            self.assertIn(path.name, text)
+            self.assertIn(path.name, (PYTHON / "README.md").read_text())
 
 
 def printed_by(block, names):
@@ -74,8 +114,14 @@ def rounded_as(word, got):
 
 class Documentation(unittest.TestCase):
     def test_examples_run_one_after_the_other_and_print_what_they_say(self):
-        text = (PYTHON / "README.md").read_text()
-        blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        self.expect_examples("README.md")
+
+    def test_examples_of_docstrings_do_so_too(self):
+        self.expect_examples("REFERENCE.md")
+
+    def expect_examples(self, page):
+        """The blocks of a page run in one interpreter, and print what stands behind `->`."""
+        blocks = re.findall(r"```python\n(.*?)```", (PYTHON / page).read_text(), re.DOTALL)
         self.assertGreater(len(blocks), 4)
         names, compared = {}, 0
         before = os.getcwd()

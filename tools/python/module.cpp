@@ -12,6 +12,7 @@
 
 PYBIND11_MODULE(_minamo, module) {
   using namespace minamo::python;
+  module.doc() = "The extension below the package minamo, whose functions and classes are what to use.";
   module.attr("__version__") = std::string(minamo::version);
   translate_exceptions();
   pass_log_on();

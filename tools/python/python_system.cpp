@@ -184,13 +184,16 @@ System make_system(std::shared_ptr<const PythonSystem> system, const KnownCompon
 }
 
 void bind_arguments(py::module_& module) {
-  py::class_<HistoryColumns, std::shared_ptr<HistoryColumns>>(module, "HistoryColumns")
-      .def("__setitem__", &HistoryColumns::set);
-  py::class_<Clock>(module, "Clock")
-      .def_readonly("time", &Clock::time)
-      .def_readonly("step", &Clock::step)
-      .def_readonly("end_of_step", &Clock::end_of_step)
-      .def_readonly("index", &Clock::index);
+  // What help() says; package/minamo/_minamo.pyi says the same to editors.
+  py::class_<HistoryColumns, std::shared_ptr<HistoryColumns>>(
+      module, "HistoryColumns", "`measure.columns` in the arguments of a system that updates them, in slot `measure`.")
+      .def("__setitem__", &HistoryColumns::set, "Sets a column of the history for this row; NaN is an empty cell.");
+  py::class_<Clock>(module, "Clock",
+                    "`clock` in the arguments of a system that reads it: where the step stands in time.")
+      .def_readonly("time", &Clock::time, "At the start of the step. [s]")
+      .def_readonly("step", &Clock::step, "Length of the step. [s]")
+      .def_readonly("end_of_step", &Clock::end_of_step, "At the end of the step. [s]")
+      .def_readonly("index", &Clock::index, "Steps that are done; 0 in the first one.");
   using Shape = DescribedColumn::Shape;
   py::class_<DescribedColumn, std::shared_ptr<DescribedColumn>>(module, "DescribedColumn")
       .def(py::init([](const std::string& name, const std::string& shape, const std::string& unit,

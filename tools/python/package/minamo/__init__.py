@@ -3,7 +3,9 @@
     import minamo
     sim = minamo.Simulation("scenes/dam_break.json")
     sim.run(until=0.2)
-    sim["particle.velocity"]        # (particles, 2), the simulation's own memory [m/s]
+    print(sim["particle.velocity"].shape)   # -> (1800, 2)
+
+All quantities are in SI units, in the plane per metre of depth. In shapes, `d` is the dimension: 2 or 3.
 """
 
 from ._minamo import __version__

@@ -10,12 +10,23 @@ class DescribedColumn:
     def __init__(self, name: str, shape: str, unit: str, symbol: str, is_state: bool, start: float) -> None: ...
 
 class HistoryColumns:
-    """`measure.columns` while a system runs."""
+    """`measure.columns` in the arguments of a system that updates them, in slot `measure`.
 
-    def __setitem__(self, name: str, value: float) -> None: ...
+        @minamo.system(slot="measure", reads=["particle.mass"], updates=["measure.columns"])
+        def total_mass(m, columns):
+            columns["total_mass"] = m.sum()
+    """
+
+    def __setitem__(self, name: str, value: float) -> None:
+        """Sets a column of the history for this row; NaN is an empty cell."""
 
 class Clock:
-    """Where the step stands in time."""
+    """`clock` in the arguments of a system that reads it: where the step stands in time.
+
+        @minamo.system(slot="g2p", reads=["clock"], updates=["particle.velocity"])
+        def brake(clock, v):
+            v *= 1 - 0.1 * clock.step
+    """
 
     @property
     def time(self) -> float:
@@ -25,10 +36,10 @@ class Clock:
         """Length of the step. [s]"""
     @property
     def end_of_step(self) -> float:
-        """At its end. [s]"""
+        """At the end of the step. [s]"""
     @property
     def index(self) -> int:
-        """Steps done."""
+        """Steps that are done; 0 in the first one."""
 
 class Simulation:
     def __init__(self, text: str | None, name: str, systems: Iterable[Any], parts: Iterable[Any],

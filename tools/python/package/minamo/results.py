@@ -18,9 +18,14 @@ def _missing(path: Path, expected: str):
 
 
 class Run:
-    """What `minamo run` has left in a folder.
+    """What `minamo run` has left in a folder. Files are read when they are asked for, so that a run that goes on can be
+    looked at.
 
-    :raises InputError: if there is no run in it
+        r = minamo.Run("out/short")
+        print(len(r.history["time"]), r.particles(0)["position"].shape)   # -> 21 (1800, 2)
+
+    :param folder: that of the run
+    :raises InputError: if there is no run in it, or, later, not the file that is asked for
     """
 
     def __init__(self, folder: str | os.PathLike[str]):
@@ -35,12 +40,15 @@ class Run:
 
     @property
     def summary(self) -> dict:
-        """What summary.json says: status, times, conservation, errors, time per system."""
+        """What summary.json says: status, times, conservation, errors, time per system; scenes/README.md has its keys.
+
+        :raises FileNotFoundError: before the run has ended
+        """
         return json.loads((self.folder / "summary.json").read_text())
 
     @property
     def history(self) -> dict[str, np.ndarray]:
-        """history.csv, `{column: (rows,)}`; NaN for an empty cell."""
+        """history.csv, `{column: (rows,)}`, in the units of :attr:`units`; NaN for an empty cell."""
         with open(self.folder / "history.csv") as file:
             names = file.readline().rstrip("\n").split(",")
             rows = [line.rstrip("\n").split(",") for line in file]
@@ -72,7 +80,7 @@ class Run:
             return np.array([frames[str(k)].attrs["time"] for k in range(len(frames))])
 
     def __len__(self) -> int:
-        """Frames."""
+        """How many frames there are."""
         with self._fields() as file:
             return len(file.get("particles", {}))
 
@@ -80,12 +88,18 @@ class Run:
         """Frame `k`, counted from the end where it is negative, as fields.h5 has it: `position` `(particles, d)` [m],
         `velocity` `(particles, 3)` [m/s], its third component zero in the plane, `pressure` `(particles,)` [Pa], `id`, and
         what the scheme carries, in single precision unless the scene says otherwise; what `/output/fields` leaves out is
-        not there. Particles change places from frame to frame; `id` tells who is who."""
+        not there. Particles change places from frame to frame; `id` tells who is who.
+
+        :raises IndexError: if there is no such frame
+        """
         return self._frame("particles", k)
 
     def bodies(self, k: int = -1) -> dict[str, dict[str, np.ndarray]]:
         """Of frame `k` by the body's name: its outline and what it feels, as fields.h5 has them; empty without
-        bodies."""
+        bodies.
+
+        :raises IndexError: if there is no such frame
+        """
         return self._frame("bodies", k)
 
     def _frame(self, of: str, k: int):

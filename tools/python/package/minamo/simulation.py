@@ -38,6 +38,9 @@ class Simulation:
     """A scene that runs in memory, a step at a time. It computes what `minamo run` computes, bit for bit, and writes
     nothing.
 
+        sim = minamo.Simulation("scenes/dam_break.json", threads=1)
+        print(sim.run(until=0.1) == sim.steps, sim.time)   # -> True 0.1
+
     :param scene: the path of a scene file, or a dict with the same keys
     :param threads: 1 to the number of processors; `None`: all of them. The results do not depend on it.
     :param systems: further systems, see :func:`minamo.system`
@@ -58,6 +61,7 @@ class Simulation:
     def step(self, n: int = 1) -> int:
         """Takes `n` steps, or as many as are left until the scene ends. Returns how many.
 
+        :raises InputError: if `n` is no whole number, or negative
         :raises RunError: if a step fails; the simulation stands at the last accepted step and can go on
         :raises KeyboardInterrupt: on Ctrl-C, after the step; the simulation can go on
         """
@@ -70,7 +74,12 @@ class Simulation:
 
     def watch(self, until: float | None = None, every: int = 10, color: str = "speed") -> int:
         """Takes the steps of :meth:`run` and draws the picture of :meth:`show` in a notebook, anew after every `every`
-        steps, in the place of the one before. Returns how many steps it took; raises as :meth:`step` does."""
+        steps, in the place of the one before. Returns how many steps it took; raises as :meth:`step` does.
+
+        :param until: time to reach [s]; by default the end of the scene
+        :param every: steps between pictures
+        :param color: `"speed"`, or a column with a number per particle
+        """
         from .picture import live
 
         until, every = _time("until", until), _whole("every", every, 1)
@@ -111,10 +120,14 @@ class Simulation:
     def __getitem__(self, name: str) -> np.ndarray:
         """A column, like `sim["particle.velocity"]`: the simulation's own memory, not a copy.
 
-        A number per row has the shape `(rows,)`, a vector `(rows, d)`, a matrix `(rows, d, d)`. A column of lifetime
-        `state` can be written; all others, and what is not made of real numbers, are read-only. The array shows the
-        column as it is until the next step; from then on it keeps the values that it has then, and is read-only. A step
-        copies the columns whose arrays are still held, so let go of large ones that are not needed.
+            sim["particle.velocity"][:, 0] = 0             # the next step begins with this
+            print(sim["particle.velocity_gradient"].shape)   # -> (1800, 2, 2)
+
+        A number per row has the shape `(rows,)`, a vector `(rows, d)`, a matrix `(rows, d, d)`; :attr:`columns` has the
+        units. A column of lifetime `state` can be written; all others, and what is not made of real numbers, are
+        read-only. The array shows the column as it is until the next step; from then on it keeps the values that it has
+        then, and is read-only. A step copies the columns whose arrays are still held, so let go of large ones that are
+        not needed.
 
         :raises UnknownName: for a name that this simulation has no column of
         """
@@ -124,13 +137,19 @@ class Simulation:
             raise UnknownName(str(error), error.problems) from None
 
     def __setitem__(self, name: str, values) -> None:
-        """Sets all rows of a column, as `sim[name][:] = values`."""
+        """Sets all rows of a column, as `sim[name][:] = values`.
+
+        :raises UnknownName: for a name that this simulation has no column of
+        :raises ValueError: if the column is read-only, or `values` has another shape
+        """
         self[name][...] = values
 
     def __contains__(self, name: str) -> bool:
+        """Whether there is a column of this name."""
         return name in self.columns
 
     def __iter__(self) -> Iterator[str]:
+        """The names of all columns."""
         return iter(self.columns)
 
     def keys(self) -> builtins.list[str]:
@@ -139,18 +158,25 @@ class Simulation:
 
     @property
     def columns(self) -> dict[str, dict[str, Any]]:
-        """All columns: `{name: {"table", "symbol", "unit", "lifetime", "writable"}}`."""
+        """All columns: `{name: {"table", "symbol", "unit", "lifetime", "writable"}}`.
+
+            print(sim.columns["particle.velocity"]["unit"])   # -> m/s
+        """
         keys = ("table", "symbol", "unit", "lifetime", "writable")
         return {name: dict(zip(keys, rest)) for name, *rest in self._core.columns()}
 
     @property
     def row(self) -> dict[str, float]:
-        """The last row of the history: energies, momenta, largest speed ... NaN for what is not measured."""
+        """The last row of the history, `{column: number}`: energies [J], momenta [kg m/s], largest speed [m/s] ... NaN
+        for what is not measured. scenes/README.md has all columns with their units."""
         return dict(zip(self._core.history_columns(), self._core.history(1)[0].tolist()))
 
     @property
     def history(self) -> dict[str, np.ndarray]:
-        """All rows so far, `{column: (rows,)}`, the columns of history.csv."""
+        """All rows so far, `{column: (rows,)}`, the columns of history.csv; row 0 is the start.
+
+            print(len(sim.history["kinetic_energy"]) == sim.steps + 1)   # -> True
+        """
         return dict(zip(self._core.history_columns(), self._core.history(self._core.history_rows()).T.copy()))
 
     # --- scene ---
@@ -162,10 +188,12 @@ class Simulation:
 
     @property
     def dimension(self) -> int:
+        """2 or 3."""
         return self._core.dimension
 
     @property
     def threads(self) -> int:
+        """So many threads take a step."""
         return self._core.threads
 
     @property
@@ -174,8 +202,15 @@ class Simulation:
         return self._core.grid
 
     def show(self, color: str = "speed", ax=None):
-        """The particles as a picture of matplotlib: colours are the speed or a column with a number per particle, like
-        `"particle.pressure"`. Returns the axes; a space is seen along y."""
+        """The particles as a picture of matplotlib; a scene in space is seen along y. Returns the axes.
+
+            ax = sim.show("particle.pressure")   # ax.figure.savefig("pressure.png") keeps it
+            print(ax.get_title())                # -> t = 0.1 s
+
+        :param color: `"speed"`, or a column with a number per particle
+        :param ax: the axes to draw into; by default those of a new figure
+        :raises UnknownName: for a name that this simulation has no column of
+        """
         from .picture import show
 
         return show(self, color, ax)
@@ -229,10 +264,18 @@ def run(scene: Scene, out: str | os.PathLike[str] | None = None, *, threads: int
         systems: Iterable[System] = (), parts: Iterable[Part] = ()):
     """Runs a scene into a folder, as `minamo run` does, and returns its :class:`minamo.Run`.
 
+        r = minamo.run("scenes/dam_break.json", "out/short", steps=20, overwrite=True)
+        print(r.summary["status"])   # -> done
+
+    :param scene: the path of a scene file, or a dict with the same keys
+    :param threads: 1 to the number of processors; `None`: all of them
     :param out: the folder; by default out/NAME, out/scene for a dict
     :param steps: stop after so many steps of the whole run
     :param resume: go on from the checkpoint in the folder
     :param overwrite: replace the results of an unfinished run in the folder
+    :param quiet: print nothing; else what the program prints
+    :param systems: further systems, see :func:`minamo.system`
+    :param parts: further keys of scenes, see :func:`minamo.part`
     :raises InputError: with every problem of the scene, or if an unfinished run is in the folder
     :raises RunError: if a step fails; the last accepted state is in checkpoint.h5
     :raises KeyboardInterrupt: on Ctrl-C, after the step, with a checkpoint
@@ -250,7 +293,10 @@ def run(scene: Scene, out: str | os.PathLike[str] | None = None, *, threads: int
 
 
 def check(scene: Scene, *, systems: Iterable[System] = (), parts: Iterable[Part] = ()):
-    """Every problem of a scene, as `minamo check` reports them; an empty list if it can be run."""
+    """Every problem of a scene, a list of :class:`Problem`, as `minamo check` reports them; empty if it can be run.
+
+        print(minamo.check("scenes/dam_break.json"))   # -> []
+    """
     from .errors import Problem
 
     text, name = _text(scene)
@@ -258,10 +304,21 @@ def check(scene: Scene, *, systems: Iterable[System] = (), parts: Iterable[Part]
 
 
 def list(what: str) -> builtins.list[dict[str, Any]]:  # noqa: A001, named as the program's command
-    """What the program has: `"parts"`, `"schemes"`, `"solvers"`, `"systems"` or `"components"`, a dict each."""
+    """What the program has, a dict each.
+
+        schemes = [scheme["name"] for scheme in minamo.list("schemes") if scheme["part"] == "transfer"]
+        print(schemes[:3])   # -> ['apic', 'flip', 'fmpm']
+
+    :param what: `"parts"` (`name`, `doc`, `schemes`), `"schemes"` or `"solvers"` (`name`, `doc`, `part`), `"systems"`
+        (`name`, `doc`, `reads`, `writes`) or `"components"` (`name`, `table`, `symbol`, `unit`, `lifetime`)
+    :raises InputError: for another word
+    """
     return _minamo.list(what)
 
 
 def schema() -> dict:
-    """The JSON Schema of scenes."""
+    """The JSON Schema of scenes, for editors.
+
+        print(minamo.schema()["required"])   # -> ['dimension', 'grid', 'particles', 'time']
+    """
     return json.loads(_minamo.schema())

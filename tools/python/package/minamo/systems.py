@@ -19,12 +19,17 @@ def _refuse(where: str, what: str, expected: str, got: str) -> None:
 class Column(_minamo.DescribedColumn):
     """A column of one's own, which exists in every simulation that has a system with it.
 
+        age = minamo.column("particle.age", unit="s")
+        dye = minamo.column("particle.dye", "vector", start=1)
+
     :param name: `table.quantity`, like `"particle.temperature"`
     :param shape: of a value: `"scalar"`, `"vector"` or `"matrix"`
     :param unit: SI; `"1"` is dimensionless
     :param lifetime: `"state"`: carried along, from step to step and wherever its row goes; `"scratch"`: written anew in
         every step before it is read
+    :param symbol: as in equations
     :param start: the value of all rows at the start
+    :raises InputError: for a wrong name, shape or lifetime
     """
 
     def __init__(self, name: str, shape: str = "scalar", *, unit: str = "1", symbol: str = "",
@@ -53,13 +58,13 @@ Component = Union[str, Column]
 class System:
     """A function with its place in the step and what it declares; made by :func:`system`."""
 
-    function: Callable[..., Any]
-    name: str
-    slot: str
-    reads: tuple[Component, ...] = ()
-    writes: tuple[Component, ...] = ()
-    updates: tuple[Component, ...] = ()
-    standing: bool = True
+    function: Callable[..., Any]  #: what is called
+    name: str  #: in messages and profiles
+    slot: str  #: where it stands
+    reads: tuple[Component, ...] = ()  #: read-only arrays
+    writes: tuple[Component, ...] = ()  #: arrays to fill
+    updates: tuple[Component, ...] = ()  #: arrays to change
+    standing: bool = True  #: whether it runs in the standing step, too
 
     def __call__(self, *arguments):
         """The function itself, for tests of it."""
@@ -100,6 +105,9 @@ def system(*, slot: str, reads: Iterable[Component] = (), writes: Iterable[Compo
     The arrays are those of the simulation, for this call only: who keeps one gets an error. Systems in python run one at
     a time. What the function raises comes out of :meth:`Simulation.step`, with the step taken back; `StepRejected` makes
     it be tried again at half its length.
+
+    :raises InputError: if the function does not take what it declares; unknown names and slots are found by
+        :class:`Simulation`
     """
 
     def make(function: Callable[..., Any]) -> System:
@@ -115,28 +123,33 @@ def system(*, slot: str, reads: Iterable[Component] = (), writes: Iterable[Compo
 
 @dataclass(frozen=True)
 class Number:
-    """An option of a part: a number in the scene."""
+    """An option of a part: a number in the scene.
 
-    unit: str = "1"
-    doc: str = ""
+        rate = minamo.Number("1/s", "share of the heat lost", default=0.1, at_least=0)
+    """
+
+    unit: str = "1"  #: SI; `"1"` is dimensionless
+    doc: str = ""  #: one line
     default: float | None = None  #: `None`: the key is required
-    at_least: float | None = None
-    at_most: float | None = None
+    at_least: float | None = None  #: least that is allowed
+    at_most: float | None = None  #: most that is allowed
 
 
 @dataclass(frozen=True)
 class Part:
     """A key of scenes and the systems that it brings; made by :func:`part`."""
 
-    systems: Callable[..., Iterable[System]]
-    name: str
-    doc: str
-    options: dict[str, Number]
+    systems: Callable[..., Iterable[System]]  #: what makes them
+    name: str  #: the key
+    doc: str  #: one line
+    options: dict[str, Number]  #: its numbers by name
 
 
 def part(name: str, doc: str = "", **options: Number) -> Callable[[Callable[..., Iterable[System]]], Part]:
     """Makes a function a part: scenes may have the key `name`, an object with these numbers. For a scene that has it the
     function is called with them and returns the systems.
+
+        temperature = minamo.column("particle.temperature", unit="K", start=300)
 
         @minamo.part("cooling", "heat lost to the walls", rate=minamo.Number("1/s", "share lost", at_least=0))
         def cooling(rate):
@@ -145,7 +158,12 @@ def part(name: str, doc: str = "", **options: Number) -> Callable[[Callable[...,
                 T *= 1 - rate * clock.step
             return [cool]
 
-        minamo.Simulation(scene | {"cooling": {"rate": 0.1}}, parts=[cooling])
+        scene = sim.scene | {"cooling": {"rate": 0.1}}
+        minamo.Simulation(scene, parts=[cooling])
+
+    :param name: the key; that of no other part
+    :param doc: one line; by default the docstring of the function
+    :param options: its numbers, each a :class:`Number`
     """
 
     def make(function: Callable[..., Iterable[System]]) -> Part:

@@ -1,0 +1,1 @@
+"""The reference of what extensions use; tools/reference calls it."""
