@@ -102,6 +102,14 @@ class Labels(unittest.TestCase):
             runs = self.runs(count, box)
             self.expect_room(draw_strip(Strip(runs, list(TIMES), find_field(runs, "speed"))), box, count)
 
+    def test_a_long_box_in_space_whose_depth_is_told_beside_the_bar(self):
+        runs = self.runs(1, [8.976, 2.244, 2.244])
+        figure = draw_strip(Strip(runs, list(TIMES), find_field(runs, "speed"), across=2))
+        self.expect_room(figure)
+        bar = figure.axes[-1].get_window_extent()
+        for text, box in words_of(figure):
+            self.assertFalse(box.overlaps(bar), f"over the bar of colours: {text}")
+
     def test_strips_with_a_legend_or_names_of_liquids_or_where_a_run_has_ended(self):
         lines = [Curves(name, 0, [np.zeros((2, 2))])
                  for name in ("interFoam of the finest mesh, 160 x 160 cells", "measured by others in 1952")]

@@ -8,6 +8,7 @@
   tools/figures readme                             the pictures of the README; runs the scene if its results are missing
   tools/figures results                            those of scenes/RESULTS.md, in the same way
   tools/figures paper                              the figures of scenes/paper, in the same way
+  tools/figures gallery                            the pictures of scenes/GALLERY.md, in the same way
 """
 
 from __future__ import annotations
@@ -19,12 +20,13 @@ from pathlib import Path
 
 import numpy as np
 
-from figuring.documents import DOCUMENTS, ROOT, write_pictures
+from figuring.documents import DOCUMENTS, write_pictures
 from figuring.fields import find_field, usual_fields
 from figuring.layout import WIDTH, png
 from figuring.movies import check_ffmpeg, write_movie
 from figuring.plots import draw_history, draw_systems
 from figuring.rendering import Rendering, render
+from figuring.scene_runs import ROOT
 from figuring.strips import Strip, draw_strip
 from figuring.views import Slice, check_slice, read_slice
 from reporting.closed_pipes import readers_may_go
@@ -111,7 +113,8 @@ def document_arguments(name: str) -> argparse.Namespace:
                         help=f"default: {pictures.folder.relative_to(ROOT)}")
     parser.add_argument("--results", type=Path, default=ROOT / "out", metavar="DIR",
                         help="finished runs of the same scenes are taken from here, others are run; default: out")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="default: the folder of the scenes")
+    where = "the folder of the scenes" if pictures.beside == "." else f"{pictures.beside} in the folder of the scenes"
+    parser.add_argument("--out", type=Path, metavar="DIR", help=f"default: {where}")
     return parser.parse_args(sys.argv[2:])
 
 
@@ -163,7 +166,7 @@ def figures(options: argparse.Namespace) -> None:
 def document(name: str) -> None:
     """All pictures of a document."""
     options = document_arguments(name)
-    out = options.out or options.scenes
+    out = options.out or options.scenes / DOCUMENTS[name].beside
     out.mkdir(parents=True, exist_ok=True)
     for picture in write_pictures(DOCUMENTS[name], options.scenes, options.results, out):
         print(min(str(picture), os.path.relpath(picture), key=len))

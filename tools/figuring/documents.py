@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from figuring.fields import find_field
 from figuring.frontier import draw_frontier
+from figuring.gallery import GALLERY, Exhibit, draw_exhibit, picture_of
 from figuring.layout import WIDTH, png
 from figuring.rest import draw_rest
+from figuring.scene_runs import ROOT, read_scene, run_of
 from figuring.strips import Strip, draw_strip
 from reporting.references import read_references
-from reporting.runs import NoResults, Run
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @dataclass(frozen=True)
@@ -52,8 +47,9 @@ class Pictures:
 
     about: str
     folder: Path
-    figures: tuple[Figure | RestFigure, ...]
+    figures: tuple[Figure | RestFigure | Exhibit, ...]
     studies: Path | None = None  # their tables, for frontier.png; none of them is run
+    beside: str = "."  # where the pictures lie, from the folder of the scenes
 
 
 DOCUMENTS = {
@@ -66,6 +62,7 @@ DOCUMENTS = {
     "paper": Pictures("the figures of the paper that scenes/paper reproduces", ROOT / "scenes/paper", (
         Figure("dam_break", ("dam_break_pic", "dam_break_flip", "dam_break_tpic"), (0.3, 0.6, 5.0), INTERFOAM),
         Figure("rotating_square", ("rotating_square_flip", "rotating_square_tpic"), (1.0, 2.0, 4.0), corners=True))),
+    "gallery": Pictures("the pictures of scenes/GALLERY.md", ROOT / "scenes", GALLERY, beside="gallery"),
 }
 
 
@@ -78,10 +75,14 @@ def write_pictures(pictures: Pictures, scenes: Path, results: Path, out: Path) -
     return written
 
 
-def _write_figure(figure: Figure | RestFigure, scenes: Path, results: Path, out: Path) -> Path:
+def _write_figure(figure: Figure | RestFigure | Exhibit, scenes: Path, results: Path, out: Path) -> Path:
     path = out / f"{figure.name}.png"
-    path.write_bytes(png(_draw_rest(figure, scenes, results) if isinstance(figure, RestFigure)
-                         else _draw_scenes(figure, scenes, results)))
+    if isinstance(figure, Exhibit):
+        run = run_of(scenes / f"{figure.scene}.json", results / figure.name, figure.settings)
+        path.write_bytes(picture_of(draw_exhibit(figure, run, ROOT / "scenes/reference")))
+    else:
+        path.write_bytes(png(_draw_rest(figure, scenes, results) if isinstance(figure, RestFigure)
+                             else _draw_scenes(figure, scenes, results)))
     return path
 
 
@@ -90,52 +91,16 @@ def _draw_rest(figure: RestFigure, scenes: Path, results: Path):
     results.mkdir(parents=True, exist_ok=True)
     for name, label in figure.scenes.items():
         for scheme in figure.quadratures:
-            scene = _read(scenes / f"{name}.json")
+            scene = read_scene(scenes / f"{name}.json")
             scene["time"]["end"] = figure.end
             scene["quadrature"] = {"scheme": scheme}
             changed = results / f"{name}_{scheme}.json"
             changed.write_text(json.dumps(scene))
-            runs[label, scheme] = _run(changed, results / changed.stem)
+            runs[label, scheme] = run_of(changed, results / changed.stem)
     return draw_rest(runs, WIDTH)
 
 
 def _draw_scenes(figure: Figure, scenes: Path, results: Path):
-    runs = [_run(scenes / f"{name}.json", results / name) for name in figure.scenes]
+    runs = [run_of(scenes / f"{name}.json", results / name) for name in figure.scenes]
     references = read_references(figure.reference) if figure.reference else []
     return draw_strip(Strip(runs, list(figure.times), find_field(runs, "speed"), references, figure.corners))
-
-
-def _read(scene: Path) -> dict[str, Any]:
-    if not scene.is_file():
-        raise NoResults(f"{scene}: no such scene")
-    return json.loads(scene.read_text())
-
-
-def _run(scene: Path, folder: Path) -> Run:
-    there = _is_there(_read(scene), folder)
-    if there is None or not there.summary.get("complete", False):
-        program = os.environ.get("MINAMO")
-        command = [program, "run"] if program else [str(ROOT / "tools/run")]
-        # What was begun and is this very scene goes on; what else is unfinished there minamo does not replace.
-        more = ["--resume"] if there and (folder / "checkpoint.h5").is_file() else []
-        status = subprocess.run([*command, str(scene), "--out", str(folder), *more], check=False).returncode
-        if status != 0:
-            sys.exit(status)  # minamo has said why
-    return Run(folder)
-
-
-def _is_there(scene: dict[str, Any], folder: Path) -> Run | None:
-    """The run of this very scene in the folder, finished or not, if there is one."""
-    if not (folder / "scene.json").is_file():
-        return None
-    run = Run(folder)
-    return run if _contains(run.scene, scene) else None
-
-
-def _contains(whole: Any, part: Any) -> bool:
-    """The scene as it ran has all that the file says, and the defaults."""
-    if isinstance(part, dict):
-        return isinstance(whole, dict) and all(key in whole and _contains(whole[key], part[key]) for key in part)
-    if isinstance(part, list):
-        return isinstance(whole, list) and len(whole) == len(part) and all(map(_contains, whole, part))
-    return whole == part

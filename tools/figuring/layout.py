@@ -36,18 +36,19 @@ class Margins:
     right: float = 0.85
     top: float = 0.28
     across: float = 0.2
+    beside: float = 0.12  # of the right, before the colour bar
     down: float = 0.1
 
 
 class Sheet:
     """Panels of equal width with the aspect of what they show. Draw into them, name them, then settle()."""
 
-    def __init__(self, rows: list[list[View]], margins: Margins, width: float = WIDTH):
+    def __init__(self, rows: list[list[View]], margins: Margins, largest: tuple[float, float] = LARGEST_PANEL):
         self.figure = Figure()
         FigureCanvasAgg(self.figure)
         self.panels = [[self.figure.add_axes((0, 0, 1, 1)) for _ in row] for row in rows]
         self.head = self.figure.text(0.5, 1, "", fontsize=10, ha="center", va="center")
-        self._rows, self._margins, self._width = rows, margins, width
+        self._rows, self._margins, self._largest = rows, margins, largest
         self._names: dict[tuple[int, int], str] = {}  # of panels
         self._row_names: list[tuple[str, Text]] = []
         self._entries: list[Artist] = []  # of the legend
@@ -119,8 +120,8 @@ class Sheet:
         """Puts everything where the margins leave room for it."""
         margins, columns = self._margins, max(map(len, self._rows))
         tallest = max(view.aspect for row in self._rows for view in row)
-        inside = (self._width - margins.left - margins.right - margins.across * (columns - 1)) / columns
-        self._panel = max(SMALLEST_PANEL, min(inside, LARGEST_PANEL[0], LARGEST_PANEL[1] / tallest))
+        inside = (WIDTH - margins.left - margins.right - margins.across * (columns - 1)) / columns
+        self._panel = max(SMALLEST_PANEL, min(inside, self._largest[0], self._largest[1] / tallest))
         self._heights = [self._panel * max(view.aspect for view in row) for row in self._rows]
         width = margins.left + margins.right + columns * self._panel + margins.across * (columns - 1)
         inner = sum(self._heights) + margins.down * (len(self._rows) - 1)
@@ -136,8 +137,8 @@ class Sheet:
         self.head.set_position((0.5, 1 - 0.16 / height))
         if self._bar:
             used = min(inner, 3.0)
-            self._bar.set_position((1 - (margins.right - 0.12) / width, (margins.bottom + 0.5 * (inner - used)) / height,
-                                    0.12 / width, used / height))
+            self._bar.set_position((1 - (margins.right - margins.beside) / width,
+                                    (margins.bottom + 0.5 * (inner - used)) / height, 0.12 / width, used / height))
 
     def _fit_names(self) -> None:
         for (name, text), row, height in zip(self._row_names, self.panels, self._heights):
@@ -183,8 +184,11 @@ class Sheet:
         foot = [box_of(self._legend)] if self._legend else []
         head = [box_of(self.head)] if self.head.get_text() else []
         bar = [box_of(word) for word in words_of(self._bar)] if self._bar else []
+        ends = chain(*(row[-1] for row in panels))
+        beside = _too_near(ends, [box_in_page(self._bar)], across=True) if self._bar else 0.0
         words = [*chain(*chain(*panels)), *bar, *foot, *head]
-        more = {"left": GAP - min(box.x0 for box in words), "right": max(box.x1 for box in words) + GAP - width,
+        more = {"left": GAP - min(box.x0 for box in words),
+                "right": max(max(box.x1 for box in words) + GAP - width, beside), "beside": beside,
                 "bottom": max([GAP - min(box.y0 for box in words), _too_near(foot, chain(*panels[-1]))]),
                 "top": max([max(box.y1 for box in words) + GAP - height, _too_near(chain(*panels[0]), head)]),
                 "across": max([0.0, *(_too_near(a, b, across=True) for row in panels for a, b in pairwise(row))]),

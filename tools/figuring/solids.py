@@ -9,6 +9,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path
 
+from figuring.clipping import clipped
 from figuring.views import Slice, plane_of
 from reporting.bodies import Body, bodies_of, chained, section
 from reporting.projection import project
@@ -78,7 +79,7 @@ def _seen(run: Run, index: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     bodies = _bodies_of(run)
     if not bodies:
         return np.empty((0, 3, 2)), np.empty((0, 3)), np.empty(0)
-    corners = np.concatenate([body.triangles_at(index) for body in bodies])
+    corners = np.concatenate([clipped(body.triangles_at(index), *run.box) for body in bodies])
     places, distance = project(run, corners.reshape(-1, 3))
     places, distance = places.reshape(-1, 3, 2), distance.reshape(-1, 3)
     sides = np.dstack([places, -distance])  # right, up, towards the eye

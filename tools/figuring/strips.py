@@ -12,9 +12,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from figuring.fields import SIGNED, Field
-from figuring.layout import Margins, Sheet
+from figuring.layout import LARGEST_PANEL, WIDTH, Margins, Sheet
 from figuring.panels import REFERENCE_COLOURS, Look, draw_panel, reference_colours
-from figuring.views import Slice, place, plane_of, view_of
+from figuring.views import Slice, View, place, plane_of, view_of
 from reporting.references import Curves, corners_at
 from reporting.runs import NoResults, Run, labels
 
@@ -31,6 +31,8 @@ class Strip:
     references: Sequence[Curves] = ()
     corners: bool = False
     cut: Slice | None = None
+    across: int = MOST_IN_A_ROW  # panels, of one run; one alone is as wide as the page
+    part: View | None = None  # what is shown of the picture plane; without it all that view_of() finds
 
 
 @dataclass(frozen=True)
@@ -50,8 +52,10 @@ def draw_strip(strip: Strip) -> Figure:
     cells = [cell for row in rows for cell in row]
     norm, extend = scale(strip.field, [(cell.run, cell.index) for cell in cells if cell.index is not None], strip.cut)
     look = Look(strip.field, norm, strip.cut, strip.references, strip.corners)
-    views = {id(run): view_of(run, _in_the_box_of(run, strip, cells), strip.cut) for run in strip.runs}
-    sheet = Sheet([[views[id(cell.run)] for cell in row] for row in rows], _margins(strip, rows))
+    views = {id(run): strip.part or view_of(run, _in_the_box_of(run, strip, cells), strip.cut)
+             for run in strip.runs}
+    sheet = Sheet([[views[id(cell.run)] for cell in row] for row in rows], _margins(strip, rows),
+                  (WIDTH, LARGEST_PANEL[1]) if strip.across == 1 else LARGEST_PANEL)
     for row, axes in zip(rows, sheet.panels):
         for cell, panel in zip(row, axes):
             draw_panel(panel, look, cell.run, cell.index, cell.time, views[id(cell.run)])
@@ -87,7 +91,7 @@ def _rows(strip: Strip) -> list[list[Cell]]:
     cells = [[Cell(run, time, index_at(run, time)) for time in strip.times] for run in strip.runs]
     if len(cells) > 1:
         return cells
-    count = -(-len(strip.times) // MOST_IN_A_ROW)
+    count = -(-len(strip.times) // strip.across)
     across = -(-len(strip.times) // count)
     return [cells[0][k:k + across] for k in range(0, len(strip.times), across)]
 
