@@ -71,8 +71,9 @@ def _liquid_table(comparison: Comparison, names: list[str]) -> str:
     rows = [[name, f"{np.nanmean(shares):.4f}", f"{np.nanmax(shares):.4f}",
              f"{liquid.times[np.nanargmax(shares)]:.4g}", f"{shares[-1]:.4f}"]
             for name, shares in zip(map(_short, names), liquid.shares.T) if np.isfinite(shares).any()]
+    resolution = f"pixels of {liquid.raster.pixel:.4g} m, B-spline of {liquid.raster.width:.4g} m"
     return (f"Misplaced area S, liquid in one of the two alone over that of {names[-1]}, {len(liquid.times)} frames;\n"
-            f"pixels of {liquid.raster.pixel:.4g} m, B-spline of {liquid.raster.width:.4g} m:\n{aligned([head, *rows])}")
+            f"{resolution}:\n{aligned([head, *rows])}")
 
 
 def _orders_table(figures: list[Figure]) -> str:
