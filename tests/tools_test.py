@@ -47,6 +47,7 @@ class ClosedPipes(unittest.TestCase):
             self.expect_quiet(sys.executable, TOOLS / tool, "--help")
         self.expect_quiet(sys.executable, TOOLS / "piston", "--height", "0.04", "--period", "1.57", "--depth", "0.4")
         self.expect_quiet(sys.executable, "-P", "-B", "-m", "figuring", "--help")
+        self.expect_quiet(sys.executable, "-P", "-B", "-m", "comparing", "--help")
         for tool in ("benchmarking", "hard_cases", "validation"):
             self.expect_quiet(sys.executable, "-B", TOOLS / tool, "--list")
             self.expect_quiet(sys.executable, "-B", TOOLS / tool, "--help")

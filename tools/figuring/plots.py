@@ -24,8 +24,8 @@ def draw_history(runs: list[Run], width: float = 10.0, across: int = 3) -> Figur
         return None
     down = -(-len(shown) // across)
     titles = [_title(panel, width / across - BESIDE_TITLE) for panel in shown]
-    figure = _page(runs, width, 1.9 * down + 0.2 + sum(0.15 * max(title.count("\n") for title in titles[k:k + across])
-                                                       for k in range(0, len(titles), across)))
+    broken = sum(max(title.count("\n") for title in titles[k:k + across]) for k in range(0, len(titles), across))
+    figure = empty_page(runs, width, 1.9 * down + 0.2 + 0.15 * broken)
     axes = figure.subplots(down, across, squeeze=False).flatten()
     for place, panel, title in zip(axes, shown, titles):
         _draw_panel(place, panel, runs)
@@ -42,7 +42,7 @@ def _title(panel: Plot, width: float) -> str:
     return wrapped(panel.title + (f" [{panel.unit}]" if panel.unit else ""), width, 9.5)
 
 
-def _page(runs: list[Run], width: float, height: float) -> Figure:
+def empty_page(runs: list[Run], width: float, height: float) -> Figure:
     """Empty, with a legend of several runs above, which the height is without. [inch]"""
     figure = Figure(figsize=(width, height))
     FigureCanvasAgg(figure)
@@ -63,7 +63,7 @@ def _draw_panel(axes, panel: Plot, runs: list[Run]) -> None:
                 axes.plot(run.history["time"], values, linestyle=STYLES[j], label=name, linewidth=0.8,
                           color=COLOURS[k if len(runs) > 1 else j])
     quiet(axes)
-    _logarithmic(axes) if panel.logarithmic else _linear(axes)
+    _logarithmic(axes) if panel.logarithmic else linear(axes)
     if any(panel.columns.values()):
         axes.legend(fontsize=8, frameon=False, handlelength=1.8, borderaxespad=0.1)
 
@@ -78,7 +78,7 @@ def _logarithmic(axes) -> None:
     axes.yaxis.set_minor_formatter(NullFormatter())
 
 
-def _linear(axes) -> None:
+def linear(axes) -> None:
     axes.yaxis.set_major_locator(MaxNLocator(4))
     formatter = ScalarFormatter(useOffset=False, useMathText=True)
     formatter.set_powerlimits((-3, 4))
@@ -110,7 +110,7 @@ def draw_systems(runs: list[Run], width: float = 10.0, count: int = 12) -> Figur
 
 def _bars(runs: list[Run], bars: list[list[float]], captions: list[str], width: float) -> Figure:
     captions = [wrapped(caption, 0.4 * width, 8.5, 2) for caption in captions]
-    figure = _page(runs, width, 0.4 + len(captions) * (0.12 + 0.14 * len(runs)))
+    figure = empty_page(runs, width, 0.4 + len(captions) * (0.12 + 0.14 * len(runs)))
     axes = figure.subplots()
     thick = 0.8 / len(runs)
     for k, (run, row) in enumerate(zip(runs, bars)):

@@ -118,7 +118,7 @@ def facts_list(run: Run) -> str:
 
 def comparison_section(runs: list[Run]) -> str:
     """Of several runs: all keys of the scenes that differ, then facts, a column per run, rows that differ marked."""
-    differing = _differing_keys(runs)
+    differing = differing_keys(runs)
     keys = table(["key of the scene", *labels(runs)], differing) if differing else "<p>The scenes are the same.</p>"
     columns = [facts(run) for run in runs]
     names = dict.fromkeys(name for column in columns for name in column)
@@ -137,7 +137,7 @@ def table(head: list[str], rows: list[list[str]], mark: bool = False) -> str:
     return f"<div class=\"wide\"><table>{''.join(lines)}</table></div>"
 
 
-def _differing_keys(runs: list[Run]) -> list[list[str]]:
+def differing_keys(runs: list[Run]) -> list[list[str]]:
     """Pointer and values of every key whose value is not the same in all scenes."""
     flat = [dict(_leaves(run.scene, "")) for run in runs]
     pointers = dict.fromkeys(pointer for leaves in flat for pointer in leaves)
