@@ -83,8 +83,9 @@ double ThinWalls<Dim>::thickness_at(const Shape<Dim>& shape, const Vec<Dim>& x, 
       const double middle = 0.5 * (inside + outside);
       (shape.distance(surface - middle * n) > 0 ? outside : inside) = middle;
     }
-    // At an edge the ray leaves the side that it has come in by.
-    return shape.gradient(far).dot(n) < 0 ? outside : none_thin;
+    // At an edge the ray leaves by the side that it has come in by, or along the other one.
+    constexpr double faces_away = -0.1;
+    return shape.gradient(far).normalized().dot(n) < faces_away ? outside : none_thin;
   }
   return none_thin;
 }

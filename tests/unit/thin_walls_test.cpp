@@ -2,6 +2,7 @@
 
 #include "systems/bodies/thin_walls.hpp"
 #include "systems/shapes/combination.hpp"
+#include "systems/shapes/polygon.hpp"
 #include "systems/shapes/primitives.hpp"
 
 #include <catch2/catch.hpp>
@@ -89,6 +90,15 @@ TEST_CASE("walls thicker than splines reach have no dry side", "[unit]") {
   CHECK_FALSE(ThinWalls<3>::find(wall<3>(0.21), region<3>(), h, degree));
   // Behind this one is the side of the grid.
   CHECK_FALSE(ThinWalls<2>::find(shapes::Box<2>({-3, -3}, {-0.9, 3}), region<2>(), h, degree));
+}
+
+TEST_CASE("corners of thick bodies are no thin walls", "[unit]") {
+  // A weir whose crest ends above its side, in cells of 0.02 m.
+  const shapes::Polygon weir({{0.7, -0.1}, {0.7, 0}, {1, 0.1309}, {1.2, 0.2}, {1.9, 0.2}, {1.9, -0.1}});
+  CHECK_FALSE(ThinWalls<2>::find(weir, {{0, 0}, {3.2, 0.48}}, 0.02, degree));
+  const double angle = GENERATE(0.0, 0.3, 0.7);
+  const Mat<2> turn = Eigen::Rotation2D<double>(angle).toRotationMatrix();
+  CHECK_FALSE(ThinWalls<2>::find(shapes::Box<2>({-0.5, -0.3}, {0.5, 0.4}, turn), region<2>(), h, degree));
 }
 
 TEST_CASE("a thin wall with liquid on both sides has no dry one, and tells where", "[unit]") {
