@@ -109,10 +109,12 @@ void add_run(CLI::App& app, RunOptions& options) {
   app.add_option("SCENE", options.scene, "scene file")->required();
   app.add_option("--out", options.out, "folder for the results; by default out/NAME");
   app.add_option("--threads", options.threads, "threads; by default one per processor")->check(whole_number(1));
-  app.add_option("--set", options.overrides, "replaces a value of the scene, like /fluid/viscosity=1; may be given again")
+  app.add_option("--set", options.overrides,
+                 "replaces a value of the scene, like /fluid/viscosity=1; may be given again")
       ->allow_extra_args(false)
       ->option_text("/pointer=JSON");
-  app.add_option("--steps", options.steps, "stop after that many steps, counted from the start of the whole run")->check(whole_number(0));
+  app.add_option("--steps", options.steps, "stop after that many steps, counted from the start of the whole run")
+      ->check(whole_number(0));
   CLI::Option* resume =
       app.add_flag("--resume", options.resume, "go on from the checkpoint in the folder for the results");
   app.add_flag("--overwrite", options.overwrite, "replace the results of an unfinished run in that folder")
@@ -158,7 +160,8 @@ struct ShowOptions {
 
 /// Adds the commands that run nothing.
 void add_showing(CLI::App& app, ShowOptions& options) {
-  CLI::App* check = app.add_subcommand("check", "check scene files: every problem, or the size, step and memory of the run");
+  CLI::App* check =
+      app.add_subcommand("check", "check scene files: every problem, or the size, step and memory of the run");
   check->add_option("SCENE", options.scenes, "scene files")->required();
   CLI::App* graph = app.add_subcommand("graph", "show the systems that a scene needs, their data and edges");
   graph->add_option("SCENE", options.scene, "scene file")->required();
