@@ -77,6 +77,9 @@ FillOfHats<Dim>::FillOfHats(const Grid<Dim>& grid, const Vec<Dim>& from, const V
     first_[axis] = cell(std::min(from[d], to[d]));
     count_[axis] = std::min(cell(std::max(from[d], to[d])) + 2 - first_[axis], grid.nodes(d));
     nodes *= static_cast<std::size_t>(count_[axis]);
+    if (grid.periodic[axis]) continue;
+    reach_.low[d] = grid.low[d] + (first_[axis] - 1) * grid.spacing;
+    reach_.high[d] = grid.low[d] + (first_[axis] + count_[axis]) * grid.spacing;
   }
   volume_.assign(nodes, 0);
   share_.assign(nodes, 1);
@@ -127,6 +130,7 @@ void FillOfHats<Dim>::for_each_corner(const Vec<Dim>& x, const Use& use) const {
 
 template <int Dim>
 void FillOfHats<Dim>::add(const Vec<Dim>& x_p, double V_p) {
+  if ((x_p.array() < reach_.low.array()).any() || (x_p.array() > reach_.high.array()).any()) return;
   for_each_corner(x_p, [&](std::size_t row, double weight) { volume_[row] += weight * V_p; });
 }
 

@@ -3,6 +3,7 @@
 /// (E137) How full of liquid the places along a line are, and where the surface is on it.
 
 #include "components/grid.hpp"
+#include "systems/shapes/shape.hpp"
 
 #include <functional>
 #include <optional>
@@ -36,6 +37,7 @@ class FillOfHats {
   double open_share(const Vec<Dim>& node, const DistanceToBodies<Dim>& distance) const;
 
   const Grid<Dim>& grid_;
+  Bounds<Dim> reach_;             ///< particles outside of it touch no node of the box; endless along periodic axes [m]
   Index<Dim> first_{};            ///< node
   Index<Dim> count_{};            ///< of nodes
   std::vector<double> volume_;    ///< sum_p V_p N_i [m^d]
