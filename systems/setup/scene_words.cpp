@@ -116,7 +116,7 @@ constexpr auto meanings = std::to_array<Meaning>({
     {Of::key, "rate", "angular_velocity omega spin"},
     // Openings.
     {Of::key, "/openings",
-     "inlet outlet wind inlets outlets inflow outflow emitters emitter patches inlet_outlet jet drain source",
+     "inlet outlet wind inlets outlets inflow outflow emitters emitter inlet_outlet jet drain source",
      R"(a list of {"name": ..., "side": ..., "inflow": ...} or {..., "outflow": ...})"},
     {Of::key, "inflow", "inlet wind emitter jet source fixed_value velocity rate",
      R"({"velocity": [...]} or {"rate": ...})"},

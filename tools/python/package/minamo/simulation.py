@@ -319,6 +319,6 @@ def list(what: str) -> builtins.list[dict[str, Any]]:  # noqa: A001, named as th
 def schema() -> dict:
     """The JSON Schema of scenes, for editors.
 
-        print(minamo.schema()["required"])   # -> ['dimension', 'grid', 'particles', 'time']
+        print(minamo.schema()["required"])   # -> ['dimension', 'grid', 'time']
     """
     return json.loads(_minamo.schema())
