@@ -10,7 +10,7 @@ from reporting.runs import NoResults, Run
 
 # What tells of the grid and the solver, not of the flow.
 TECHNICAL = {"step", "time", "dt", "max_divergence", "active_nodes", "iterations", "residual", "contact_passes",
-             "contact_unsettled"}
+             "contact_unsettled", "particles"}
 
 
 def read_finished(folder: str) -> Run:

@@ -29,14 +29,14 @@ def common_frames(runs: list[Run]) -> list[list[int]]:
 
 def misplaced(runs: list[Run], frames: list[list[int]], raster: Raster) -> Iterator[tuple[float, list[float]]]:
     """By time [s], S of all runs but the last; S is not a number while the last run has no liquid."""
-    bodies = [bodies_of(run) if run.dimension == 2 else [] for run in runs]
+    bodies = [_Open(bodies_of(run) if run.dimension == 2 else [], raster) for run in runs]
     densities = [densities_of(run) for run in runs]
     for indices in frames:
         wet, liquid = [], 0.0
         for run, index, solids, density in zip(runs, indices, bodies, densities):
             frame = run.frame(index)
             volume = volumes(frame, density)
-            wet.append(_wet(frame.position, volume, raster, _open_share(solids, index, raster)))
+            wet.append(_wet(frame.position, volume, raster, solids.share(index)))
             liquid = float(volume.sum())
         area = raster.pixel ** len(raster.counts)
         yield frame.time, [np.count_nonzero(each != wet[-1]) * area / liquid if liquid else np.nan
@@ -60,26 +60,41 @@ def _wet(position: np.ndarray, volume: np.ndarray, raster: Raster, open_share: n
     return (open_share > 0) & (raster.fraction(position, volume) > 0.5 * open_share)
 
 
-def _open_share(bodies: list[Body], index: int, raster: Raster) -> np.ndarray:
+class _Open:
     """Share of the B-spline at pixels that bodies leave open; 0 inside of them."""
-    if not bodies:
-        return np.ones(raster.counts)
-    inside = np.any([inside_of(body, index, raster) for body in bodies], axis=0)
-    return np.where(inside, 0.0, 1 - raster.smooth(inside.astype(float)))
+
+    def __init__(self, bodies: list[Body], raster: Raster):
+        self._bodies, self._raster = bodies, raster
+        self._before: int | None = None  # the frame that the share was last made for
+        self._share = np.ones(raster.counts)
+
+    def share(self, index: int) -> np.ndarray:
+        """In a frame. While no body moves it stays as it is."""
+        if self._bodies and (self._before is None or not self._is_as_before(index)):
+            inside = np.any([inside_of(body, index, self._raster) for body in self._bodies], axis=0)
+            self._share = np.where(inside, 0.0, 1 - self._raster.smooth(inside.astype(float)))
+            self._before = index
+        return self._share
+
+    def _is_as_before(self, index: int) -> bool:
+        return all(np.array_equal(path[index], path[self._before]) for body in self._bodies
+                   for path in (body.position, body.rotation))
 
 
 def inside_of(body: Body, index: int, raster: Raster) -> np.ndarray:
     """Pixels whose middle is in a body of the plane. Loops that go round clockwise are holes in it."""
-    x, y = np.meshgrid(raster.centres(0), raster.centres(1), indexing="ij")
-    middles = np.column_stack([x.ravel(), y.ravel()])
     points = body.points_at(index)
     loops = [points[loop] for loop in body.loops]
     areas = [_area(loop) for loop in loops]
     # Outside of the outermost loop is the body if that loop is a hole.
-    winding = np.full(len(middles), int(max(areas, key=abs) < 0))
+    winding = np.full(raster.counts, int(max(areas, key=abs) < 0))
     for loop, area in zip(loops, areas):
-        winding += int(np.sign(area)) * Path(loop).contains_points(middles).astype(int)
-    return (winding > 0).reshape(raster.counts)
+        near = tuple(slice(*np.searchsorted(raster.centres(axis), (loop[:, axis].min(), loop[:, axis].max())))
+                     for axis in range(2))
+        x, y = np.meshgrid(raster.centres(0)[near[0]], raster.centres(1)[near[1]], indexing="ij")
+        within = Path(loop).contains_points(np.column_stack([x.ravel(), y.ravel()])).reshape(x.shape)
+        winding[near] += int(np.sign(area)) * within
+    return winding > 0
 
 
 def _area(loop: np.ndarray) -> float:
