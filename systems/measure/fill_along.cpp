@@ -14,17 +14,23 @@ double crossing(const FillSample& a, const FillSample& b) {
   return a.at + (a.fill - surface) / (a.fill - b.fill) * (b.at - a.at);
 }
 
+/// The sample at zero; the last one of a line that ends just below.
+auto start_of(std::span<const FillSample> line) {
+  const auto zero = std::find_if(line.begin(), line.end(), [](const FillSample& sample) { return sample.at >= 0; });
+  return zero == line.end() ? std::prev(zero) : zero;
+}
+
 /// Where the surface is, about: the first one above a point in the liquid, or the first one below a point in the air.
 /// None if the line ends before.
 std::optional<double> find_surface(std::span<const FillSample> line) {
   const auto is_wet = [](const FillSample& sample) { return sample.fill >= surface; };
-  const auto zero = std::find_if(line.begin(), line.end(), [](const FillSample& sample) { return sample.at >= 0; });
-  if (zero != line.end() && is_wet(*zero)) {
+  const auto zero = start_of(line);
+  if (is_wet(*zero)) {
     const auto above = std::find_if_not(zero, line.end(), is_wet);
     if (above == line.end()) return {};
     return crossing(*std::prev(above), *above);
   }
-  for (auto above = zero == line.end() ? std::prev(zero) : zero; above != line.begin(); --above) {
+  for (auto above = zero; above != line.begin(); --above) {
     if (is_wet(*std::prev(above))) return crossing(*std::prev(above), *above);
   }
   return {};
@@ -50,9 +56,8 @@ double liquid_between(std::span<const FillSample> line, double from, double midd
 }  // namespace
 
 double height_of_surface(std::span<const FillSample> line, double reach) {
-  const auto zero = std::find_if(line.begin(), line.end(), [](const FillSample& sample) { return sample.at >= 0; });
   const std::optional<double> found = find_surface(line);
-  if (!found && zero != line.end() && zero->fill >= surface) return line.back().at;
+  if (!found && start_of(line)->fill >= surface) return line.back().at;
   // On a line without a surface there is a film at its low end, or nothing.
   const double middle = found.value_or(line.front().at);
   const double from = std::max(line.front().at, middle - reach);

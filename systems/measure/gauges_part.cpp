@@ -46,6 +46,9 @@ void read_gauge(Input& input, Scene& scene, Gauges<Dim>& gauges) {
     return;
   }
   gauge.along.stableNormalize();
+  // sin(pi) is zero but for rounding, and would end the line at a wall.
+  constexpr double rounding = 1e-12;
+  gauge.along = (gauge.along.array().abs() < rounding).select(Vec<Dim>::Zero(), gauge.along);
   gauges.gauges.push_back(std::move(gauge));
 }
 

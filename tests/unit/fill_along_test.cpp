@@ -50,3 +50,8 @@ TEST_CASE("a film on the bed has its thickness, and a dry bed is the surface", "
 TEST_CASE("liquid up to the end of the line ends there", "[unit]") {
   CHECK(height_of_surface(line_of([](double) { return 1.0; }), 0.3) == 1);
 }
+
+TEST_CASE("a line that ends just below its zero in the liquid ends there", "[unit]") {
+  const std::vector<FillSample> line{{-0.2, 1}, {-0.1, 1}, {-1e-17, 1}};
+  CHECK(height_of_surface(line, 0.1) == -1e-17);
+}
