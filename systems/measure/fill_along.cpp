@@ -1,5 +1,7 @@
 #include "systems/measure/fill_along.hpp"
 
+#include "systems/bodies/cut.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -73,7 +75,6 @@ template <int Dim>
 FillOfHats<Dim>::FillOfHats(const Grid<Dim>& grid, const Vec<Dim>& from, const Vec<Dim>& to,
                             const DistanceToBodies<Dim>& distance)
     : grid_(grid) {
-  std::size_t nodes = 1;
   for (int d = 0; d < Dim; ++d) {
     const auto axis = static_cast<std::size_t>(d);
     const auto cell = [&](double x) {
@@ -81,21 +82,18 @@ FillOfHats<Dim>::FillOfHats(const Grid<Dim>& grid, const Vec<Dim>& from, const V
     };
     first_[axis] = cell(std::min(from[d], to[d]));
     count_[axis] = std::min(cell(std::max(from[d], to[d])) + 2 - first_[axis], grid.nodes(d));
-    nodes *= static_cast<std::size_t>(count_[axis]);
     if (grid.periodic[axis]) continue;
     reach_.low[d] = grid.low[d] + (first_[axis] - 1) * grid.spacing;
     reach_.high[d] = grid.low[d] + (first_[axis] + count_[axis]) * grid.spacing;
   }
+  const std::size_t nodes = rows_in<Dim>(count_);
   volume_.assign(nodes, 0);
   share_.assign(nodes, 1);
   integral_.assign(nodes, std::pow(grid.spacing, Dim));
   for (std::size_t row = 0; row < nodes; ++row) {
-    Index<Dim> node;
-    std::size_t rest = row;
+    Index<Dim> node = index_in<Dim>(count_, row);
     for (std::size_t d = 0; d < Dim; ++d) {
-      const auto count = static_cast<std::size_t>(count_[d]);
-      node[d] = first_[d] + static_cast<int>(rest % count);
-      rest /= count;
+      node[d] += first_[d];
       if (!grid.periodic[d] && (node[d] == 0 || node[d] == grid.cells[d])) integral_[row] /= 2;
     }
     if (distance) share_[row] = open_share(grid.position(node), distance);
@@ -159,11 +157,9 @@ double FillOfHats<Dim>::open_share(const Vec<Dim>& node, const DistanceToBodies<
   // Midpoints of pieces, a side of which cuts a piece as if it were across it.
   constexpr int pieces = 8;
   const double piece = 2 * h / pieces;
-  std::size_t points = 1;
-  for (int d = 0; d < Dim; ++d) points *= pieces;
   double open = 0;
   double all = 0;
-  for (std::size_t k = 0; k < points; ++k) {
+  for (std::size_t k = 0; k < power(pieces, Dim); ++k) {
     Vec<Dim> x = node;
     double weight = 1;
     std::size_t rest = k;
