@@ -76,23 +76,79 @@ struct PressureSums : Column<Staggered, std::array<double, 2 * static_cast<std::
 
 }  // namespace face
 
-/// The liquid continued into bodies: multipliers that bodies cut, whether particles touch them or not.
+/// How what bodies leave open hangs together around a multiplier: the parts of it are the sides of a wall.
+template <int Dim>
+struct SidesAround {
+  static constexpr int reach = 2;  ///< steps of the grid along every axis
+  static constexpr int across = 2 * reach + 1;
+  static constexpr std::size_t sites = power(across, Dim);
+
+  std::array<std::uint8_t, sites> label{};  ///< 1 + number of the side that a site is on, x fastest; 0: closed
+  std::uint8_t count = 0;
+
+  /// \return none for steps that lead farther
+  static std::optional<std::size_t> place(const Index<Dim>& steps) {
+    std::size_t place = 0;
+    for (std::size_t d = Dim; d-- > 0;) {
+      if (std::abs(steps[d]) > reach) return {};
+      place = across * place + static_cast<std::size_t>(steps[d] + reach);
+    }
+    return place;
+  }
+  static Index<Dim> steps(std::size_t place) {
+    Index<Dim> steps;
+    for (std::size_t d = 0; d < Dim; ++d, place /= across) steps[d] = static_cast<int>(place % across) - reach;
+    return steps;
+  }
+  /// Places up to a step away along every axis, x fastest.
+  static constexpr std::array<std::size_t, power(3, Dim)> places_beside = [] {
+    std::array<std::size_t, power(3, Dim)> places{};
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      std::size_t rest = k;
+      for (std::size_t d = 0, before = 1; d < Dim; ++d, rest /= 3, before *= across)
+        places[k] += before * (rest % 3 + reach - 1);
+    }
+    return places;
+  }();
+  std::uint8_t at(const Index<Dim>& steps) const {
+    const auto found = place(steps);
+    return found ? label[*found] : std::uint8_t{0};
+  }
+  bool is_parted() const { return count > 1; }
+};
+
+/// The liquid continued into bodies: multipliers that bodies cut, whether particles touch them or not. Where a wall
+/// has two sides nearby there is a version for each of them, one after the other.
 template <int Dim>
 struct ContinuedLiquid {
   SiteRows<Dim> rows;  ///< by site of the multiplier
   std::vector<Index<Dim>> site;
-  std::vector<double> psi;   ///< in units of h
-  std::vector<double> fill;  ///< phi_l of the whole spline [1]
+  std::vector<SidesAround<Dim>> sides;  ///< by multiplier
+  std::vector<std::uint32_t> first;     ///< first version, by multiplier
+  bool any_parted = false;              ///< whether any has two
+  std::vector<double> psi;              ///< by version, in units of h
+  std::vector<double> fill;             ///< by version, phi_l of the whole spline [1]
   static constexpr ComponentInfo info{"continued_liquid", "psi_l", "1", Lifetime::scratch};
+
+  /// How many versions a multiplier has.
+  std::size_t versions(std::size_t c) const { return sides[c].is_parted() ? sides[c].count : 1; }
+  /// The version for the side that an open site is on, if it tells one.
+  /// \param steps  from the multiplier to that site
+  std::optional<std::size_t> version(std::size_t c, const Index<Dim>& steps) const {
+    if (!sides[c].is_parted()) return first[c];
+    const std::uint8_t label = sides[c].at(steps);
+    return label > 0 ? std::optional<std::size_t>(first[c] + label - 1U) : std::nullopt;
+  }
 };
 
 /// The cells that the surface passes, and the integrals of splines over the liquid in them, in units of h^d.
 template <int Dim>
 struct SurfaceCells {
-  SiteRows<Dim> rows;               ///< by low corner
-  std::vector<Index<Dim>> cell;     ///< low corner
-  std::vector<double> multipliers;  ///< of N_l, K^d a cell, x fastest
-  std::vector<double> faces;        ///< of N_f, d (K + 1) K^(d-1) a cell, by direction, x fastest
+  SiteRows<Dim> rows;                   ///< by low corner
+  std::vector<Index<Dim>> cell;         ///< low corner
+  std::vector<std::uint8_t> is_parted;  ///< by a wall: what is liquid in it depends on the side
+  std::vector<double> multipliers;      ///< of N_l, K^d a cell, x fastest
+  std::vector<double> faces;            ///< of N_f, d (K + 1) K^(d-1) a cell, by direction, x fastest
   static constexpr ComponentInfo info{"surface_cells", "", "1", Lifetime::scratch};
 };
 

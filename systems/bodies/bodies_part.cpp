@@ -20,6 +20,7 @@
 #include "systems/bodies/read_free.hpp"
 #include "systems/bodies/repeats.hpp"
 #include "systems/bodies/room.hpp"
+#include "systems/bodies/sides_around.hpp"
 #include "systems/bodies/solid.hpp"
 #include "systems/bodies/solid_parts.hpp"
 #include "systems/bodies/wall_flux.hpp"
@@ -226,8 +227,9 @@ void seed_bodies(BodySet<Dim> set, World& world) {
       if (body.shape->bounds().finite()) body.surface = surface_points<Dim>(*body.shape, point_spacing * grid.spacing);
     }
   }
-  world.resource<BodySet<Dim>>() = set;
   world.resource<BodyOutlines<Dim>>() = outlines_of<Dim>(set, {grid.low, grid.high}, grid.spacing);
+  set.parts_liquid = parts_liquid<Dim>(set, world.resource<BodyOutlines<Dim>>(), grid);
+  world.resource<BodySet<Dim>>() = set;
   world.resource<StaticCut<Dim>>() = cut_by_bodies_at_rest<Dim>(set, grid, world.resource<Splines<Dim>>());
   if (set.rubs)
     world.resource<FrictionAtRest<Dim>>() = friction_at_rest<Dim>(set, grid, world.resource<Splines<Dim>>());

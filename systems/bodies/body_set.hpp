@@ -88,7 +88,8 @@ struct BodyScene {
 template <int Dim>
 struct BodySet {
   std::vector<BodyScene<Dim>> bodies;
-  bool rubs = false;  ///< whether friction is found beside the bodies (E110)
+  bool rubs = false;          ///< whether friction is found beside the bodies (E110)
+  bool parts_liquid = false;  ///< whether a wall is so thin that one of its sides could tell of the liquid on the other
   static constexpr ComponentInfo info{"bodies", "", "", Lifetime::constant};
 
   bool any_moves() const {

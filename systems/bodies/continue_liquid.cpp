@@ -1,7 +1,9 @@
 #include "systems/bodies/continue_liquid.hpp"
 
+#include "systems/bodies/sides_around.hpp"
 #include "systems/conforming/sites_around.hpp"
 #include "systems/liquid/liquid_surface.hpp"
+#include "systems/liquid/side_of_face.hpp"
 #include "systems/liquid/spline_fraction.hpp"
 #include "systems/liquid/spread.hpp"
 
@@ -14,8 +16,6 @@ using liquid::is_cut;
 
 namespace {
 
-/// Steps of the grid within which multipliers tell of one that a body cuts.
-constexpr int steps_around = 2;
 /// What is farther than so many times that from those that no body cuts is not told, and keeps its particles.
 constexpr int continued_passes = 3;
 /// Open share of multipliers from which on their own particles tell where the surface is.
@@ -39,6 +39,58 @@ struct Known {
   Vec<Dim> normal;
 };
 
+/// The side of a wall from which one looks at multipliers around: that of a version of a continued one, or of one that
+/// no body cuts.
+template <int Dim>
+class View {
+ public:
+  using Around = SidesAround<Dim>;
+
+  View(const Splines<Dim>& splines, const ContinuedLiquid<Dim>& continued, const Index<Dim>& from)
+      : splines_(splines), continued_(continued), from_(from) {}
+  /// \param side  of the multiplier c from which one looks; all that is open if it has one at most
+  View(const Splines<Dim>& splines, const ContinuedLiquid<Dim>& continued, std::size_t c, std::size_t side)
+      : View(splines, continued, continued.site[c]) {
+    around_ = &continued.sides[c];
+    label_ = static_cast<std::uint8_t>(around_->is_parted() ? side + 1 : 0);
+  }
+
+  /// Whether a multiplier that no body cuts is on this side.
+  bool sees(const Index<Dim>& site) const { return label_ == 0 || around_->at(splines_.steps(from_, site)) == label_; }
+  /// The version of a continued multiplier on this side.
+  std::optional<std::size_t> version(std::size_t c) const {
+    const Index<Dim> to_it = splines_.steps(from_, continued_.site[c]);
+    if (around_ == nullptr) return continued_.version(c, negative(to_it));
+    const Around& other = continued_.sides[c];
+    if (around_->count == 0 || other.count == 0) return continued_.first[c];
+    if (label_ == 0 && !other.is_parted() && other.at({}) != 0) return continued_.first[c];
+    // They are on one side if they have something open in common; on no one side if with two of them.
+    std::optional<std::size_t> common;
+    for (std::size_t k = 0; k < Around::sites; ++k) {
+      if (around_->label[k] == 0 || (label_ != 0 && around_->label[k] != label_)) continue;
+      const auto found = other.at(difference(Around::steps(k), to_it));
+      if (found == 0) continue;
+      const std::size_t version = continued_.first[c] + (other.is_parted() ? found - 1U : 0U);
+      if (common && *common != version) return {};
+      common = version;
+    }
+    return common;
+  }
+
+ private:
+  static Index<Dim> difference(Index<Dim> a, const Index<Dim>& b) {
+    for (std::size_t d = 0; d < Dim; ++d) a[d] -= b[d];
+    return a;
+  }
+  static Index<Dim> negative(const Index<Dim>& a) { return difference(Index<Dim>{}, a); }
+
+  const Splines<Dim>& splines_;
+  const ContinuedLiquid<Dim>& continued_;
+  Index<Dim> from_;
+  const Around* around_ = nullptr;
+  std::uint8_t label_ = 0;  ///< 0: all that is open
+};
+
 /// Tells how the liquid goes on where a body cuts it.
 template <int Dim>
 class Continuation {
@@ -52,91 +104,134 @@ class Continuation {
     std::span<const double> psi;
     std::span<const Vec<Dim>> normal;
   };
-  explicit Continuation(const Columns& of) : of_(of) {}
-
-  using Finder = typename SiteRows<Dim>::Finder;
-
-  std::optional<Known<Dim>> known(const Index<Dim>& site, Finder& find, Finder& find_told) const {
-    if (!of_.splines.has_multiplier(site)) return {};
-    if (const auto row = find(site)) {
-      if (of_.open[*row] == 1) return Known<Dim>{site, of_.psi[*row], of_.fill[*row], of_.normal[*row]};
+  /// \param wanted  multipliers and their sides
+  Continuation(const Columns& of, const ContinuedLiquid<Dim>& wanted)
+      : of_(of), wanted_(wanted), told_(wanted.psi.size()), is_told_(wanted.psi.size(), 0) {
+    for (std::size_t c = 0; c < wanted.site.size(); ++c) {
+      for (std::size_t side = 0; side < wanted.versions(c); ++side) of_version_.push_back({c, side});
     }
-    const auto found = find_told(site);
-    return found && is_told_[*found] != 0 ? std::optional(told_[*found]) : std::nullopt;
+    tellers_.resize(of_version_.size());
+    for_each_row(of_version_.size(), [&](std::size_t v) {
+      const auto [c, side] = of_version_[v];
+      const View<Dim> view(of.splines, wanted, c, side);
+      Finder find(of.rows);
+      Finder find_told(wanted.rows);
+      for_each_site_around<Dim, Around::reach>(of.splines, wanted.site[c], [&](const auto& site, const auto& steps) {
+        tellers_[v][*Around::place(steps)] = teller(site, view, find, find_told);
+      });
+    });
   }
 
   /// First those that their particles tell of too, then behind them, then what is far from the surface.
   /// \param own  corrects what is continued by what particles tell; false if they tell nothing
   template <class Own>
-  void tell(const ContinuedLiquid<Dim>& wanted, const Own& own) {
-    found_ = wanted.rows;
-    told_.resize(wanted.site.size());
-    is_told_.assign(wanted.site.size(), 0);
+  void tell(const Own& own) {
     for (const From from : {From::planes_and_particles, From::planes, From::most_around}) {
       bool has_news = true;
-      for (int pass = 0; pass < continued_passes && has_news; ++pass) has_news = tell_once(wanted, own, from);
+      for (int pass = 0; pass < continued_passes && has_news; ++pass) has_news = tell_once(own, from);
     }
   }
-  const Known<Dim>* told(std::size_t t) const { return is_told_[t] != 0 ? &told_[t] : nullptr; }
+  const Known<Dim>* told(std::size_t version) const { return is_told_[version] != 0 ? &told_[version] : nullptr; }
 
  private:
   enum class From : std::uint8_t { planes_and_particles, planes, most_around };
+  using Finder = typename SiteRows<Dim>::Finder;
+  using Around = SidesAround<Dim>;
+  /// A multiplier that may tell: the row of one that no body cuts, or a version of another one.
+  struct Teller {
+    std::int32_t row = staggered::none;
+    std::int32_t version = staggered::none;
+  };
+
+  Teller teller(const Index<Dim>& site, const View<Dim>& view, Finder& find, Finder& find_told) const {
+    Teller teller;
+    if (!of_.splines.has_multiplier(site)) return teller;
+    const auto row = find(site);
+    if (row && of_.open[*row] == 1) {
+      if (view.sees(site)) teller.row = static_cast<std::int32_t>(*row);
+    } else if (const auto c = find_told(site)) {
+      if (const auto version = view.version(*c)) teller.version = static_cast<std::int32_t>(*version);
+    }
+    return teller;
+  }
+  std::optional<Known<Dim>> known(const Teller& teller) const {
+    if (teller.row != staggered::none) {
+      const auto i = static_cast<std::size_t>(teller.row);
+      return Known<Dim>{of_.site[i], of_.psi[i], of_.fill[i], of_.normal[i]};
+    }
+    if (teller.version == staggered::none) return {};
+    const Known<Dim>* told_before = told(static_cast<std::size_t>(teller.version));
+    return told_before != nullptr ? std::optional(*told_before) : std::nullopt;
+  }
 
   /// \return whether any was told
   template <class Own>
-  bool tell_once(const ContinuedLiquid<Dim>& wanted, const Own& own, From from) {
+  bool tell_once(const Own& own, From from) {
     std::vector<std::optional<Known<Dim>>> news(told_.size());
-    for_each_row(news.size(), [&](std::size_t t) {
-      if (is_told_[t] != 0) return;
-      news[t] = continued(wanted.site[t], from != From::most_around);
-      if (news[t] && !own(*news[t]) && from == From::planes_and_particles) news[t].reset();
+    for_each_row(news.size(), [&](std::size_t v) {
+      if (is_told_[v] != 0) return;
+      const auto [c, side] = of_version_[v];
+      news[v] = continued(wanted_.site[c], tellers_[v], from != From::most_around);
+      if (news[v] && !own(*news[v], c, side) && from == From::planes_and_particles) news[v].reset();
     });
     bool any = false;
-    for (std::size_t t = 0; t < news.size(); ++t) {
-      if (!news[t]) continue;
-      told_[t] = *news[t];
-      is_told_[t] = 1;
+    for (std::size_t v = 0; v < news.size(); ++v) {
+      if (!news[v]) continue;
+      told_[v] = *news[v];
+      is_told_[v] = 1;
       any = true;
     }
     return any;
   }
 
   /// Whether the surface passes near, and it is no noise of particles in the depth.
-  bool is_at_surface(const Known<Dim>& k, Finder& find, Finder& find_told) const {
+  bool is_at_surface(const Known<Dim>& k, const Teller& teller_of_k) const {
     if (!is_cut(k.fill) || k.normal.squaredNorm() == 0) return false;
     bool any_other = false;
-    for_each_site_around<Dim, 1>(of_.splines, k.site, [&](const Index<Dim>& site, const auto&) {
-      const auto other = known(site, find, find_told);
+    const auto look_at = [&](const Teller& beside) {
+      const auto other = known(beside);
       any_other = any_other || (other && (other->fill < 0.5) != (k.fill < 0.5));
+    };
+    if (teller_of_k.version != staggered::none) {
+      const auto& tellers = tellers_[static_cast<std::size_t>(teller_of_k.version)];
+      for (const std::size_t place : Around::places_beside) look_at(tellers[place]);
+      return any_other;
+    }
+    const View<Dim> view(of_.splines, wanted_, k.site);
+    Finder find(of_.rows);
+    Finder find_told(wanted_.rows);
+    for_each_site_around<Dim, 1>(of_.splines, k.site, [&](const Index<Dim>& site, const auto&) {
+      look_at(teller(site, view, find, find_told));
     });
     return any_other;
   }
 
-  std::optional<Known<Dim>> continued(const Index<Dim>& site, bool by_planes) const {
-    Finder find(of_.rows);
-    Finder find_told(found_);
+  std::optional<Known<Dim>> continued(const Index<Dim>& site, const std::array<Teller, Around::sites>& tellers,
+                                      bool by_planes) const {
     double weights = 0;
     double distance = 0;
     Vec<Dim> direction = Vec<Dim>::Zero();
     double votes = 0;
     double full = 0;
-    for_each_site_around<Dim, steps_around>(of_.splines, site, [&](const Index<Dim>& other, const Index<Dim>& steps) {
-      const auto k = known(other, find, find_told);
-      if (!k) return;
+    for (std::size_t place = 0; place < tellers.size(); ++place) {
+      const auto found = known(tellers[place]);
+      if (!found) continue;
+      const Known<Dim>& k = *found;
+      const Index<Dim> steps = Around::steps(place);
       Vec<Dim> x;
       for (std::size_t d = 0; d < Dim; ++d) {
         const SplineAxis& axis = of_.splines.axis[d];
-        x[static_cast<Eigen::Index>(d)] = axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(other[d]);
+        x[static_cast<Eigen::Index>(d)] = axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(k.site[d]);
       }
       const double near = 1 / x.squaredNorm();
       votes += near;
-      full += near * (k->fill < 0.5 ? -1 : 1);
-      if (!is_at_surface(*k, find, find_told)) return;
-      const double weight = 4 * k->fill * (1 - k->fill) * near;
+      full += near * (k.fill < 0.5 ? -1 : 1);
+      if (!is_at_surface(k, tellers[place])) continue;
+      const double weight = 4 * k.fill * (1 - k.fill) * near;
       weights += weight;
-      distance += weight * (k->psi + k->normal.dot(x));
-      direction += weight * k->normal;
-    });
+      distance += weight * (k.psi + k.normal.dot(x));
+      direction += weight * k.normal;
+    }
     constexpr double none = 1e-6;
     if (weights < none || direction.norm() < agreeing * weights) {
       if (by_planes || std::abs(full) <= decisive * votes) return {};
@@ -149,8 +244,14 @@ class Continuation {
                       SplineFraction<Dim>(of_.splines, site, normal)(psi).share, normal};
   }
 
+  struct Version {
+    std::size_t c;
+    std::size_t side;
+  };
   const Columns& of_;
-  SiteRows<Dim> found_;
+  const ContinuedLiquid<Dim>& wanted_;
+  std::vector<Version> of_version_;
+  std::vector<std::array<Teller, Around::sites>> tellers_;  ///< by version and SidesAround::place()
   std::vector<Known<Dim>> told_;
   std::vector<std::uint8_t> is_told_;
 };
@@ -182,8 +283,9 @@ template <int Dim>
 void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
                           std::span<const Index<Dim>> site,
                           std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
-                          std::span<const double> open, std::span<const Vec<Dim>> share, const SiteCuts<Dim>& cuts,
+                          std::span<const Vec<Dim>> share, const OpenSites<Dim>& open_sites,
                           ContinuedLiquid<Dim>& continued) {
+  const std::span<const double> open = open_sites.open;
   // Most rows have no body near, and all others around: only those next to some that have not are looked at.
   const RowsOfSites<Dim> all{splines, rows, site, neighbour};
   const auto may_lack = [&](std::size_t i) { return open[i] < 1 || all.lacks_one_beside(i); };
@@ -196,16 +298,32 @@ void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>
     for (std::size_t d = 0; d < Dim; ++d) {
       if (share[i][static_cast<Eigen::Index>(d)] == 0) continue;
       for_each_multiplier_of_face<Dim>(splines, site[i], d, [&](const Index<Dim>& other) {
-        const auto row = find(other);
-        if ((row ? open[*row] : cuts.at(other).share) < 1) continued.rows.add(other);
+        if (open_sites.at(other, find).share < 1) continued.rows.add(other);
       });
     }
   }
-  const std::size_t count = continued.rows.number_rows();
-  continued.site.resize(count);
-  continued.psi.assign(count, -farthest);
-  continued.fill.assign(count, 0);
+  continued.site.resize(continued.rows.number_rows());
   continued.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { continued.site[c] = at; });
+}
+
+/// The sides around them, and place for a version of each.
+/// \param has_sides  else all that is open hangs together
+template <int Dim>
+void find_versions(const OpenSites<Dim>& open, bool has_sides, ContinuedLiquid<Dim>& continued) {
+  const std::size_t count = continued.site.size();
+  continued.sides.assign(count, {});
+  if (has_sides)
+    for_each_row(count, [&](std::size_t c) { continued.sides[c] = find_sides<Dim>(open, continued.site[c]); });
+  continued.first.resize(count);
+  continued.any_parted = false;
+  std::size_t versions = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    continued.first[c] = static_cast<std::uint32_t>(versions);
+    continued.any_parted = continued.any_parted || continued.sides[c].is_parted();
+    versions += continued.versions(c);
+  }
+  continued.psi.assign(versions, -farthest);
+  continued.fill.assign(versions, 0);
 }
 
 }  // namespace
@@ -216,21 +334,25 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
                                      Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                                      Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
-                                     Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                                     Update<face::ExactShare<Dim>> share, Update<multiplier::SurfaceDistance> psi,
+                                     Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l,
+                                     Read<multiplier::Capacity> capacity, Update<face::ExactShare<Dim>> share,
+                                     Update<multiplier::SurfaceDistance> psi,
                                      Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
                                      Write<ContinuedLiquid<Dim>> continued) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
-  list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(), open.span(), share.span(), cuts,
-                            *continued);
+  const OpenSites<Dim> open_sites{*splines, *rows, open.span(), open_face.span(), cuts};
+  list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(), share.span(), open_sites, *continued);
+  find_versions<Dim>(open_sites, set->parts_liquid, *continued);
   const typename Continuation<Dim>::Columns columns{*splines,    *rows,      site.span(), open.span(),
                                                     fill.span(), psi.span(), n_l.span()};
-  Continuation<Dim> continuation(columns);
+  Continuation<Dim> continuation(columns, *continued);
+  constexpr Index<Dim> here{};
   // The plane in the continued direction below which the open part holds what was measured.
-  continuation.tell(*continued, [&](Known<Dim>& known) {
+  continuation.tell([&](Known<Dim>& known, std::size_t c, std::size_t side) {
     const auto row = rows->find(known.site);
     if (!row || open[*row] < telling_open || v_l[*row] == 0) return false;
+    if (continued->version(c, here) != std::optional<std::size_t>(continued->first[c] + side)) return false;
     if (!is_cut(known.fill)) return true;
     const double measured = v_l[*row] / capacity[*row] * open[*row];
     for (int k = 0; k < own_corrections; ++k) {
@@ -243,26 +365,33 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     return true;
   });
   bool is_all_told = true;
-  for (std::size_t c = 0; c < continued->site.size(); ++c) {
-    const Known<Dim>* known = continuation.told(c);
+  for (std::size_t v = 0; v < continued->psi.size(); ++v) {
+    const Known<Dim>* known = continuation.told(v);
     is_all_told = is_all_told && known != nullptr;
     if (known == nullptr) continue;
-    continued->psi[c] = known->psi;
-    continued->fill[c] = known->fill;
-    const auto row = rows->find(known->site);
-    if (!row) continue;
+    continued->psi[v] = known->psi;
+    continued->fill[v] = known->fill;
+  }
+  for (std::size_t c = 0; c < continued->site.size(); ++c) {
+    const auto version = continued->version(c, here);
+    const Known<Dim>* known = version ? continuation.told(*version) : nullptr;
+    const auto row = rows->find(continued->site[c]);
+    if (known == nullptr || !row) continue;
     psi[*row] = known->psi;
     n_l[*row] = known->normal;
     if (fill[*row] > 0) fill[*row] = known->fill;  // without particles not all of its faces have rows
   }
-  if (is_all_told) return;
+  if (is_all_told && !continued->any_parted) return;
   for_each_row(site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       double& of_face = share[i][static_cast<Eigen::Index>(d)];
       if (of_face == 0) continue;
+      const Index<Dim> from = side_of_face<Dim>(*splines, site.span(), neighbour.span(), open.span(), i, d);
       for_each_multiplier_of_face<Dim>(*splines, site[i], d, [&](const Index<Dim>& other) {
         const auto c = continued->rows.find(other);
-        if (c && continuation.told(*c) == nullptr) of_face = 0;
+        if (!c) return;
+        const auto version = continued->version(*c, splines->steps(other, from));
+        if (!version || continuation.told(*version) == nullptr) of_face = 0;
       });
     }
   });

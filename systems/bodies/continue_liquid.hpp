@@ -17,7 +17,7 @@ struct ContinueLiquid {
                   Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
-                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                  Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Update<face::ExactShare<Dim>> share, Update<multiplier::SurfaceDistance> psi,
                   Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
                   Write<ContinuedLiquid<Dim>> continued) const;

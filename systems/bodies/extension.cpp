@@ -1,6 +1,6 @@
 #include "systems/bodies/extension.hpp"
 
-#include "systems/bodies/cut.hpp"
+#include "systems/bodies/sides_around.hpp"
 #include "systems/conforming/friction_matrices.hpp"
 #include "systems/conforming/sites_around.hpp"
 #include "systems/conforming/support.hpp"
@@ -29,6 +29,29 @@ struct Around {
   std::array<double, power(rows_across, Dim)> filled;    ///< what of the cells around is liquid [1]
   std::size_t count = 0;
 };
+
+/// Leaves the faces on the nearer side of a wall. Where both are equally near particles of both take from the face, and
+/// none is left out.
+template <int Dim>
+void keep_nearer_side(Around<Dim>& around, const SidesAroundFace<Dim>& sides, std::span<const Index<Dim>> steps) {
+  if (!sides.is_parted()) return;
+  constexpr double equally = 0.25;                           // [h]
+  std::array<double, power(rows_across + 1, Dim)> distance;  // by label
+  distance.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t k = 0; k < around.count; ++k) {
+    double& of_side = distance[sides.at(steps[k])];
+    of_side = std::min(of_side, around.offset[k].norm());
+  }
+  const double nearest = *std::min_element(distance.begin(), distance.end());
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < around.count; ++k) {
+    if (distance[sides.at(steps[k])] > nearest + equally) continue;
+    around.row[left] = around.row[k];
+    around.filled[left] = around.filled[k];
+    around.offset[left++] = around.offset[k];
+  }
+  around.count = left;
+}
 
 /// Weights of the value at the origin of the linear function nearest to values at the offsets, those near by counting
 /// most; of their mean where they do not lie around enough for slopes.
@@ -160,16 +183,23 @@ struct Sticks {
 }  // namespace
 
 template <int Dim>
-void FindFaceExtension<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<BodySet<Dim>> set,
-    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells,
-    Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
-    Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site, Read<face::Held> held,
-    Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume, Write<FaceExtension<Dim>> extension) const {
+void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                        Read<StaggeredIndex<Dim>> rows, Read<BodySet<Dim>> set,
+                                        Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                                        Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                                        Read<GridCells<Dim>> cells, Read<CellSites> cell_sites,
+                                        Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
+                                        Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site,
+                                        Read<face::Held> held, Read<face::Open<Dim>> open,
+                                        Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+                                        Write<FaceExtension<Dim>> extension) const {
   constexpr std::size_t most = power(rows_across, Dim);
   const SitePlaces<Dim> places(*grid, *splines);
   const Sticks<Dim> sticks{*set, {*set, c_b.span(), R_b.span()}};
   const bool any_sticks = set->any_sticks();
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
+  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
+  const OpenSites<Dim> open_sites{*splines, *rows, share.span(), open.span(), cuts};
   std::vector<std::uint8_t> is_open(site.size());
   for_each_row(site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -212,6 +242,7 @@ void FindFaceExtension<Dim>::operator()(
     const Index<Dim> own = site[target.row];
     const Vec<Dim> x = places.face(own, direction);
     Around<Dim> around;
+    std::array<Index<Dim>, most> steps_to;
     for_each_row_around<Dim, rings>(*splines, *rows, own, [&](std::uint32_t row, const auto& at, const auto& steps) {
       if (!splines->has_face(at, direction) || (is_open[row] & (1U << direction)) == 0) return;
       // Faces without liquid have rows above it alone, and velocities that mean nothing.
@@ -222,10 +253,12 @@ void FindFaceExtension<Dim>::operator()(
         const auto axis = static_cast<Eigen::Index>(d);
         offset[axis] = splines->axis[d].periodic() ? steps[d] : (y[axis] - x[axis]) / grid->spacing;
       }
+      steps_to[around.count] = steps;
       around.row[around.count] = row;
       around.filled[around.count] = filled[row][target.direction];
       around.offset[around.count++] = offset;
     });
+    if (set->parts_liquid && around.count > 1) keep_nearer_side<Dim>(around, {open_sites, own, direction}, steps_to);
     const auto weight = std::span(extension->weight).subspan(target.begin, most);
     std::copy_n(around.row.begin(), around.count,
                 extension->source.begin() + static_cast<std::ptrdiff_t>(target.begin));

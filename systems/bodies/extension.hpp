@@ -19,6 +19,7 @@
 #include "engine/clock.hpp"
 #include "engine/system.hpp"
 #include "systems/bodies/body_set.hpp"
+#include "systems/bodies/cut.hpp"
 #include "systems/conforming/face_extension.hpp"
 #include "systems/conforming/splines.hpp"
 
@@ -32,11 +33,12 @@ template <int Dim>
 struct FindFaceExtension {
   static constexpr std::string_view doc = "(E87) what velocities of closed faces are made of";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                  Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                  Read<GridCells<Dim>> cells, Read<CellSites> cell_sites, Read<particle::Volume> V_p,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Optional<Read<SurfaceTension>> tension,
-                  Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Open<Dim>> open,
-                  Read<face::OpenVolume<Dim>> open_volume, Write<FaceExtension<Dim>> extension) const;
+                  Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells,
+                  Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site, Read<face::Held> held,
+                  Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
+                  Read<multiplier::OpenShare> share, Write<FaceExtension<Dim>> extension) const;
 };
 
 /// (E87) of the velocity at the start of the step.

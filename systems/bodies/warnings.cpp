@@ -240,8 +240,9 @@ std::vector<std::string> warnings_of_thin_walls(const BodySet<Dim>& set, const G
     const auto wet = walls->wet_on_both_sides(shape);
     if (!wet) continue;
     found.push_back(fmt::format(
-        "body \"{}\" is thinner than {} cells and wet on both sides at {}: a cell there has one pressure for "
-        "both, and liquid on different levels gets through; thicker than {:.3g} m, or cells of {:.3g} m",
+        "body \"{}\" is thinner than {} cells and wet on both sides at {}: what moves on one side reaches the "
+        "other, and below one cell liquid on different levels may get through; thicker than {:.3g} m, or cells of "
+        "{:.3g} m",
         set.bodies[b].name, degree, place_text<Dim>(wet->middle), degree * grid.spacing, wet->thickness / degree));
   }
   return found;

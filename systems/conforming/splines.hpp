@@ -142,6 +142,16 @@ struct Splines {
     }
     return site;
   }
+  /// Steps from a site to another, the shorter way around periodic axes.
+  Index<Dim> steps(const Index<Dim>& from, const Index<Dim>& to) const {
+    Index<Dim> steps;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const int count = axis[d].sites();
+      steps[d] = to[d] - from[d];
+      if (axis[d].periodic() && 2 * std::abs(steps[d]) > count) steps[d] -= steps[d] > 0 ? count : -count;
+    }
+    return steps;
+  }
   /// Product of the widths of a multiplier, w_l/h^d. [1]
   double widths(const Index<Dim>& site) const {
     double product = 1;

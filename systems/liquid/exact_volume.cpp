@@ -4,6 +4,7 @@
 #include "systems/conforming/sites_around.hpp"
 #include "systems/liquid/cell_integrals.hpp"
 #include "systems/liquid/liquid_surface.hpp"
+#include "systems/liquid/side_of_face.hpp"
 
 #include <cmath>
 #include <limits>
@@ -83,12 +84,28 @@ struct Liquid {
   SurfaceCells<Dim>& cells;
 
   bool is_full(std::size_t i) const { return liquid::is_full(phi[i]); }
-  double psi_at(const Index<Dim>& at, const std::optional<std::uint32_t>& row) const {
-    if (row) return psi[*row];
+  /// psi of a multiplier, as it is on the side of a wall where `from` is.
+  double psi_at(const Index<Dim>& at, const std::optional<std::uint32_t>& row, const Index<Dim>& from) const {
+    if (row && !has_sides()) return psi[*row];
     const auto beyond = continued != nullptr ? continued->rows.find(at) : std::nullopt;
-    return beyond ? continued->psi[*beyond] : -liquid::farthest;
+    if (row && !(beyond && continued->sides[*beyond].is_parted())) return psi[*row];
+    const auto version = beyond ? continued->version(*beyond, splines.steps(at, from)) : std::nullopt;
+    return version ? continued->psi[*version] : -liquid::farthest;
   }
+  bool has_sides() const { return continued != nullptr && continued->any_parted; }
 };
+
+/// Whether a wall parts the liquid near a cell, so that its surface depends on the side from which it is seen.
+template <int Dim, int K>
+bool is_parted(const Liquid<Dim>& of, const Index<Dim>& cell) {
+  if (!of.has_sides()) return false;
+  bool any = false;
+  for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
+    const auto c = of.continued->rows.find(of.splines.site(cell, offset));
+    any = any || (c && of.continued->sides[*c].is_parted());
+  });
+  return any;
+}
 
 template <int Dim, int K>
 void find_surface_cells(const Liquid<Dim>& of) {
@@ -106,13 +123,17 @@ void find_surface_cells(const Liquid<Dim>& of) {
   if (of.continued != nullptr) std::for_each(of.continued->site.begin(), of.continued->site.end(), add_cells_of);
   of.cells.cell.resize(of.cells.rows.number_rows());
   of.cells.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { of.cells.cell[c] = at; });
+  of.cells.is_parted.assign(of.cells.cell.size(), 0);
+  if (!of.has_sides()) return;
+  for_each_row(of.cells.cell.size(),
+               [&](std::size_t c) { of.cells.is_parted[c] = is_parted<Dim, K>(of, of.cells.cell[c]); });
 }
 
-/// psi of the multipliers of a cell, x fastest. Those that are full or empty are as far as a plane that just leaves
-/// their splines, in the mean direction of the others: one farther away would not answer while the surface moves there.
-/// Not those to which bodies have the liquid continued: their planes tell.
+/// psi of the multipliers of a cell, x fastest, on the side of a wall where `from` is. Those that are full or empty are
+/// as far as a plane that just leaves their splines, in the mean direction of the others: one farther away would not
+/// answer while the surface moves there. Not those to which bodies have the liquid continued: their planes tell.
 template <int Dim, int K>
-std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index<Dim>& cell) {
+std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index<Dim>& cell, const Index<Dim>& from) {
   std::array<double, power(K, Dim)> psi;
   std::array<bool, power(K, Dim)> is_told;
   Vec<Dim> direction = Vec<Dim>::Zero();
@@ -121,7 +142,7 @@ std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index
   for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
     const Index<Dim> site = of.splines.site(cell, offset);
     const auto row = find(site);
-    psi[m] = of.psi_at(site, row);
+    psi[m] = of.psi_at(site, row, from);
     is_told[m] = row && liquid::is_cut(of.phi[*row]);
     if (is_told[m]) {
       direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
@@ -140,6 +161,17 @@ std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index
   return psi;
 }
 
+/// Integrals of the splines of multipliers, or of faces, over the liquid in a cell that a wall parts, on the side where
+/// `from` is.
+template <int Dim, int K, class Add>
+std::vector<double> integrals_from(const Liquid<Dim>& of, const Index<Dim>& cell, const Index<Dim>& from,
+                                   std::size_t count, const Add& add) {
+  std::vector<double> sum(count, 0);
+  const CellFrame<Dim> frame(of.grid, of.splines, cell);
+  add(CellIntegrals<Dim, K>(frame, psi_of_cell<Dim, K>(of, cell, from)), std::span(sum));
+  return sum;
+}
+
 /// Calls add(integrals, their sums) for every cell at the surface.
 template <int Dim, int K, class Add>
 void integrate(const Liquid<Dim>& of, std::vector<double>& sums, std::size_t per_cell, const Add& add) {
@@ -149,7 +181,8 @@ void integrate(const Liquid<Dim>& of, std::vector<double>& sums, std::size_t per
       count,
       [&](std::size_t c) {
         const CellFrame<Dim> frame(of.grid, of.splines, of.cells.cell[c]);
-        add(CellIntegrals<Dim, K>(frame, psi_of_cell<Dim, K>(of, of.cells.cell[c])),
+        if (of.cells.is_parted[c] != 0) return;  // seen from every side on its own
+        add(CellIntegrals<Dim, K>(frame, psi_of_cell<Dim, K>(of, of.cells.cell[c], of.cells.cell[c])),
             std::span(sums).subspan(c * per_cell, per_cell));
       },
       cells_per_task);
@@ -159,8 +192,10 @@ void integrate(const Liquid<Dim>& of, std::vector<double>& sums, std::size_t per
 template <int Dim, int K>
 void hold_measured_volume(const Liquid<Dim>& of) {
   constexpr std::size_t per_cell = CellIntegrals<Dim, K>::multipliers;
-  integrate<Dim, K>(of, of.cells.multipliers, per_cell,
-                    [](const auto& integrals, std::span<double> sum) { integrals.add_multipliers(sum); });
+  const auto add = [](const auto& integrals, std::span<double> sum) { integrals.add_multipliers(sum); };
+  integrate<Dim, K>(of, of.cells.multipliers, per_cell, add);
+  // A cell that a wall parts is integrated from every multiplier: psi stays until all have been.
+  std::vector<double> move(of.psi.size(), 0);
   for_each_row(of.psi.size(), [&](std::size_t i) {
     if (!(of.near[i] > 0) || !liquid::is_cut(of.phi[i])) return;
     if (of.continued != nullptr && of.continued->rows.find(of.site[i]))
@@ -169,12 +204,15 @@ void hold_measured_volume(const Liquid<Dim>& of) {
     typename SiteRows<Dim>::Finder find(of.cells.rows);
     for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_multiplier<Dim, K>(),
                           [&](const Index<Dim>& cell, const Index<Dim>&, std::size_t place) {
-                            held += of.cells.multipliers[*find(cell) * per_cell + place];
+                            const std::size_t c = *find(cell);
+                            held += of.cells.is_parted[c] != 0
+                                        ? integrals_from<Dim, K>(of, cell, of.site[i], per_cell, add)[place]
+                                        : of.cells.multipliers[c * per_cell + place];
                           });
     const double lack = of.phi[i] - held / of.splines.widths(of.site[i]);
-    const double move = lack / std::max(least_area, 1 - std::abs(of.psi[i]));
-    of.psi[i] += correction * std::clamp(move, -largest_correction, largest_correction);
+    move[i] = std::clamp(lack / std::max(least_area, 1 - std::abs(of.psi[i])), -largest_correction, largest_correction);
   });
+  for_each_row(of.psi.size(), [&](std::size_t i) { of.psi[i] += correction * move[i]; });
 }
 
 /// Which cells lie below the surface, and of which rows all cells that their faces reach do.
@@ -201,11 +239,14 @@ void find_submerged(const Liquid<Dim>& of, std::span<typename multiplier::Submer
   }
 }
 
+constexpr auto add_faces = [](const auto& integrals, std::span<double> sum) { integrals.add_faces(sum); };
+
 /// Integral of N_f over what of its cells is liquid, in units of h^d; `place` is that of the first face of its
 /// direction among the integrals of a cell.
 template <int Dim, int K>
 double volume_at_surface(const Liquid<Dim>& of, std::size_t i, std::size_t d, std::size_t place,
-                         std::span<const typename multiplier::Submerged<Dim>::value_type> submerged) {
+                         std::span<const typename multiplier::Submerged<Dim>::value_type> submerged,
+                         const Index<Dim>& from) {
   constexpr std::size_t per_cell = CellIntegrals<Dim, K>::faces;
   typename SiteRows<Dim>::Finder find_surface(of.cells.rows);
   typename SiteRows<Dim>::Finder find_site(of.rows);
@@ -213,7 +254,9 @@ double volume_at_surface(const Liquid<Dim>& of, std::size_t i, std::size_t d, st
   for_each_cell_of<Dim>(of.splines, of.site[i], extent_of_face<Dim, K>(d),
                         [&](const Index<Dim>& cell, const Index<Dim>& offset, std::size_t m) {
                           if (const auto c = find_surface(cell)) {
-                            sum += of.cells.faces[*c * per_cell + place + m];
+                            sum += of.cells.is_parted[*c] != 0
+                                       ? integrals_from<Dim, K>(of, cell, from, per_cell, add_faces)[place + m]
+                                       : of.cells.faces[*c * per_cell + place + m];
                             return;
                           }
                           const auto row = find_site(cell);
@@ -232,12 +275,13 @@ double volume_at_surface(const Liquid<Dim>& of, std::size_t i, std::size_t d, st
 /// Whether a multiplier of a face is in what continues the liquid and no particle touches it: then it is no unknown,
 /// and what it would balance moves with the faces around.
 template <int Dim>
-bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d) {
+bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d, const Index<Dim>& from) {
   if (of.continued == nullptr) return false;
   const auto lacks_particles = [&](const Index<Dim>& site, std::int32_t row) {
     if (row != staggered::none && of.phi[static_cast<std::size_t>(row)] > 0) return false;
     const auto c = of.continued->rows.find(site);
-    return c && of.continued->fill[*c] > unseen;
+    const auto version = c ? of.continued->version(*c, of.splines.steps(site, from)) : std::nullopt;
+    return version && of.continued->fill[*version] > unseen;
   };
   if (lacks_particles(of.site[i], static_cast<std::int32_t>(i))) return true;
   const auto below = site_beside(of.splines, of.site[i], 2 * d);
@@ -252,9 +296,10 @@ void FindExactVolume<Dim>::operator()(
     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::ContinuedFill> phi,
     Read<multiplier::NearExact> near, Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,
     Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
-    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
-    Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
-    Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const {
+    Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
+    Optional<Read<SiteExchange>> shared, Update<multiplier::SurfaceDistance> psi,
+    Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility,
+    Update<face::ExactVolume<Dim>> volume) const {
   const Liquid<Dim> of{
       *grid,       *splines,   *rows,      site.span(), neighbour.span(), phi.span(), continued ? &*continued : nullptr,
       near.span(), n_l.span(), psi.span(), *cells};
@@ -266,8 +311,7 @@ void FindExactVolume<Dim>::operator()(
     find_surface_cells<Dim, K>(of);
     hold_measured_volume<Dim, K>(of);
     if (shared) shared->copy_from_owner(psi.span());
-    integrate<Dim, K>(of, cells->faces, Integrals::faces,
-                      [](const auto& integrals, std::span<double> sum) { integrals.add_faces(sum); });
+    integrate<Dim, K>(of, cells->faces, Integrals::faces, add_faces);
     find_submerged<Dim, K>(of, submerged.span());
     for_each_row(volume.size(), [&](std::size_t i) {
       for (std::size_t d = 0; d < Dim; ++d) {
@@ -278,14 +322,16 @@ void FindExactVolume<Dim>::operator()(
         const double w = share[i][axis];
         volume[i][axis] = of_particles;
         if (w == 0) continue;
-        if (w > at_rest_from && is_detached(of, i, d)) {
+        const Index<Dim> from =
+            of.has_sides() ? side_of_face<Dim>(*splines, site.span(), neighbour.span(), open.span(), i, d) : site[i];
+        if (w > at_rest_from && is_detached(of, i, d, from)) {
           volume[i][axis] = mobility[i][axis] = 0;
           continue;
         }
         const double below =
             submerged[i][Dim] != 0
                 ? splines->face_integral(site[i], d)
-                : volume_at_surface<Dim, K>(of, i, d, d * Integrals::faces_of_direction, submerged.span());
+                : volume_at_surface<Dim, K>(of, i, d, d * Integrals::faces_of_direction, submerged.span(), from);
         volume[i][axis] += w * (cell_volume * below - of_particles);
         if (continued) {
           const double least = w * rho.at(i, axis) * volume[i][axis] / heaviest_ratio;

@@ -2,6 +2,7 @@
 /// \file
 /// How much of every face's spline is in the liquid, exactly below the surface that multipliers tell.
 
+#include "components/body.hpp"
 #include "components/fluids.hpp"
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
@@ -20,10 +21,10 @@ struct FindExactVolume {
                   Read<multiplier::ContinuedFill> phi, Read<multiplier::NearExact> near,
                   Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,
                   Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
-                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
-                  Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
-                  Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility,
-                  Update<face::ExactVolume<Dim>> volume) const;
+                  Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
+                  Optional<Read<SiteExchange>> shared, Update<multiplier::SurfaceDistance> psi,
+                  Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells,
+                  Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const;
 };
 
 }  // namespace minamo

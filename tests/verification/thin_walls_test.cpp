@@ -89,6 +89,58 @@ Square any_square(std::mt19937& random, double largest_angle) {
   return {{0.05 * share(random), 0.05 * share(random)}, largest_angle * share(random), 0.2};
 }
 
+/// Two pools on different levels in a block, side by side in its own frame.
+struct TwoPools {
+  Square frame;
+  double wall;  ///< between them [m]
+
+  static constexpr double width = 0.3;
+  static constexpr double depth = 0.28;  ///< above and below the middle [m]
+
+  Json pool(double sign) const {
+    const double near = sign * 0.5 * wall;
+    const double far = near + sign * width;
+    const double low = std::min(near, far);
+    const double high = std::max(near, far);
+    return polygon(frame, {{low, -depth}, {high, -depth}, {high, depth}, {low, depth}});
+  }
+  Json scene(int per_cell) const {
+    Json scene = water_in(frame, Json{}, 0, per_cell);
+    const double x = 0.5 * wall + width + 0.1;
+    const double y = depth + 0.1;
+    Json walls;
+    walls["difference"] = Json::array();
+    walls["difference"].push_back(polygon(frame, {{-x, -y}, {x, -y}, {x, y}, {-x, y}}));
+    for (const double sign : {-1.0, 1.0}) walls["difference"].push_back(pool(sign));
+    scene["bodies"][0]["shape"] = walls;
+    Json water = scene["particles"][0];
+    scene["particles"] = Json::array();
+    for (const double sign : {-1.0, 1.0}) {
+      water["shape"]["intersection"][0] = pool(sign);
+      water["shape"]["intersection"][1]["half_space"]["point"] = Json{0, frame.middle[1] + (sign < 0 ? 0.08 : -0.03)};
+      scene["particles"].push_back(water);
+    }
+    return scene;
+  }
+};
+
+TwoPools any_two_pools(std::mt19937& random, double wall) { return {any_square(random, 0.4), wall}; }
+
+/// \param before  steps in which the start may settle
+void check_rest(const Json& scene, int before, int steps, double fastest) {
+  SceneRun run(scene);
+  run.step(before);
+  Largest speed;
+  Largest overlap;
+  for (int k = 0; k < steps; ++k) {
+    run.step();
+    speed.add(run.world().resource<measure::MaxSpeed>().value);
+    overlap.add(run.world().resource<measure::Overlap>().value);
+  }
+  CHECK(speed.value() < fastest);
+  CHECK(overlap.value() < 0.01);
+}
+
 /// \param thickness  of the walls [h]
 void check_rolling(double thickness, int steps) {
   Square square{{0.013, -0.021}, 0.3, 0.2};
@@ -130,6 +182,74 @@ TEST_CASE("water rests in boxes of thin walls, and none gets through", "[verific
   CHECK(outside(run.world(), square) == 0);
   CHECK(speed.value() < 0.02);
   CHECK(overlap.value() < 0.01);
+}
+
+TEST_CASE("water rests on both sides of a wall, whatever the levels", "[verification]") {
+  const int seed = GENERATE(1, 2);
+  std::mt19937 random(static_cast<unsigned>(seed));
+  const double thickness = GENERATE(1.2, 2, 3.3, 4, 4.6);  // [h]
+  const TwoPools pools = any_two_pools(random, thickness * 0.05);
+  CAPTURE(seed, thickness, pools.frame.angle, pools.frame.middle);
+  check_rest(pools.scene(3), 100, 60, 0.02);
+}
+
+TEST_CASE("water rests on both sides of a wall, whatever the levels, for long", "[verification][long]") {
+  const int seed = GENERATE(1, 2, 3);
+  std::mt19937 random(static_cast<unsigned>(seed));
+  const int per_cell = GENERATE(3, 4);
+  const double thickness = GENERATE(1.2, 2, 4);  // [h]
+  const TwoPools pools = any_two_pools(random, thickness * 0.05);
+  CAPTURE(seed, per_cell, thickness, pools.frame.angle, pools.frame.middle);
+  check_rest(pools.scene(per_cell), 100, 500, 0.02);
+}
+
+TEST_CASE("a gate is pushed by the water on its two sides", "[verification]") {
+  // Exact with walls along the grid, whatever the thickness: rho |g| (a^2 - b^2)/2.
+  const double thickness = GENERATE(0.2, 1, 2.5, 4);  // [h]
+  const double place = GENERATE(0.0, 0.37);           // off the grid [h]
+  constexpr double h = 0.05;
+  constexpr double deep = 0.4;
+  constexpr double shallow = 0.15;
+  const double left = 0.5 + place * h;
+  const double right = left + thickness * h;
+  Json scene = Json::parse(R"({"dimension": 2, "grid": {"low": [0, 0], "high": [1.2, 0.6], "cells": [24, 12]},
+    "walls": "slip", "fluid": {"density": 1000, "viscosity": 1e-3}, "body_force": [0, -9.81],
+    "particles": [{"per_cell": 3, "arrangement": "cut"}, {"per_cell": 3, "arrangement": "cut"}],
+    "bodies": [{"name": "gate"}], "time": {"end": 100, "step": 0.005}})");
+  const auto box = [](double low, double high, double top) {
+    return Json{{"box", {{"low", {low, 0}}, {"high", {high, top}}}}};
+  };
+  scene["particles"][0]["shape"] = box(0, left, deep);
+  scene["particles"][1]["shape"] = box(right, 1.2, shallow);
+  scene["bodies"][0]["shape"] = box(left, right, 0.6);
+  CAPTURE(thickness, place);
+  SceneRun run(scene);
+  run.step(200);
+  CHECK(run.world().resource<measure::MaxSpeed>().value < 0.02);
+  const double exact = 1000 * 9.81 * (deep * deep - shallow * shallow) / 2;
+  CHECK_THAT(run.world().column<body::Force<2>>()[0][0], Catch::Matchers::WithinRel(exact, 0.01));
+}
+
+TEST_CASE("waves on one side of a wall do not reach the other", "[verification]") {
+  // Two cells thick, off the grid. Thinner walls let something through.
+  Json scene = Json::parse(R"({"dimension": 2, "grid": {"low": [0, 0], "high": [1, 0.5], "cells": [40, 20]},
+    "walls": "slip", "fluid": {"density": 1000, "viscosity": 1e-3}, "body_force": [0, -9.81],
+    "particles": [{"shape": {"intersection": [{"box": {"low": [0, 0], "high": [0.509, 0.5]}},
+                     {"half_space": {"point": [0.25, 0.25], "normal": [-0.2, 1]}}]}, "arrangement": "cut"},
+                  {"shape": {"box": {"low": [0.559, 0], "high": [1, 0.25]}}, "arrangement": "cut"}],
+    "bodies": [{"name": "wall", "shape": {"box": {"low": [0.509, -1], "high": [0.559, 1]}}}],
+    "time": {"end": 100, "step": 0.005}})");
+  SceneRun run(scene);
+  Largest at_rest;
+  Largest moving;
+  for (int k = 0; k < 100; ++k) {
+    run.step();
+    const auto x = run.world().column<particle::Position<2>>();
+    const auto v = run.world().column<particle::Velocity<2>>();
+    for (std::size_t p = 0; p < x.size(); ++p) (x[p][0] > 0.53 ? at_rest : moving).add(v[p].norm());
+  }
+  CHECK(moving.value() > 0.2);
+  CHECK(at_rest.value() < 0.01);
 }
 
 TEST_CASE("no water gets out of a box of thin walls that rolls", "[verification][long]") {
