@@ -283,9 +283,8 @@ template <int Dim>
 void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
                           std::span<const Index<Dim>> site,
                           std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
-                          std::span<const Vec<Dim>> share, const OpenSites<Dim>& open_sites,
-                          ContinuedLiquid<Dim>& continued) {
-  const std::span<const double> open = open_sites.open;
+                          std::span<const double> open, std::span<const Vec<Dim>> share,
+                          const OpenSites<Dim>& open_sites, ContinuedLiquid<Dim>& continued) {
   // Most rows have no body near, and all others around: only those next to some that have not are looked at.
   const RowsOfSites<Dim> all{splines, rows, site, neighbour};
   const auto may_lack = [&](std::size_t i) { return open[i] < 1 || all.lacks_one_beside(i); };
@@ -298,7 +297,7 @@ void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>
     for (std::size_t d = 0; d < Dim; ++d) {
       if (share[i][static_cast<Eigen::Index>(d)] == 0) continue;
       for_each_multiplier_of_face<Dim>(splines, site[i], d, [&](const Index<Dim>& other) {
-        if (open_sites.at(other, find).share < 1) continued.rows.add(other);
+        if (open_sites.share(other, find) < 1) continued.rows.add(other);
       });
     }
   }
@@ -312,8 +311,9 @@ template <int Dim>
 void find_versions(const OpenSites<Dim>& open, bool has_sides, ContinuedLiquid<Dim>& continued) {
   const std::size_t count = continued.site.size();
   continued.sides.assign(count, {});
-  if (has_sides)
+  if (has_sides) {
     for_each_row(count, [&](std::size_t c) { continued.sides[c] = find_sides<Dim>(open, continued.site[c]); });
+  }
   continued.first.resize(count);
   continued.any_parted = false;
   std::size_t versions = 0;
@@ -342,7 +342,8 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const OpenSites<Dim> open_sites{*splines, *rows, open.span(), open_face.span(), cuts};
-  list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(), share.span(), open_sites, *continued);
+  list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(), open.span(), share.span(), open_sites,
+                            *continued);
   find_versions<Dim>(open_sites, set->parts_liquid, *continued);
   const typename Continuation<Dim>::Columns columns{*splines,    *rows,      site.span(), open.span(),
                                                     fill.span(), psi.span(), n_l.span()};

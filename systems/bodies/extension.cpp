@@ -30,6 +30,15 @@ struct Around {
   std::size_t count = 0;
 };
 
+/// Whether there are faces in opposite directions: where there are none no wall parts them.
+template <int Dim>
+bool lies_between(const Around<Dim>& around) {
+  for (std::size_t k = 1; k < around.count; ++k) {
+    if (around.offset[k].dot(around.offset[0]) < 0) return true;
+  }
+  return false;
+}
+
 /// Leaves the faces on the nearer side of a wall. Where both are equally near particles of both take from the face, and
 /// none is left out.
 template <int Dim>
@@ -258,7 +267,8 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
       around.filled[around.count] = filled[row][target.direction];
       around.offset[around.count++] = offset;
     });
-    if (set->parts_liquid && around.count > 1) keep_nearer_side<Dim>(around, {open_sites, own, direction}, steps_to);
+    if (set->parts_liquid && lies_between<Dim>(around))
+      keep_nearer_side<Dim>(around, {open_sites, own, direction}, steps_to);
     const auto weight = std::span(extension->weight).subspan(target.begin, most);
     std::copy_n(around.row.begin(), around.count,
                 extension->source.begin() + static_cast<std::ptrdiff_t>(target.begin));

@@ -20,7 +20,9 @@ class Parts {
   }
   /// The multipliers of the window that begins some steps from a site.
   /// \param extent  how much of the window is looked at, along every axis
-  void join_all(const OpenSites<Dim>& open, const Index<Dim>& site, const Index<Dim>& begin, const Index<Dim>& extent) {
+  /// \param rows_alone  sites without rows count as closed
+  void join_all(const OpenSites<Dim>& open, const Index<Dim>& site, const Index<Dim>& begin, const Index<Dim>& extent,
+                bool rows_alone) {
     std::array<bool, sites> is_open{};
     typename SiteRows<Dim>::Finder find(open.rows);
     for (std::size_t k = 0; k < sites; ++k) {
@@ -33,7 +35,9 @@ class Parts {
       }
       const auto other = is_in ? open.splines.site_at(site, steps) : std::nullopt;
       if (!other || !open.splines.has_multiplier(*other)) continue;
-      const SiteCut<Dim> cut = open.at(*other, find);
+      const auto row = find(*other);
+      if (!row && rows_alone) continue;
+      const SiteCut<Dim> cut = row ? SiteCut<Dim>{open.open_face[*row], open.open[*row]} : open.cuts.at(*other);
       is_open[k] = cut.share > 0;
       for (std::size_t d = 0, before = 1; d < Dim; ++d, before *= Across) {
         if (is_open[k] && at[d] > 0 && is_open[k - before] && cut.open[static_cast<Eigen::Index>(d)] > sliver)
@@ -88,6 +92,23 @@ bool is_thin_at(const Shape<Dim>& shape, const Vec<Dim>& surface, double thickne
   return false;
 }
 
+/// 1 + number of the side of every multiplier of a window. Few walls part what has rows, and what has none is dear to
+/// find where bodies move: it is looked at where it may join two parts.
+/// \return how many sides there are
+template <int Dim, int Across>
+std::uint8_t label_sides(const OpenSites<Dim>& open, const Index<Dim>& site, const Index<Dim>& begin,
+                         const Index<Dim>& extent, typename Parts<Dim, Across>::Labels& labels) {
+  std::uint8_t count = 0;
+  for (const bool rows_alone : {true, false}) {
+    Parts<Dim, Across> parts;
+    parts.join_all(open, site, begin, extent, rows_alone);
+    labels.fill(0);
+    count = parts.label(labels);
+    if (count <= 1) break;
+  }
+  return count;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -111,10 +132,8 @@ SidesAround<Dim> find_sides(const OpenSites<Dim>& open, const Index<Dim>& site) 
   begin.fill(-Around::reach);
   Index<Dim> extent;
   extent.fill(Around::across);
-  Parts<Dim, Around::across> parts;
-  parts.join_all(open, site, begin, extent);
   Around sides;
-  sides.count = parts.label(sides.label);
+  sides.count = label_sides<Dim, Around::across>(open, site, begin, extent, sides.label);
   return sides;
 }
 
@@ -127,9 +146,7 @@ SidesAroundFace<Dim>::SidesAroundFace(const OpenSites<Dim>& open, const Index<Di
   extent.fill(SidesAround<Dim>::across);
   --begin[d];
   ++extent[d];
-  Parts<Dim, across> parts;
-  parts.join_all(open, site, begin, extent);
-  count_ = parts.label(label_);
+  count_ = label_sides<Dim, across>(open, site, begin, extent, label_);
 }
 
 template <int Dim>

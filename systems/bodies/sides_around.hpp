@@ -12,7 +12,7 @@ namespace minamo {
 template <int Dim>
 bool parts_liquid(const BodySet<Dim>& set, const BodyOutlines<Dim>& outlines, const Grid<Dim>& grid);
 
-/// What bodies leave open of a site, (E85): of rows what was found for the step, of others what is found now.
+/// What bodies leave open of sites, (E85): of rows what was found for the step, of others what is found now.
 template <int Dim>
 struct OpenSites {
   const Splines<Dim>& splines;
@@ -21,9 +21,10 @@ struct OpenSites {
   std::span<const Vec<Dim>> open_face;  ///< by row
   const SiteCuts<Dim>& cuts;
 
-  SiteCut<Dim> at(const Index<Dim>& site, typename SiteRows<Dim>::Finder& find) const {
+  /// Of a multiplier.
+  double share(const Index<Dim>& site, typename SiteRows<Dim>::Finder& find) const {
     const auto row = find(site);
-    return row ? SiteCut<Dim>{open_face[*row], open[*row]} : cuts.at(site);
+    return row ? open[*row] : cuts.at(site).share;
   }
 };
 
