@@ -32,7 +32,11 @@ template <int Dim>
 double share_passed(const typename Meters<Dim>::Meter& meter, const Vec<Dim>& from, const Vec<Dim>& to) {
   const auto passed_at = [&](const Vec<Dim>& x) { return passed((x - meter.point).dot(meter.normal) / meter.width); };
   const double share = passed_at(to) - passed_at(from);
-  return share != 0 && meter.within && !meter.within->contains(0.5 * (from + to)) ? 0 : share;
+  if (share == 0 || !meter.within) return share;
+  // Where the plane is passed: what is within may be thinner than the width over which particles are counted.
+  const Vec<Dim> middle = 0.5 * (from + to);
+  const Vec<Dim> on_plane = middle - (middle - meter.point).dot(meter.normal) * meter.normal;
+  return meter.within->contains(on_plane) ? share : 0;
 }
 
 }  // namespace

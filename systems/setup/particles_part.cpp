@@ -337,13 +337,13 @@ void check_fluids_used(Input& input, const Scene& scene) {
   }
 }
 
-/// Whether there is an opening through which liquid comes in, or may come back. Openings are read later.
+/// Whether there is an opening through which liquid comes into an empty box. Openings are read later.
 bool may_come_in(const Input& root) {
   for (std::size_t k = 0; k < root.elements("openings").value_or(0); ++k) {
     const std::string opening = fmt::format("openings/{}", k);
-    const auto keys = root.names(opening);
-    if (std::find(keys.begin(), keys.end(), "inflow") != keys.end() || !root.names(opening + "/outflow").empty())
-      return true;
+    const auto keys = root.names(opening + "/inflow");
+    const auto has = [&](const char* key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+    if (has("velocity") || has("rate")) return true;
   }
   return false;
 }
@@ -357,7 +357,7 @@ Contribution read_regions(Input& input, Scene& scene) {
                scene.particles.push_back(read_particles(in, scene, cut));
              });
   if (!input.describing() && scene.particles.empty() && input.sound("particles") && !may_come_in(input)) {
-    input.problem("particles", "no liquid", "at least one region, or an opening through which it comes in",
+    input.problem("particles", "no liquid", "at least one region, or an inflow by velocity or rate: a level outside lets in where liquid is",
                   input.has("particles") ? "" : "none");
   }
   scene.facts.set(fluids);

@@ -201,12 +201,54 @@ bool can_name_columns(const std::string& name) {
   });
 }
 
-/// The thing that has a name, by name.
+/// How the names of columns go on after that of their thing: of numbers, vectors and rotations.
+struct Endings {
+  std::vector<std::string> numbers;
+  std::vector<std::string> vectors;
+  std::vector<std::string> rotations;
+};
+
+const std::map<std::string, Endings>& endings_of_things() {
+  static const std::map<std::string, Endings> endings{
+      {"body",
+       {{"_work"},
+        {"_force", "_position", "_velocity", "_friction"},
+        {"_torque", "_angle", "_rotation", "_friction_torque"}}},
+      {"opening", {{"_mass_in", "_energy_in", "_rate"}, {}, {}}},
+      {"probe", {{"_pressure"}, {"_velocity"}, {}}},
+      {"gauge", {{""}, {}, {}}},
+      {"meter", {{"", "_volume"}, {}, {}}},
+      {"patch", {{"_pressure"}, {"_force"}, {}}},
+  };
+  return endings;
+}
+
+/// Things by name, and names of things by column.
 struct NamedThings {
   std::map<std::string, std::string> thing;
+  std::map<std::string, std::string> of_column;
 };
 
 }  // namespace
+
+std::vector<std::string> columns_of_thing(const std::string& name, const std::string& thing, int dimension) {
+  const Endings& endings = endings_of_things().at(thing);
+  std::vector<std::string> columns;
+  const auto add = [&](const std::string& ending) { columns.push_back(name + ending); };
+  const auto add_vector = [&](const std::string& ending) {
+    for (int d = 0; d < dimension; ++d) add(fmt::format("{}_{}", ending, "xyz"[d]));
+  };
+  std::for_each(endings.numbers.begin(), endings.numbers.end(), add);
+  std::for_each(endings.vectors.begin(), endings.vectors.end(), add_vector);
+  for (const std::string& ending : endings.rotations) {
+    if (dimension == 2) {
+      add(ending);
+    } else {
+      add_vector(ending);
+    }
+  }
+  return columns;
+}
 
 void check_column_name(Input& input, const std::string& name, const std::string& thing, Scene& scene) {
   const auto* known = scene.facts.find<NamedThings>();
@@ -219,6 +261,15 @@ void check_column_name(Input& input, const std::string& name, const std::string&
   } else if (!can_name_columns(name)) {
     input.problem("name", "cannot name columns of the history", "letters, digits and _, and not \"error\"",
                   shown(Json(name)));
+  }
+  for (const std::string& column : columns_of_thing(name, thing, scene.dimension)) {
+    const auto [other, is_free] = named.of_column.emplace(column, name);
+    if (is_free || other->second == name) continue;
+    input.problem(
+        "name",
+        fmt::format("its column {} is that of the {} \"{}\"", column, named.thing.at(other->second), other->second),
+        "a name of whose columns none has the name of another one", shown(Json(name)));
+    break;
   }
   scene.facts.set(std::move(named));
 }

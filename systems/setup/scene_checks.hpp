@@ -20,8 +20,11 @@ void check_particle_count(Input& input, const ParticleScene& particles, const Gr
 /// Probes lie inside the grid box, walls included.
 void check_probe(Input& input, const std::vector<double>& at, const GridScene& grid);
 
-/// The name of a thing (`probe`, `body`) begins columns of the history, and no earlier thing of any kind has it. Notes
-/// the name in the facts of the scene.
+/// The columns of the history that a thing (`probe`, `body`) may have.
+std::vector<std::string> columns_of_thing(const std::string& name, const std::string& thing, int dimension);
+
+/// The name of a thing begins columns of the history, no earlier thing of any kind has it, and none of them a column of
+/// the same name. Notes the name in the facts of the scene.
 void check_column_name(Input& input, const std::string& name, const std::string& thing, Scene& scene);
 
 /// An ode variable has a name that expressions can use and that hides no other. `key` as Input::problem() takes it.

@@ -4,12 +4,15 @@
 #include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 #include "systems/measure/meters.hpp"
+#include "systems/setup/scene_checks.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
+#include <set>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -139,7 +142,9 @@ TEST_CASE("a meter counts all that openings let in and out", "[verification]") {
                {"name": "middle", "plane": {"point": [1, 0.2], "normal": [1, 0]}},
                {"name": "exit", "plane": {"point": [1.98, 0], "normal": [-1, 0]}},
                {"name": "above", "plane": {"point": [1, 0], "normal": [1, 0]},
-                "within": {"half_space": {"point": [0, 0.15], "normal": [0, -1]}}}],
+                "within": {"half_space": {"point": [0, 0.15], "normal": [0, -1]}}},
+               {"name": "slit", "plane": {"point": [1, 0], "normal": [1, 0]},
+                "within": {"box": {"low": [0.999, 0], "high": [1.001, 1]}}}],
     "time": {"end": 2, "step": 4e-3}})json");
   SceneRun run(scene);
   run.start();
@@ -161,6 +166,7 @@ TEST_CASE("a meter counts all that openings let in and out", "[verification]") {
   CHECK(std::abs(of("exit_volume") - of("out_mass_in") / 1000) < row);
   CHECK(std::abs(of("entry_volume") - of("middle_volume") - (volume_between() - before)) < row);
   CHECK(of("above_volume") / of("middle_volume") == Approx(0.5).margin(0.05));
+  CHECK(of("slit_volume") == Approx(of("middle_volume")).epsilon(1e-12));
   CHECK(of("middle") == Approx(0.15).margin(0.01));
 }
 
@@ -230,4 +236,33 @@ TEST_CASE("a patch in the air feels nothing, and a gate of a fifth of a cell onl
   CHECK(measured(run.world(), "wet_force_x") == Approx(9810 * level * level / 2).epsilon(0.03));
   CHECK(measured(run.world(), "dry_force_x") == 0);
   CHECK(measured(run.world(), "top_pressure") == 0);
+}
+
+TEST_CASE("columns of the history that things bring are those that names are checked for", "[verification]") {
+  const int dimension = GENERATE(2, 3);
+  Json scene = pool(dimension, 0.6);
+  const auto size = static_cast<std::size_t>(dimension);
+  std::vector<double> low(size, 0.25);
+  std::vector<double> high(size, 0.5);
+  std::vector<double> middle(size, 0.6);
+  std::vector<double> normal(size, 0);
+  normal[0] = 1;
+  scene["fluid"]["viscosity"] = 1;
+  scene["bodies"] = {{{"name", "b"}, {"shape", {{"box", {{"low", low}, {"high", high}}}}}, {"wall", "no_slip"}}};
+  scene["openings"] = {{{"name", "o"}, {"side", "x_high"}, {"outflow", {{"level", 0.6}}}}};
+  scene["probes"] = {{{"name", "p"}, {"at", middle}}};
+  scene["gauges"] = {{{"name", "g"}, {"at", middle}}};
+  scene["meters"] = {{{"name", "m"}, {"plane", {{"point", middle}, {"normal", normal}}}}};
+  scene["patches"] = {{{"name", "q"}, {"body", "b"}}};
+  const std::map<std::string, std::string> things{{"b", "body"},  {"o", "opening"}, {"p", "probe"},
+                                                  {"g", "gauge"}, {"m", "meter"},   {"q", "patch"}};
+  SceneRun run(scene);
+  run.step();
+  std::set<std::string> checked{"particles", "energy_balance"};  // of openings
+  for (const auto& [name, thing] : things) {
+    for (const std::string& column : columns_of_thing(name, thing, dimension)) checked.insert(column);
+  }
+  std::set<std::string> brought;
+  for (const auto& column : run.world().resource<measure::Columns>().columns) brought.insert(column.name);
+  CHECK(brought == checked);
 }
