@@ -7,6 +7,8 @@
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 
+#include "support/build.hpp"
+
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -46,13 +48,8 @@ std::string as_test_spec(std::string_view name) {
 
 #if defined(__SANITIZE_THREAD__)
 constexpr bool looks_for_races = true;
-constexpr bool is_sanitized = true;
-#elif defined(MINAMO_ADDRESS_SANITIZER)
-constexpr bool looks_for_races = false;
-constexpr bool is_sanitized = true;
 #else
 constexpr bool looks_for_races = false;
-constexpr bool is_sanitized = false;
 #endif
 
 /// Cases that start the program take a second each, others less: a group is small beside what one processor has to do.
@@ -122,7 +119,8 @@ void write_ctest_file(const std::filesystem::path& file, const std::filesystem::
     std::string labels;
     for (const std::string& tag : test.tags) labels += (labels.empty() ? "" : ";") + tag;
     // A quick group takes milliseconds to seconds; the sanitizers and a busy machine make that minutes.
-    const bool quick = !is_sanitized && (has_tag(test, "unit") || has_tag(test, "property") || has_tag(test, "error"));
+    const bool quick = !looks_for_races && !minamo::is_address_sanitized() &&
+                       (has_tag(test, "unit") || has_tag(test, "property") || has_tag(test, "error"));
     const int timeout_s = quick ? 120 : 1200;
     script << "add_test(" << quoted(group.name) << ' ' << quoted(program.string()) << " --group " << quoted(group.name)
            << ")\n"

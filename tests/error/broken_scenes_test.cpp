@@ -2,6 +2,7 @@
 /// Every NAME.json beside this file is broken in one way; NAME.txt is what the program says about it, NAME.args, where
 /// there is one, holds further arguments, one a line, NAME.obj is a mesh of the scene.
 
+#include "support/build.hpp"
 #include "support/program_output.hpp"
 
 #include <catch2/catch.hpp>
@@ -90,11 +91,7 @@ TEST_CASE("a broken scene is refused with every problem told", "[error]") {
 
 TEST_CASE("of a broken scene nothing is run", "[error]") {
   // All of them; under the sanitizers, where a start takes ten times as long, those with arguments and a sample.
-#ifdef MINAMO_ADDRESS_SANITIZER
-  constexpr std::size_t stride = 8;
-#else
-  constexpr std::size_t stride = 1;
-#endif
+  const std::size_t stride = is_address_sanitized() ? 8 : 1;
   std::vector<std::string> tried;
   const std::vector<std::string> all = names();
   for (std::size_t k = 0; k < all.size(); ++k) {

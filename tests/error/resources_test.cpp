@@ -1,6 +1,7 @@
 // Disks that are full, folders that may not be written, memory that ends, readers that go away: one message, exit 3 (2
 // where nothing was run), and what was there before is still there.
 
+#include "support/build.hpp"
 #include "support/folder.hpp"
 #include "support/program_output.hpp"
 #include "support/xml.hpp"
@@ -94,7 +95,7 @@ TEST_CASE("a run on a full disk ends with 3, whole files, and goes on when there
     WARN("no disk may be mounted here");
     return;
   }
-  const std::string program = MINAMO_PROGRAM;
+  const std::string program = program_path();
   std::string line;
   for (const std::string& word : run_to(folder / "disk/out", {"--set", "/output/checkpoint=" + checkpoint}))
     line += " \"" + word + "\"";
@@ -131,7 +132,7 @@ TEST_CASE("a reader that goes away, as with `| head`, ends the program without a
   const Arguments arguments = GENERATE(Arguments{"list", "systems"}, Arguments{"schema"}, Arguments{"--help"});
   CAPTURE(arguments);
   // The reader is gone before the program begins.
-  std::string line = "cd " + (folder / "") + " && { sleep 0.2; '" + std::string(MINAMO_PROGRAM) + "'";
+  std::string line = "cd " + (folder / "") + " && { sleep 0.2; '" + program_path() + "'";
   for (const std::string& argument : arguments) line += " " + argument;
   REQUIRE(std::system((line + " 2> err; echo $? > code; } | true").c_str()) == 0);
   CHECK(text_of(folder / "code") == "0\n");
@@ -142,14 +143,14 @@ TEST_CASE("a full disk behind stdout is one message and 3", "[error]") {
   const Folder folder;
   Arguments arguments = GENERATE(Arguments{"list", "systems"}, run_to("out", {"--steps", "2", "--profile"}));
   std::erase(arguments, "--quiet");
-  std::string line = "cd " + (folder / "") + " && '" + std::string(MINAMO_PROGRAM) + "'";
+  std::string line = "cd " + (folder / "") + " && '" + program_path() + "'";
   for (const std::string& argument : arguments) line += " '" + argument + "'";
   CHECK(WEXITSTATUS(std::system((line + " > /dev/full 2> err").c_str())) == 3);
   CHECK_THAT(text_of(folder / "err"), Catch::Contains("stdout: cannot be written"));
 }
 
-#ifndef MINAMO_ADDRESS_SANITIZER  // which needs more address space than any limit leaves
 TEST_CASE("a run that has too little memory is refused, or ends with 3 and a message, and never crashes", "[error]") {
+  if (is_address_sanitized()) return;  // which needs more address space than any limit leaves
   const Folder folder;
   const std::string solver = GENERATE("block", "umfpack");
   const Arguments large = run_to("out", {"--set", "/grid/cells=[100, 100]", "--set", "/particles/0/per_cell=4", "--set",
@@ -169,4 +170,3 @@ TEST_CASE("a run that has too little memory is refused, or ends with 3 and a mes
   CHECK(refused > 0);
   CHECK(last == 0);
 }
-#endif

@@ -1,3 +1,4 @@
+#include "support/build.hpp"
 #include "support/scene_run.hpp"
 
 #include "engine/schedule.hpp"
@@ -53,11 +54,7 @@ bool runs(const Scene& scene) {
 
 /// Of how many pairs one is tried: all of them, but a sample where the sanitizers make each ten times dearer: every
 /// system in one slot or two, every slot with one system in eleven.
-#ifdef MINAMO_ADDRESS_SANITIZER
-constexpr std::size_t stride = 11;
-#else
-constexpr std::size_t stride = 1;
-#endif
+const std::size_t stride = is_address_sanitized() ? 11 : 1;
 
 /// Every registered system after every slot of the step.
 void try_all_places(int dimension, const std::string& method) {

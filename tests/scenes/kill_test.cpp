@@ -1,6 +1,7 @@
 // A run that is killed leaves files that can be read, whenever that happens: before, after and in the middle of every
 // write, which the kernel cuts short at the end of a page of 4096 bytes.
 
+#include "support/build.hpp"
 #include "support/folder.hpp"
 #include "support/program.hpp"
 #include "support/xml.hpp"
@@ -45,7 +46,7 @@ std::string bytes_of_process(pid_t pid, std::uint64_t address, std::uint64_t cou
 /// Runs the program and calls use() before each of its writes at a place of a file; others replace whole files.
 /// \return its exit code; -1 if programs may not be watched here
 int watch_writes(const std::vector<std::string>& arguments, const std::function<void(const PlacedWrite&)>& use) {
-  std::vector<std::string> words{MINAMO_PROGRAM};
+  std::vector<std::string> words{program_path()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

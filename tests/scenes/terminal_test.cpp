@@ -1,5 +1,6 @@
 // The program on a terminal: a line of progress within its width, which leaves nothing behind.
 
+#include "support/build.hpp"
 #include "support/folder.hpp"
 #include "support/program.hpp"
 
@@ -27,7 +28,7 @@ class ProgramOnTerminal {
  public:
   ProgramOnTerminal(const CommandLine& arguments, unsigned short columns) {
     winsize size = of(columns);
-    std::vector<std::string> words{MINAMO_PROGRAM};
+    std::vector<std::string> words{program_path()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());

@@ -1,5 +1,6 @@
 #include "support/program.hpp"
 
+#include "support/build.hpp"
 #include "support/folder.hpp"
 
 #include <csignal>
@@ -26,7 +27,7 @@ std::string new_file() {
 }  // namespace
 
 Program::Program(const std::vector<std::string>& arguments) : pid_(-1), output_file_(new_file()) {
-  std::vector<std::string> words{MINAMO_PROGRAM};
+  std::vector<std::string> words{program_path()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

@@ -2,6 +2,7 @@
 /// \file
 /// What the program prints, stdout and stderr apart.
 
+#include "support/build.hpp"
 #include "support/folder.hpp"
 
 #include <cstdlib>
@@ -32,7 +33,7 @@ inline ProgramOutput output_of_program(const std::string& folder, const std::vec
                                        const std::string& before = {}) {
   const Folder caught;
   std::string line = "cd ";
-  line.append(detail::in_quotes(folder)).append(" && ").append(before).append(detail::in_quotes(MINAMO_PROGRAM));
+  line.append(detail::in_quotes(folder)).append(" && ").append(before).append(detail::in_quotes(program_path()));
   for (const std::string& argument : arguments) line.append(" ").append(detail::in_quotes(argument));
   line.append(" > ").append(detail::in_quotes(caught / "out"));
   line.append(" 2> ").append(detail::in_quotes(caught / "err"));

@@ -2,6 +2,7 @@
 /// Words of other programs: every one of them, at the place where one would write it, is answered with what it is here.
 
 #include "engine/input.hpp"
+#include "support/build.hpp"
 #include "support/scene_run.hpp"
 #include "systems/setup/scene.hpp"
 #include "systems/setup/scene_words.hpp"
@@ -141,11 +142,7 @@ std::string expression_with(const std::string& word) {
 }
 
 /// Of how many words one is tried: all of them, but a sample where the sanitizers make each ten times dearer.
-#ifdef MINAMO_ADDRESS_SANITIZER
-constexpr std::size_t stride = 7;
-#else
-constexpr std::size_t stride = 1;
-#endif
+const std::size_t stride = is_address_sanitized() ? 7 : 1;
 
 }  // namespace
 

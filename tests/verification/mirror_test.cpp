@@ -65,7 +65,7 @@ void check_image(const Json& scene, const Mirror<Dim>& mirror, int steps, double
 
 }  // namespace
 
-TEST_CASE("every transfer scheme and integrator is the same in the mirror", "[verification]") {
+TEST_CASE("every transfer scheme and integrator is the same in the mirror", "[property]") {
   Json scene = any_method(column());
   const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
   const std::string discretization = GENERATE("conforming", "equal_order");
@@ -75,7 +75,7 @@ TEST_CASE("every transfer scheme and integrator is the same in the mirror", "[ve
   check_image<2>(scene, mirror, 5, 1e-11);
 }
 
-TEST_CASE("every solver of the pressure is the same in the mirror", "[verification]") {
+TEST_CASE("every solver of the pressure is the same in the mirror", "[property]") {
   const std::string discretization = GENERATE("conforming", "equal_order");
   const std::string solver = GENERATE(R"({"scheme": "umfpack"})", R"({"scheme": "block", "tolerance": 1e-13})");
   const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
@@ -84,14 +84,14 @@ TEST_CASE("every solver of the pressure is the same in the mirror", "[verificati
                  mirror, 5, 1e-10);
 }
 
-TEST_CASE("openings are the same in the mirror, with every transfer scheme", "[verification]") {
+TEST_CASE("openings are the same in the mirror, with every transfer scheme", "[property]") {
   const std::string transfer = GENERATE("pic", "flip", "tpic", "tpic2", "apic", "xpic", "fmpm");
   const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
   CAPTURE(transfer, mirror.axis, mirror.mirrored);
   check_image<2>(with(jets(), {R"(/transfer={"scheme": ")" + transfer + "\"}"}), mirror, 12, 1e-10);
 }
 
-TEST_CASE("what openings prescribe is the same in the mirror", "[verification]") {
+TEST_CASE("what openings prescribe is the same in the mirror", "[property]") {
   const std::string of_jet =
       GENERATE(R"({"inflow": {"rate": "0.15"}})", R"({"inflow": {"velocity": ["1.5 - 20*(y - 0.2)^2", "0"]}})",
                R"({"outflow": {"pressure": "900 + 300*y"}})", R"({"outflow": {"pressure": 900, "kind": "static"}})");
@@ -110,7 +110,7 @@ TEST_CASE("what openings prescribe is the same in the mirror", "[verification]")
   check_image<2>(scene, mirror, 8, 1e-10);
 }
 
-TEST_CASE("openings in space are the same in the mirror", "[verification]") {
+TEST_CASE("openings in space are the same in the mirror", "[property]") {
   const Json scene = Json::parse(R"json({
     "dimension": 3, "grid": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.3], "cells": [12, 8, 10]},
     "fluid": {"density": 1000, "viscosity": 2}, "body_force": [0, 0, -9.81],
@@ -126,7 +126,7 @@ TEST_CASE("openings in space are the same in the mirror", "[verification]") {
   check_image<3>(scene, mirror, 6, 1e-9);
 }
 
-TEST_CASE("a jet into a symmetric box does not drift", "[verification]") {
+TEST_CASE("a jet into a symmetric box does not drift", "[property]") {
   // Its edges at, and on either side of, faces and middles of cells. A jet drifted by 8 % of its speed to the low side.
   const int cells = GENERATE(24, 25, 26, 27);
   const Mirror<2> turned = GENERATE(in_y, exchanged);
@@ -147,7 +147,7 @@ TEST_CASE("a jet into a symmetric box does not drift", "[verification]") {
   CHECK(of.velocity < 1e-9);
 }
 
-TEST_CASE("walls and liquids are the same in the mirror", "[verification]") {
+TEST_CASE("walls and liquids are the same in the mirror", "[property]") {
   const std::string walls = GENERATE(R"("separating")", R"({"x": "periodic", "y": "slip"})",
                                      R"({"x": ["slip", {"slip_length": 0.02}], "y": "no_slip"})");
   const std::string fluid =
@@ -159,7 +159,7 @@ TEST_CASE("walls and liquids are the same in the mirror", "[verification]") {
 }
 
 TEST_CASE("the lattice of a shape is the same in the mirror where its surface passes through particles",
-          "[verification]") {
+          "[property]") {
   // In the middles of cells, to rounding, where particles lie; two regions meet there.
   const std::string first = GENERATE(
       R"({"box": {"low": [-0.4, -0.2], "high": [0.05, 0.15]}})", R"({"where": "x < 0.05 && y < 0.15"})",
@@ -174,7 +174,7 @@ TEST_CASE("the lattice of a shape is the same in the mirror where its surface pa
   check_image<2>(scene, mirror, 0, 1e-12);
 }
 
-TEST_CASE("forces on exact integrals are the same in the mirror", "[verification]") {
+TEST_CASE("forces on exact integrals are the same in the mirror", "[property]") {
   // Beside a surface at an angle, at rest and moving. 0.15 m/s off where the acceleration beside a face was that of one
   // of its sides, and faces without liquid on the high side told whether it moves.
   const std::string degree = GENERATE("2", "3");
@@ -187,7 +187,7 @@ TEST_CASE("forces on exact integrals are the same in the mirror", "[verification
   check_image<2>(scene, mirror, 8, 1e-8);
 }
 
-TEST_CASE("bodies are the same in the mirror", "[verification]") {
+TEST_CASE("bodies are the same in the mirror", "[property]") {
   // At the edge of the liquid, at sides of the box, with sides and corners on points of the grid, and anywhere.
   const std::string body = GENERATE(
       R"({"shape": {"ball": {"center": [0.02, 0.06], "radius": 0.09}}})",
@@ -211,7 +211,7 @@ TEST_CASE("bodies are the same in the mirror", "[verification]") {
   check_image<2>(scene, mirror, 3, 7e-9);
 }
 
-TEST_CASE("walls of bodies are the same in the mirror, of two in a cell, too", "[verification]") {
+TEST_CASE("walls of bodies are the same in the mirror, of two in a cell, too", "[property]") {
   const std::string wall = GENERATE(R"({"slip_length": 0.02})", R"("separating")", R"("no_slip")");
   const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
   CAPTURE(wall, mirror.axis, mirror.mirrored);
@@ -222,7 +222,7 @@ TEST_CASE("walls of bodies are the same in the mirror, of two in a cell, too", "
   check_image<2>(scene, mirror, 3, 7e-9);
 }
 
-TEST_CASE("bodies in space are the same in the mirror", "[verification]") {
+TEST_CASE("bodies in space are the same in the mirror", "[property]") {
   // The viscosity is the largest that friction at the start of a step takes with this slip length.
   const std::string body =
       GENERATE(R"({"shape": {"ball": {"center": [0.05, 0.02, 0], "radius": 0.11}}, "wall": "no_slip"})",
@@ -243,7 +243,7 @@ TEST_CASE("bodies in space are the same in the mirror", "[verification]") {
   check_image<3>(scene, mirror, 2, 1e-9);
 }
 
-TEST_CASE("drops in the plane are the same in the mirror", "[verification]") {
+TEST_CASE("drops in the plane are the same in the mirror", "[property]") {
   const std::string drop = GENERATE(R"({"ball": {"center": [0.03, 0.05], "radius": 0.16}})",
                                     R"({"ball": {"center": [0.1, 0.1], "radius": 0.17}})",  // in the middle of the box
                                     R"({"intersection": [{"ball": {"center": [0.03, -0.17], "radius": 0.2}},
@@ -259,7 +259,7 @@ TEST_CASE("drops in the plane are the same in the mirror", "[verification]") {
   check_image<2>(scene, mirror, 5, 1e-10);
 }
 
-TEST_CASE("drops in space are the same in the mirror", "[verification]") {
+TEST_CASE("drops in space are the same in the mirror", "[property]") {
   const std::string drop = GENERATE(R"({"ball": {"center": [0.03, 0.01, 0.05], "radius": 0.16}})",
                                     R"({"intersection": [{"ball": {"center": [0.03, -0.02, -0.17], "radius": 0.19}},
                                                          {"box": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.3]}}]})");
