@@ -27,6 +27,12 @@ struct BodyForce {
     return std::all_of(of_place_and_time.begin(), of_place_and_time.end(),
                        [](const Expression& b) { return b.is_constant() && b({}) == 0; });
   }
+  /// Those that are the same everywhere, always; zero for others. [m/s^2]
+  std::vector<double> constant_components() const {
+    std::vector<double> force;
+    for (const Expression& b : of_place_and_time) force.push_back(b.is_constant() ? b({}) : 0);
+    return force;
+  }
   /// Whether it is the same everywhere in space.
   bool is_uniform() const {
     return std::none_of(of_place_and_time.begin(), of_place_and_time.end(),

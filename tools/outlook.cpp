@@ -50,7 +50,7 @@ std::string limit_of(const Scene& scene, const Drive& drive, double step) {
   if (const auto capillary = capillary_step(scene); capillary && is_near(step, *capillary))
     return "waves of surface tension, (E116)";
   if (const auto gravity = gravity_step(scene, drive.force); gravity && is_near(step, *gravity))
-    return "waves of a liquid at rest, (E34)";
+    return "waves of a liquid at rest";  // (E34)
   if (is_near(step, scene.output.every)) return "the time from one frame to the next";
   const double distance = scene.time.cfl * scene.grid.spacing;
   const std::string cells = fmt::format("CFL number {}", scene.time.cfl);

@@ -3,27 +3,18 @@
 #include "systems/parts.hpp"
 #include "systems/setup/scene_checks.hpp"
 
+#include <algorithm>
+
 namespace minamo {
 
 namespace {
 
-/// Against a constant body force; without one along y.
+/// Against what is constant of the body force; without that along y.
 std::vector<double> upwards(const Scene& scene) {
   std::vector<double> up(static_cast<std::size_t>(scene.dimension), 0);
-  bool is_known = false;
-  if (const auto* force = scene.facts.find<BodyForce>()) {
-    for (std::size_t d = 0; d < force->of_place_and_time.size(); ++d) {
-      if (!force->of_place_and_time[d].is_constant()) {
-        is_known = false;
-        break;
-      }
-      up[d] = -force->of_place_and_time[d]({});
-      is_known = is_known || up[d] != 0;
-    }
-  }
-  if (is_known) return up;
-  std::fill(up.begin(), up.end(), 0);
-  up[1] = 1;
+  if (const auto* force = scene.facts.find<BodyForce>()) up = force->constant_components();
+  for (double& component : up) component = -component;
+  if (std::all_of(up.begin(), up.end(), [](double component) { return component == 0; })) up[1] = 1;
   return up;
 }
 
@@ -34,7 +25,7 @@ void read_gauge(Input& input, Scene& scene, Gauges<Dim>& gauges) {
   const auto at = input.numbers("at", Dim, {.unit = "m", .doc = "where heights begin"});
   const auto along = input.optional_numbers(
       "along", Dim,
-      {.doc = "out of the liquid, of any length but zero; else against a constant body_force, or along y"});
+      {.doc = "out of the liquid, of any length but zero; else against what is constant of body_force, or along y"});
   if (input.describing()) return;
   if (input.sound("name")) check_own_column(input, gauge.name, "gauge", scene);
   if (!input.sound("at") || !input.sound("along")) return;

@@ -2,11 +2,13 @@
 
 #include "components/contact.hpp"
 #include "systems/openings/opening_set.hpp"
+#include "systems/setup/seed_text.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace minamo {
 
@@ -34,15 +36,18 @@ bool is_at(const Lid<Dim>& lid, const Grid<Dim>& grid, const Index<Dim>& node) {
   return lid.is_high ? node[lid.axis] >= grid.cells[lid.axis] - 1 : node[lid.axis] <= 1;
 }
 
+/// The first particle at a lid. \return its place, if there is one
 template <int Dim>
-bool touches(const Lid<Dim>& lid, const Grid<Dim>& grid, const OccupiedCells<Dim>& cells,
-             std::span<const Vec<Dim>> x_p) {
-  const double touching = (0.25 + 1e-6) * grid.spacing;
-  return std::any_of(cells.cells.begin(), cells.cells.end(), [&](const auto& cell) {
-    return is_at<Dim>(lid, grid, cell.node) &&
-           std::any_of(x_p.begin() + cell.begin, x_p.begin() + cell.end,
-                       [&](const Vec<Dim>& x) { return distance<Dim>(lid, x) < touching; });
-  });
+std::optional<Vec<Dim>> touching(const Lid<Dim>& lid, const Grid<Dim>& grid, const OccupiedCells<Dim>& cells,
+                                 std::span<const Vec<Dim>> x_p) {
+  const double near = (0.25 + 1e-6) * grid.spacing;
+  for (const auto& cell : cells.cells) {
+    if (!is_at<Dim>(lid, grid, cell.node)) continue;
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      if (distance<Dim>(lid, x_p[p]) < near) return x_p[p];
+    }
+  }
+  return {};
 }
 
 constexpr std::string_view lid_is_wet = "lid";
@@ -74,12 +79,13 @@ void WatchLid<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Lid
   if (warnings->has(lid_is_wet)) return;
   const OccupiedCells<Dim>& occupied = cells ? static_cast<const OccupiedCells<Dim>&>(*cells) : *dual_cells;
   for (const Lid<Dim>& lid : lids->lids) {
-    if (!touches<Dim>(lid, *grid, occupied, x_p.span())) continue;
+    const auto place = touching<Dim>(lid, *grid, occupied, x_p.span());
+    if (!place) continue;
     warnings->add(lid_is_wet,
-                  fmt::format("liquid touches the lid, the {} side of {}, at t = {:.6g} s: the box is closed, and "
-                              "its walls hold what touches them; for an open tank make this side "
+                  fmt::format("liquid touches the lid, the {} side of {}, at {}, t = {:.6g} s: the box is closed, "
+                              "and its walls hold what touches them; for an open tank make this side "
                               "\"separating\", give it an opening, or make the box higher",
-                              lid.is_high ? "high" : "low", "xyz"[lid.axis], clock -> time));
+                              lid.is_high ? "high" : "low", "xyz"[lid.axis], place_text<Dim>(*place), clock -> time));
     return;
   }
 }

@@ -16,14 +16,6 @@ namespace minamo {
 
 namespace {
 
-/// A constant body force, zero along axes where it is none. [m/s^2]
-std::vector<double> constant_force(const Scene& scene) {
-  std::vector<double> force;
-  for (const Expression& b : scene.facts.get<BodyForce>().of_place_and_time)
-    force.push_back(b.is_constant() ? b({}) : 0);
-  return force;
-}
-
 double norm_of(const std::vector<double>& vector) {
   double squared = 0;
   for (const double component : vector) squared += component * component;
@@ -44,7 +36,7 @@ double smallest_extent(const GridScene& grid) {
 }
 
 void doubt_of_fall(const Scene& scene, std::vector<std::string>& doubts) {
-  const std::vector<double> force = constant_force(scene);
+  const std::vector<double> force = scene.facts.get<BodyForce>().constant_components();
   const double b = norm_of(force);
   constexpr double of_gravity = 1;  // [m/s^2] weaker forces may well drive a slow flow through a large box
   constexpr double large = 50;      // [m] along the force
@@ -59,7 +51,7 @@ void doubt_of_fall(const Scene& scene, std::vector<std::string>& doubts) {
 }
 
 void doubt_of_gravity(const Scene& scene, std::vector<std::string>& doubts) {
-  const double b = norm_of(constant_force(scene));
+  const double b = norm_of(scene.facts.get<BodyForce>().constant_components());
   for (const auto& [unit, factor] : {std::pair("mm", 1e3), std::pair("cm", 1e2)}) {
     constexpr double least = 9.7, most = 9.9;  // between the equator and the poles, however it is rounded [m/s^2]
     if (b >= least * factor && b <= most * factor)
