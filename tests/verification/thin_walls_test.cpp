@@ -187,7 +187,7 @@ TEST_CASE("water rests in boxes of thin walls, and none gets through", "[verific
 TEST_CASE("water rests on both sides of a wall, whatever the levels", "[verification]") {
   const int seed = GENERATE(1, 2);
   std::mt19937 random(static_cast<unsigned>(seed));
-  const double thickness = GENERATE(1.2, 2, 3.3, 4, 4.6);  // [h]
+  const double thickness = GENERATE(1.2, 3.3, 4.6);  // [h]
   const TwoPools pools = any_two_pools(random, thickness * 0.05);
   CAPTURE(seed, thickness, pools.frame.angle, pools.frame.middle);
   check_rest(pools.scene(3), 100, 60, 0.02);
@@ -196,11 +196,10 @@ TEST_CASE("water rests on both sides of a wall, whatever the levels", "[verifica
 TEST_CASE("water rests on both sides of a wall, whatever the levels, for long", "[verification][long]") {
   const int seed = GENERATE(1, 2, 3);
   std::mt19937 random(static_cast<unsigned>(seed));
-  const int per_cell = GENERATE(3, 4);
   const double thickness = GENERATE(1.2, 2, 4);  // [h]
   const TwoPools pools = any_two_pools(random, thickness * 0.05);
-  CAPTURE(seed, per_cell, thickness, pools.frame.angle, pools.frame.middle);
-  check_rest(pools.scene(per_cell), 100, 500, 0.02);
+  CAPTURE(seed, thickness, pools.frame.angle, pools.frame.middle);
+  check_rest(pools.scene(3), 100, 300, 0.02);
 }
 
 TEST_CASE("a gate is pushed by the water on its two sides", "[verification]") {
