@@ -357,7 +357,8 @@ Contribution read_regions(Input& input, Scene& scene) {
                scene.particles.push_back(read_particles(in, scene, cut));
              });
   if (!input.describing() && scene.particles.empty() && input.sound("particles") && !may_come_in(input)) {
-    input.problem("particles", "no liquid", "at least one region, or an inflow by velocity or rate: a level outside lets in where liquid is",
+    input.problem("particles", "no liquid",
+                  "at least one region, or an inflow by velocity or rate: a level outside lets in where liquid is",
                   input.has("particles") ? "" : "none");
   }
   scene.facts.set(fluids);

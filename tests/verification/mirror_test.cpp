@@ -158,8 +158,7 @@ TEST_CASE("walls and liquids are the same in the mirror", "[property]") {
   check_image<2>(with(column(), {"/walls=" + walls, "/fluid=" + fluid}), mirror, 5, 1e-9);
 }
 
-TEST_CASE("the lattice of a shape is the same in the mirror where its surface passes through particles",
-          "[property]") {
+TEST_CASE("the lattice of a shape is the same in the mirror where its surface passes through particles", "[property]") {
   // In the middles of cells, to rounding, where particles lie; two regions meet there.
   const std::string first = GENERATE(
       R"({"box": {"low": [-0.4, -0.2], "high": [0.05, 0.15]}})", R"({"where": "x < 0.05 && y < 0.15"})",
