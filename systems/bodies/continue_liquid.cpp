@@ -62,7 +62,8 @@ class View {
     const Index<Dim> to_it = splines_.steps(from_, continued_.site[c]);
     if (around_ == nullptr) return continued_.version(c, negative(to_it));
     const Around& other = continued_.sides[c];
-    if (around_->count == 0 || other.count == 0) return continued_.first[c];
+    if (around_->count == 0 || other.count == 0)
+      return other.is_parted() ? std::nullopt : std::optional<std::size_t>(continued_.first[c]);
     if (label_ == 0 && !other.is_parted() && other.at({}) != 0) return continued_.first[c];
     // They are on one side if they have something open in common; on no one side if with two of them.
     std::optional<std::size_t> common;
