@@ -86,11 +86,20 @@ struct Liquid {
   bool is_full(std::size_t i) const { return liquid::is_full(phi[i]); }
   /// psi of a multiplier, as it is on the side of a wall where `from` is.
   double psi_at(const Index<Dim>& at, const std::optional<std::uint32_t>& row, const Index<Dim>& from) const {
-    if (row && !has_sides()) return psi[*row];
-    const auto beyond = continued != nullptr ? continued->rows.find(at) : std::nullopt;
-    if (row && !(beyond && continued->sides[*beyond].is_parted())) return psi[*row];
-    const auto version = beyond ? continued->version(*beyond, splines.steps(at, from)) : std::nullopt;
+    if (row && !is_parted(at)) return psi[*row];
+    const auto version = continued_version(at, from);
     return version ? continued->psi[*version] : -liquid::farthest;
+  }
+  /// The version of a multiplier to which the liquid is continued, on that side.
+  std::optional<std::size_t> continued_version(const Index<Dim>& at, const Index<Dim>& from) const {
+    const auto c = continued != nullptr ? continued->rows.find(at) : std::nullopt;
+    return c ? continued->version(*c, splines.steps(at, from)) : std::nullopt;
+  }
+  /// Whether a wall parts what is around a multiplier.
+  bool is_parted(const Index<Dim>& at) const {
+    if (!has_sides()) return false;
+    const auto c = continued->rows.find(at);
+    return c && continued->sides[*c].is_parted();
   }
   bool has_sides() const { return continued != nullptr && continued->any_parted; }
 };
@@ -100,10 +109,8 @@ template <int Dim, int K>
 bool is_parted(const Liquid<Dim>& of, const Index<Dim>& cell) {
   if (!of.has_sides()) return false;
   bool any = false;
-  for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
-    const auto c = of.continued->rows.find(of.splines.site(cell, offset));
-    any = any || (c && of.continued->sides[*c].is_parted());
-  });
+  for_each_multiplier<Dim, K>(
+      [&](std::size_t, const Index<Dim>& offset) { any = any || of.is_parted(of.splines.site(cell, offset)); });
   return any;
 }
 
@@ -279,8 +286,7 @@ bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d, const Inde
   if (of.continued == nullptr) return false;
   const auto lacks_particles = [&](const Index<Dim>& site, std::int32_t row) {
     if (row != staggered::none && of.phi[static_cast<std::size_t>(row)] > 0) return false;
-    const auto c = of.continued->rows.find(site);
-    const auto version = c ? of.continued->version(*c, of.splines.steps(site, from)) : std::nullopt;
+    const auto version = of.continued_version(site, from);
     return version && of.continued->fill[*version] > unseen;
   };
   if (lacks_particles(of.site[i], static_cast<std::int32_t>(i))) return true;
