@@ -27,10 +27,10 @@ constexpr double outside_from = 0.6 - 1e-9;
 constexpr int most_passes = 8;
 
 /// Faces within two steps of one along every axis, x fastest.
-constexpr int reach = 2;
-constexpr int across = 2 * reach + 1;
+constexpr int level_reach = 2;
+constexpr int sites_across = 2 * level_reach + 1;
 template <int Dim>
-constexpr std::size_t count_around = power(across, Dim);
+constexpr std::size_t count_around = power(sites_across, Dim);
 
 /// Steps of the grid to them.
 template <int Dim>
@@ -38,7 +38,8 @@ std::array<Vec<Dim>, count_around<Dim>> list_steps() {
   std::array<Vec<Dim>, count_around<Dim>> steps;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     std::size_t rest = k;
-    for (int d = 0; d < Dim; ++d, rest /= across) steps[k][d] = static_cast<int>(rest % across) - reach;
+    for (int d = 0; d < Dim; ++d, rest /= sites_across)
+      steps[k][d] = static_cast<int>(rest % sites_across) - level_reach;
   }
   return steps;
 }
@@ -49,26 +50,26 @@ const std::array<Vec<Dim>, count_around<Dim>> steps_to = list_steps<Dim>();
 template <int Dim>
 using Block = std::array<std::size_t, power(2, Dim)>;
 template <int Dim>
-std::array<Block<Dim>, power(across - 1, Dim)> list_blocks() {
-  std::array<Block<Dim>, power(across - 1, Dim)> blocks;
+std::array<Block<Dim>, power(sites_across - 1, Dim)> list_blocks() {
+  std::array<Block<Dim>, power(sites_across - 1, Dim)> blocks;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::size_t first = 0;
     std::size_t rest = k;
-    for (int d = 0; d < Dim; ++d, rest /= across - 1) first += rest % (across - 1) * power(across, d);
+    for (int d = 0; d < Dim; ++d, rest /= sites_across - 1) first += rest % (sites_across - 1) * power(sites_across, d);
     for (std::size_t c = 0; c < blocks[k].size(); ++c) {
       blocks[k][c] = first;
-      for (int d = 0; d < Dim; ++d) blocks[k][c] += (c >> d & 1U) * power(across, d);
+      for (int d = 0; d < Dim; ++d) blocks[k][c] += (c >> d & 1U) * power(sites_across, d);
     }
   }
   return blocks;
 }
 template <int Dim>
-const std::array<Block<Dim>, power(across - 1, Dim)> blocks_around = list_blocks<Dim>();
+const std::array<Block<Dim>, power(sites_across - 1, Dim)> blocks_around = list_blocks<Dim>();
 
 template <int Dim>
 std::size_t place_of(const Index<Dim>& steps) {
   std::size_t k = 0;
-  for (std::size_t d = Dim; d-- > 0;) k = across * k + static_cast<std::size_t>(steps[d] + reach);
+  for (std::size_t d = Dim; d-- > 0;) k = sites_across * k + static_cast<std::size_t>(steps[d] + level_reach);
   return k;
 }
 
@@ -80,11 +81,11 @@ template <int Dim>
 RowsAround<Dim> rows_around(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
   RowsAround<Dim> around;
   around.fill(staggered::none);
-  for_each_row_around<Dim, reach>(faces.splines, faces.rows, faces.site[row],
-                                  [&](std::uint32_t i, const Index<Dim>& site, const Index<Dim>& steps) {
-                                    if (faces.splines.has_face(site, faces.direction))
-                                      around[place_of<Dim>(steps)] = static_cast<std::int32_t>(i);
-                                  });
+  for_each_row_around<Dim, level_reach>(faces.splines, faces.rows, faces.site[row],
+                                        [&](std::uint32_t i, const Index<Dim>& site, const Index<Dim>& steps) {
+                                          if (faces.splines.has_face(site, faces.direction))
+                                            around[place_of<Dim>(steps)] = static_cast<std::int32_t>(i);
+                                        });
   return around;
 }
 
