@@ -6,7 +6,7 @@
 
 #include "components/blocks.hpp"
 #include "components/types.hpp"
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 #include <span>
 #include <vector>

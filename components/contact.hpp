@@ -4,7 +4,7 @@
 
 #include "components/body.hpp"
 #include "components/staggered.hpp"
-#include "engine/loop.hpp"
+#include "engine/schedule/loop.hpp"
 
 namespace minamo {
 

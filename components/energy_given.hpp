@@ -2,7 +2,7 @@
 /// \file
 /// Energy that the liquid gets from what has none in (E28).
 
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 #include <array>
 

@@ -2,8 +2,8 @@
 /// \file
 /// The exact solution of a scene, to measure errors against.
 
-#include "engine/component.hpp"
-#include "engine/expression.hpp"
+#include "engine/input/expression.hpp"
+#include "engine/storage/component.hpp"
 
 #include <array>
 #include <limits>

@@ -3,8 +3,8 @@
 /// The liquid and what drives it.
 
 #include "components/types.hpp"
-#include "engine/component.hpp"
-#include "engine/expression.hpp"
+#include "engine/input/expression.hpp"
+#include "engine/storage/component.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -5,7 +5,7 @@
 /// Along a periodic axis the node at the high end is the one at the low end, and the box has no walls there.
 
 #include "components/types.hpp"
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 namespace minamo {
 

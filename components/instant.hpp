@@ -4,8 +4,8 @@
 
 #include "components/step.hpp"
 #include "components/types.hpp"
-#include "engine/clock.hpp"
-#include "engine/expression.hpp"
+#include "engine/input/expression.hpp"
+#include "engine/run/clock.hpp"
 
 #include <span>
 #include <string>

@@ -4,7 +4,7 @@
 /// the neighbour at offset (k % 5 - 2, k / 5 % 5 - 2, ...), so that entry 5^d - 1 - k is the way back.
 
 #include "components/types.hpp"
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 /// What is measured for the history, in the steps that it has a row of, and the overlap, in every step.
 
 #include "components/types.hpp"
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 #include <algorithm>
 #include <array>

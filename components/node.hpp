@@ -6,7 +6,7 @@
 /// the matrix).
 
 #include "components/types.hpp"
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 namespace minamo {
 

@@ -3,7 +3,7 @@
 /// What particles carry. Rows are kept sorted by dual cell (cells.hpp); `Id` tells who is who.
 
 #include "components/types.hpp"
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 namespace minamo {
 

@@ -4,7 +4,7 @@
 
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
-#include "engine/loop.hpp"
+#include "engine/schedule/loop.hpp"
 
 #include <algorithm>
 #include <variant>

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// What a step is made of beside its length (engine/clock.hpp).
+/// What a step is made of beside its length (engine/run/clock.hpp).
 
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 namespace minamo {
 

@@ -2,7 +2,7 @@
 /// \file
 /// What a transfer scheme does to the velocity of particles, for systems that have to know.
 
-#include "engine/component.hpp"
+#include "engine/storage/component.hpp"
 
 namespace minamo {
 

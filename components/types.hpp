@@ -2,7 +2,7 @@
 /// \file
 /// Small fixed-size vectors and matrices, and powers known at compile time.
 
-#include "engine/world.hpp"
+#include "engine/storage/world.hpp"
 
 #include <Eigen/Core>
 

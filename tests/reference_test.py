@@ -86,7 +86,7 @@ class PythonPage(unittest.TestCase):
 class Pages(unittest.TestCase):
     def test_every_header_that_extensions_include_is_in_it(self):
         included = set()
-        for path in [ROOT / "tools/minamo.hpp", *ROOT.glob("tools/example_*/main.cpp")]:
+        for path in [ROOT / "tools/program/minamo.hpp", *ROOT.glob("tools/example_*/main.cpp")]:
             included |= set(re.findall(r'#include ["<](?:minamo/)?((?:engine|components|systems)/[\w/]+\.hpp)',
                                        path.read_text()))
         self.assertGreater(len(included), 15)
@@ -112,10 +112,10 @@ class Pages(unittest.TestCase):
 
     def test_a_member_without_description_is_an_error(self):
         tree = copied("member")
-        change(tree / "engine/clock.hpp", "  double step = 0; ", "  double pace = 0;\n  double step = 0; ")
+        change(tree / "engine/run/clock.hpp", "  double step = 0; ", "  double pace = 0;\n  double step = 0; ")
         done = doxygen(tree)
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("engine/clock.hpp:12: error: Member pace (variable) of struct minamo::Clock is not documented",
+        self.assertIn("engine/run/clock.hpp:12: error: Member pace (variable) of struct minamo::Clock is not documented",
                       done.stderr)
 
 

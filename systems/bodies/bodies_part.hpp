@@ -3,7 +3,7 @@
 /// What other parts know of the bodies of a scene.
 
 #include "systems/bodies/body_set.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/scene/scene.hpp"
 
 namespace minamo {
 

@@ -4,7 +4,7 @@
 
 #include "components/body.hpp"
 #include "components/rigid.hpp"
-#include "engine/expression.hpp"
+#include "engine/input/expression.hpp"
 #include "systems/shapes/placement.hpp"
 #include "systems/shapes/shape.hpp"
 

@@ -2,10 +2,10 @@
 /// \file
 /// What a scene says of the surface of a body.
 
-#include "engine/input.hpp"
+#include "engine/input/input.hpp"
 #include "systems/bodies/body_set.hpp"
-#include "systems/conforming/friction_choice.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/scene/scene.hpp"
+#include "systems/viscosity/friction_choice.hpp"
 
 namespace minamo {
 

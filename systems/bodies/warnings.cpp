@@ -2,12 +2,12 @@
 
 #include "components/grid.hpp"
 #include "components/particle.hpp"
+#include "components/vector_text.hpp"
 #include "systems/bodies/bodies_part.hpp"
-#include "systems/bodies/cut.hpp"
-#include "systems/bodies/outlines.hpp"
-#include "systems/bodies/seed_cut.hpp"
-#include "systems/bodies/surface_samples.hpp"
-#include "systems/setup/seed_text.hpp"
+#include "systems/bodies/geometry/cut.hpp"
+#include "systems/bodies/geometry/outlines.hpp"
+#include "systems/bodies/geometry/seed_cut.hpp"
+#include "systems/bodies/geometry/surface_samples.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -3,8 +3,8 @@
 /// What a scene with bodies may not mean: gaps too thin for the grid, bodies that overlap others at the start,
 /// liquid that bodies take the place of, thin walls between liquid and liquid.
 
-#include "engine/world.hpp"
-#include "systems/setup/scene.hpp"
+#include "engine/storage/world.hpp"
+#include "systems/scene/scene.hpp"
 
 namespace minamo {
 

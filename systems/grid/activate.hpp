@@ -5,7 +5,7 @@
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "components/sites.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 #include <span>

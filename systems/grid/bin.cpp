@@ -1,7 +1,7 @@
 #include "systems/grid/bin.hpp"
 
-#include "systems/conforming/support.hpp"
 #include "systems/grid/cell_blocks.hpp"
+#include "systems/grid/site_support.hpp"
 
 #include <algorithm>
 #include <cmath>

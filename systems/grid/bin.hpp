@@ -5,8 +5,8 @@
 #include "components/cells.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/splines.hpp"
 
 namespace minamo {
 

@@ -4,7 +4,7 @@
 
 #include "components/advected_node.hpp"
 #include "components/node.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

@@ -5,7 +5,7 @@
 /// hold_at_rest().
 
 #include "components/node.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

@@ -3,7 +3,7 @@
 /// The grid that a scene asks for.
 
 #include "components/grid.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/scene/scene.hpp"
 
 namespace minamo {
 

@@ -1,14 +1,14 @@
 #include "components/grid.hpp"
-#include "engine/communicator.hpp"
-#include "systems/assemble/neighbours.hpp"
+#include "engine/run/communicator.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
 #include "systems/grid/capacity.hpp"
 #include "systems/grid/grid_of.hpp"
+#include "systems/grid/node_neighbours.hpp"
 #include "systems/grid/number_nodes.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
-#include "systems/setup/scene_checks.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/scene_checks.hpp"
 
 namespace minamo {
 

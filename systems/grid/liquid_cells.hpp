@@ -5,8 +5,8 @@
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/node.hpp"
-#include "engine/system.hpp"
-#include "systems/grid/support.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/node_support.hpp"
 
 namespace minamo {
 

@@ -3,7 +3,7 @@
 /// Volume around nodes: of the grid, and of the particles.
 
 #include "components/advected_node.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/grid/contract.hpp"
 #include "systems/grid/point_locator.hpp"
 

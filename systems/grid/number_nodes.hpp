@@ -6,7 +6,7 @@
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/sites.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

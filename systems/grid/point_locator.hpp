@@ -4,7 +4,7 @@
 /// and for points that are no particles.
 
 #include "components/sites.hpp"
-#include "systems/grid/support.hpp"
+#include "systems/grid/node_support.hpp"
 
 namespace minamo {
 

@@ -2,7 +2,7 @@
 /// \file
 /// The words for a wall, of a side of the box or of a body: a name, or {"slip_length": 1e-3}.
 
-#include "engine/input.hpp"
+#include "engine/input/input.hpp"
 
 #include <map>
 #include <string>

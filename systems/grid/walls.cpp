@@ -1,6 +1,6 @@
 #include "systems/grid/walls.hpp"
 
-#include "engine/parallel.hpp"
+#include "engine/schedule/parallel.hpp"
 #include "systems/grid/constraint.hpp"
 
 namespace minamo {

@@ -1,10 +1,10 @@
 #pragma once
 /// \file
 /// Walls: the sides of the grid box, slip or no-slip. Those with a slip length hold as slip walls do; their friction is
-/// in systems/conforming/friction_matrices.hpp.
+/// in systems/viscosity/friction_matrices.hpp.
 
 #include "components/node.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

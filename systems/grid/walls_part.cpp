@@ -2,9 +2,9 @@
 #include "components/grid.hpp"
 #include "systems/grid/read_wall.hpp"
 #include "systems/grid/walls.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
-#include "systems/setup/schemes.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/schemes.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -4,7 +4,7 @@
 /// of boxes, multilinear in each: along lines in one direction exactly, across them by Gauss's rule between the places
 /// where the surface enters and leaves the box. Of a plane surface they are exact.
 
-#include "systems/conforming/support.hpp"
+#include "systems/grid/site_support.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #include "systems/liquid/exact_pressure.hpp"
 
-#include "systems/conforming/face_density.hpp"
-#include "systems/conforming/incidence.hpp"
+#include "systems/grid/incidence.hpp"
 #include "systems/liquid/spread.hpp"
+#include "systems/momentum/face_density.hpp"
 
 #include <cmath>
 

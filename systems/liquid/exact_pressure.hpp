@@ -9,8 +9,8 @@
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
 #include "components/step.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/splines.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {

@@ -1,10 +1,10 @@
 #include "systems/liquid/exact_volume.hpp"
 
-#include "systems/conforming/face_density.hpp"
-#include "systems/conforming/sites_around.hpp"
+#include "systems/grid/sites_around.hpp"
 #include "systems/liquid/cell_integrals.hpp"
 #include "systems/liquid/liquid_surface.hpp"
 #include "systems/liquid/side_of_face.hpp"
+#include "systems/momentum/face_density.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "systems/liquid/liquid_surface.hpp"
 
-#include "systems/conforming/sites_around.hpp"
+#include "systems/grid/sites_around.hpp"
 #include "systems/liquid/spline_fraction.hpp"
 #include "systems/liquid/spread.hpp"
 

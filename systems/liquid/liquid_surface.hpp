@@ -5,8 +5,8 @@
 #include "components/body.hpp"
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/splines.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {

@@ -3,7 +3,7 @@
 /// From where a face looks at the liquid that is continued into bodies: walls hide what is on their other side.
 
 #include "components/staggered.hpp"
-#include "systems/conforming/sites_around.hpp"
+#include "systems/grid/sites_around.hpp"
 
 namespace minamo {
 

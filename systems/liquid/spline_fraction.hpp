@@ -3,7 +3,7 @@
 /// (E130) How much of the spline of a multiplier a plane leaves in the liquid, exactly, and where the plane is of which
 /// that is known.
 
-#include "systems/conforming/splines.hpp"
+#include "systems/grid/splines.hpp"
 
 namespace minamo {
 

@@ -3,7 +3,7 @@
 /// The largest value of a column of multipliers around each of them.
 
 #include "components/staggered.hpp"
-#include "systems/conforming/sites_around.hpp"
+#include "systems/grid/sites_around.hpp"
 
 namespace minamo {
 

@@ -1,7 +1,7 @@
 #include "systems/measure/acceptance.hpp"
 
-#include "engine/parallel.hpp"
-#include "engine/step_control.hpp"
+#include "engine/run/step_control.hpp"
+#include "engine/schedule/parallel.hpp"
 #include "systems/grid/activate.hpp"
 
 #include <spdlog/fmt/fmt.h>

@@ -8,9 +8,9 @@
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "components/step.hpp"
-#include "engine/linear_solver.hpp"
-#include "engine/step_control.hpp"
-#include "engine/system.hpp"
+#include "engine/run/linear_solver.hpp"
+#include "engine/run/step_control.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {

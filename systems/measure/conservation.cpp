@@ -1,7 +1,7 @@
 #include "systems/measure/conservation.hpp"
 
-#include "engine/parallel.hpp"
-#include "systems/conforming/support.hpp"
+#include "engine/schedule/parallel.hpp"
+#include "systems/grid/site_support.hpp"
 #include "systems/time/body_force.hpp"
 
 #include <Eigen/Geometry>

@@ -9,9 +9,9 @@
 #include "components/measure.hpp"
 #include "components/openings.hpp"
 #include "components/particle.hpp"
-#include "engine/communicator.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/splines.hpp"
 
 #include <span>
 

@@ -1,4 +1,4 @@
-#include "engine/communicator.hpp"
+#include "engine/run/communicator.hpp"
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/measure/conservation.hpp"
 #include "systems/measure/force_work.hpp"
@@ -6,8 +6,8 @@
 #include "systems/measure/watch_lid.hpp"
 #include "systems/measure/watch_move.hpp"
 #include "systems/measure/watch_volume.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,6 +1,6 @@
 #include "systems/measure/error.hpp"
 
-#include "engine/parallel.hpp"
+#include "engine/schedule/parallel.hpp"
 #include "systems/measure/weighted_mean.hpp"
 
 #include <spdlog/fmt/fmt.h>

@@ -10,8 +10,8 @@
 #include "components/instant.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
-#include "engine/communicator.hpp"
-#include "engine/system.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

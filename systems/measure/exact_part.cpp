@@ -1,12 +1,12 @@
 #include "systems/measure/exact_part.hpp"
 
 #include "components/exact.hpp"
+#include "components/vector_text.hpp"
 #include "systems/measure/error.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
-#include "systems/setup/scene.hpp"
-#include "systems/setup/scene_checks.hpp"
-#include "systems/setup/seed_text.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/scene.hpp"
+#include "systems/scene/scene_checks.hpp"
 
 #include <cmath>
 

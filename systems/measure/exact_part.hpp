@@ -2,7 +2,7 @@
 /// \file
 /// The exact solution that a scene gives.
 
-#include "engine/expression.hpp"
+#include "engine/input/expression.hpp"
 
 #include <limits>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "systems/measure/fill_along.hpp"
 
-#include "systems/bodies/cut.hpp"
+#include "systems/bodies/geometry/cut.hpp"
 
 #include <algorithm>
 #include <cmath>

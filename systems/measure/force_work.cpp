@@ -1,7 +1,7 @@
 #include "systems/measure/force_work.hpp"
 
-#include "engine/parallel.hpp"
-#include "systems/setup/scene.hpp"
+#include "engine/schedule/parallel.hpp"
+#include "systems/scene/scene.hpp"
 #include "systems/time/body_force.hpp"
 
 #include <algorithm>

@@ -10,10 +10,10 @@
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "components/step.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/volume.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/ranks/site_exchange.hpp"
+#include "systems/volume/face_volume.hpp"
 
 namespace minamo {
 

@@ -1,7 +1,7 @@
 #include "systems/measure/gauges.hpp"
 
-#include "engine/parallel.hpp"
-#include "systems/bodies/cut.hpp"
+#include "engine/schedule/parallel.hpp"
+#include "systems/bodies/geometry/cut.hpp"
 #include "systems/measure/fill_along.hpp"
 
 #include <cmath>

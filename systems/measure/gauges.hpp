@@ -5,8 +5,8 @@
 #include "components/body.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
-#include "engine/communicator.hpp"
-#include "engine/system.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
 
 namespace minamo {

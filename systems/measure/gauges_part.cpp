@@ -1,7 +1,7 @@
 #include "systems/measure/gauges.hpp"
 #include "systems/measure/own_column.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/scene_checks.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/scene_checks.hpp"
 
 #include <algorithm>
 

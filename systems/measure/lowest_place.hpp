@@ -4,8 +4,8 @@
 
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
-#include "systems/bodies/cut.hpp"
-#include "systems/conforming/splines.hpp"
+#include "systems/bodies/geometry/cut.hpp"
+#include "systems/grid/splines.hpp"
 
 #include <optional>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "systems/measure/meters.hpp"
 
-#include "engine/parallel.hpp"
+#include "engine/schedule/parallel.hpp"
 
 #include <cmath>
 

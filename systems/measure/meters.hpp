@@ -5,9 +5,9 @@
 #include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
-#include "engine/clock.hpp"
-#include "engine/communicator.hpp"
-#include "engine/system.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/shapes/shape.hpp"
 
 namespace minamo {

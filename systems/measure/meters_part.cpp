@@ -1,8 +1,8 @@
 #include "systems/measure/meters.hpp"
 #include "systems/measure/own_column.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/scene_checks.hpp"
-#include "systems/shapes/read_shape.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/read_shape.hpp"
+#include "systems/scene/scene_checks.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,7 +1,7 @@
 #include "systems/measure/own_column.hpp"
 
 #include "systems/output/history.hpp"
-#include "systems/setup/scene_checks.hpp"
+#include "systems/scene/scene_checks.hpp"
 
 #include <algorithm>
 #include <array>

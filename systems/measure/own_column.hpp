@@ -2,7 +2,7 @@
 /// \file
 /// Names of things whose column of the history is their name itself.
 
-#include "systems/setup/scene.hpp"
+#include "systems/scene/scene.hpp"
 
 namespace minamo {
 

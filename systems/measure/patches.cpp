@@ -1,7 +1,7 @@
 #include "systems/measure/patches.hpp"
 
-#include "engine/parallel.hpp"
-#include "systems/conforming/support.hpp"
+#include "engine/schedule/parallel.hpp"
+#include "systems/grid/site_support.hpp"
 
 #include <Eigen/Geometry>
 #include <spdlog/fmt/fmt.h>

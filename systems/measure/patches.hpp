@@ -6,9 +6,9 @@
 #include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/staggered.hpp"
-#include "engine/system.hpp"
-#include "systems/bodies/cut.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/bodies/geometry/cut.hpp"
+#include "systems/grid/splines.hpp"
 #include "systems/shapes/outline.hpp"
 
 namespace minamo {

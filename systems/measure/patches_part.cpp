@@ -1,8 +1,8 @@
-#include "systems/bodies/outlines.hpp"
+#include "systems/bodies/geometry/outlines.hpp"
 #include "systems/measure/patches.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/scene_checks.hpp"
-#include "systems/shapes/read_shape.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/read_shape.hpp"
+#include "systems/scene/scene_checks.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>

@@ -2,9 +2,9 @@
 
 #include "components/measure.hpp"
 #include "systems/measure/probes.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
-#include "systems/setup/scene_checks.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/scene_checks.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,6 +1,6 @@
 #include "systems/measure/volume.hpp"
 
-#include "systems/assemble/neighbours.hpp"
+#include "systems/grid/node_neighbours.hpp"
 
 #include <array>
 #include <cmath>

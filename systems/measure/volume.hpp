@@ -11,7 +11,7 @@
 #include "components/particle.hpp"
 #include "components/sites.hpp"
 #include "components/step.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {

@@ -1,8 +1,8 @@
 #include "systems/measure/watch_lid.hpp"
 
 #include "components/contact.hpp"
+#include "components/vector_text.hpp"
 #include "systems/openings/opening_set.hpp"
-#include "systems/setup/seed_text.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -5,9 +5,9 @@
 #include "components/cells.hpp"
 #include "components/grid.hpp"
 #include "components/particle.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
-#include "engine/warnings.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/warnings.hpp"
+#include "engine/schedule/system.hpp"
 
 #include <vector>
 

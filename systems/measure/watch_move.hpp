@@ -4,9 +4,9 @@
 
 #include "components/grid.hpp"
 #include "components/measure.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
-#include "engine/warnings.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/warnings.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

@@ -1,8 +1,8 @@
 #include "systems/openings/faces.hpp"
 
-#include "engine/step_control.hpp"
-#include "systems/bodies/room.hpp"
-#include "systems/conforming/incidence.hpp"
+#include "engine/run/step_control.hpp"
+#include "systems/bodies/particles/room.hpp"
+#include "systems/grid/incidence.hpp"
 #include "systems/time/body_force.hpp"
 
 #include <spdlog/fmt/fmt.h>

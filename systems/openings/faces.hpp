@@ -6,10 +6,10 @@
 #include "components/body.hpp"
 #include "components/cells.hpp"
 #include "components/particle.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/solve.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/openings/opening_set.hpp"
+#include "systems/pressure/solve.hpp"
 
 namespace minamo {
 

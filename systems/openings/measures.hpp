@@ -4,7 +4,7 @@
 
 #include "components/measure.hpp"
 #include "components/particle.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/openings/opening_set.hpp"
 
 namespace minamo {

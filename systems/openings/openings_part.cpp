@@ -6,9 +6,9 @@
 #include "systems/openings/measures.hpp"
 #include "systems/openings/particles.hpp"
 #include "systems/openings/shares.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
-#include "systems/setup/scene_checks.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/scene_checks.hpp"
 #include "systems/transfer/scheme.hpp"
 
 #include <spdlog/fmt/fmt.h>

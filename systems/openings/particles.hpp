@@ -10,8 +10,8 @@
 /// does not come in through one side comes in through the next.
 
 #include "components/particle.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/openings/opening_set.hpp"
 
 namespace minamo {

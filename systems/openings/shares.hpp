@@ -4,7 +4,7 @@
 
 #include "systems/bodies/body_set.hpp"
 #include "systems/openings/opening_set.hpp"
-#include "systems/setup/part.hpp"
+#include "systems/scene/part.hpp"
 
 namespace minamo {
 

@@ -4,7 +4,7 @@
 /// is 1 there, so that a velocity on a side is a sum over the splines along it alone.
 
 #include "components/openings.hpp"
-#include "systems/conforming/support.hpp"
+#include "systems/grid/site_support.hpp"
 
 namespace minamo {
 

@@ -1,6 +1,6 @@
 #include "systems/openings/sponge.hpp"
 
-#include "engine/parallel.hpp"
+#include "engine/schedule/parallel.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

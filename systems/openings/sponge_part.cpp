@@ -1,7 +1,7 @@
 #include "systems/openings/sponge.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
-#include "systems/setup/scene_checks.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/scene_checks.hpp"
 #include "systems/transfer/scheme.hpp"
 
 namespace minamo {

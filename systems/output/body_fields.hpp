@@ -4,8 +4,8 @@
 /// time /bodies/{frame}/NAME/{position, rotation, velocity, spin, angle}, of a moving body the moved points, too.
 
 #include "components/body.hpp"
-#include "engine/system.hpp"
-#include "systems/bodies/outlines.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/bodies/geometry/outlines.hpp"
 #include "systems/output/fields_file.hpp"
 
 namespace minamo {

@@ -1,6 +1,6 @@
 #include "systems/output/fields.hpp"
 
-#include "engine/shared_file.hpp"
+#include "engine/storage/shared_file.hpp"
 #include "systems/grid/point_locator.hpp"
 #include "systems/output/body_fields.hpp"
 

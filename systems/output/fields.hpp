@@ -11,10 +11,10 @@
 #include "components/particle.hpp"
 #include "components/rheology.hpp"
 #include "components/sites.hpp"
-#include "engine/clock.hpp"
-#include "engine/communicator.hpp"
-#include "engine/system.hpp"
-#include "systems/bodies/outlines.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/bodies/geometry/outlines.hpp"
 #include "systems/output/fields_file.hpp"
 
 namespace minamo {

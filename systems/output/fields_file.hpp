@@ -2,9 +2,9 @@
 /// \file
 /// The state of fields.h5 and its indices between two frames: what is in them, and how to take them back to that.
 
-#include "engine/component.hpp"
-#include "engine/growing_hdf5.hpp"
-#include "engine/growing_xml.hpp"
+#include "engine/storage/component.hpp"
+#include "engine/storage/growing_hdf5.hpp"
+#include "engine/storage/growing_xml.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 #include "components/particle.hpp"
 #include "components/rheology.hpp"
 #include "systems/bodies/bodies_part.hpp"
-#include "systems/bodies/outlines.hpp"
+#include "systems/bodies/geometry/outlines.hpp"
 #include "systems/output/fields_file.hpp"
 
 namespace minamo {

@@ -2,8 +2,8 @@
 /// \file
 /// What results take on the disk, told before there are any.
 
-#include "engine/world.hpp"
-#include "systems/setup/scene.hpp"
+#include "engine/storage/world.hpp"
+#include "systems/scene/scene.hpp"
 
 namespace minamo {
 

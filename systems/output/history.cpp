@@ -1,7 +1,7 @@
 #include "systems/output/history.hpp"
 
-#include "engine/file_error.hpp"
-#include "engine/text_file.hpp"
+#include "engine/storage/file_error.hpp"
+#include "engine/storage/text_file.hpp"
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>

@@ -5,9 +5,9 @@
 #include "components/fluid.hpp"
 #include "components/matrix.hpp"
 #include "components/measure.hpp"
-#include "engine/clock.hpp"
-#include "engine/linear_solver.hpp"
-#include "engine/system.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/linear_solver.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/measure/energy_watch.hpp"
 
 #include <fstream>

@@ -4,12 +4,12 @@
 #include "systems/output/fields.hpp"
 #include "systems/output/history.hpp"
 #include "systems/output/read_fields.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
-#include "systems/setup/memory.hpp"
-#include "systems/setup/time_counts.hpp"
-#include "systems/surface/level_set.hpp"
-#include "systems/surface/write_surfaces.hpp"
+#include "systems/output/surface/level_set.hpp"
+#include "systems/output/surface/write_surfaces.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/time_counts.hpp"
+#include "systems/step/memory.hpp"
 
 namespace minamo {
 

@@ -2,8 +2,8 @@
 
 #include "components/fluids.hpp"
 #include "components/rheology.hpp"
-#include "engine/communicator.hpp"
-#include "systems/setup/scene.hpp"
+#include "engine/run/communicator.hpp"
+#include "systems/scene/scene.hpp"
 #include "systems/transfer/scheme.hpp"
 
 #include <spdlog/fmt/fmt.h>

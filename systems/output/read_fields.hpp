@@ -2,7 +2,7 @@
 /// \file
 /// What a scene says of the fields of its frames: /output/fields, /output/precision, /output/compression.
 
-#include "engine/input.hpp"
+#include "engine/input/input.hpp"
 #include "systems/output/fields_file.hpp"
 
 namespace minamo {

@@ -1,6 +1,6 @@
 #include "systems/ranks/former_rows.hpp"
 
-#include "systems/conforming/support.hpp"
+#include "systems/grid/site_support.hpp"
 
 #include <map>
 #include <set>

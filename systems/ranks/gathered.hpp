@@ -2,7 +2,7 @@
 /// \file
 /// What all ranks have, on the first one.
 
-#include "engine/communicator.hpp"
+#include "engine/run/communicator.hpp"
 
 #include <span>
 #include <vector>

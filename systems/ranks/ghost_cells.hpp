@@ -5,9 +5,9 @@
 
 #include "components/cells.hpp"
 #include "components/grid.hpp"
-#include "engine/communicator.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/splines.hpp"
 #include "systems/ranks/rank_map.hpp"
 
 namespace minamo {

@@ -1,6 +1,6 @@
 #include "systems/ranks/migrate.hpp"
 
-#include "systems/conforming/support.hpp"
+#include "systems/grid/site_support.hpp"
 #include "systems/ranks/gathered.hpp"
 
 #include <map>

@@ -4,8 +4,8 @@
 
 #include "components/grid.hpp"
 #include "components/particle.hpp"
-#include "engine/communicator.hpp"
-#include "engine/system.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/ranks/rank_map.hpp"
 
 namespace minamo {

@@ -1,6 +1,6 @@
 #include "systems/ranks/rank_map.hpp"
 
-#include "systems/conforming/support.hpp"
+#include "systems/grid/site_support.hpp"
 
 #include <numeric>
 

@@ -4,9 +4,9 @@
 /// for every rank, so that what a rank has lies together.
 
 #include "components/types.hpp"
-#include "engine/component.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/storage/component.hpp"
 #include "systems/grid/cell_blocks.hpp"
+#include "systems/grid/splines.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,8 @@
-#include "systems/parts.hpp"
 #include "systems/ranks/former_rows.hpp"
 #include "systems/ranks/migrate.hpp"
 #include "systems/ranks/site_exchange.hpp"
-#include "systems/setup/scene.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/scene.hpp"
 
 namespace minamo {
 

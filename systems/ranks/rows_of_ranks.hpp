@@ -2,7 +2,7 @@
 /// \file
 /// What a rank writes into a checkpoint, and reads of one: any number of ranks can go on from it.
 
-#include "engine/checkpoint.hpp"
+#include "engine/storage/checkpoint.hpp"
 
 namespace minamo {
 

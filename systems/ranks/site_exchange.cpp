@@ -1,6 +1,6 @@
 #include "systems/ranks/site_exchange.hpp"
 
-#include "systems/conforming/support.hpp"
+#include "systems/grid/site_support.hpp"
 
 #include <limits>
 #include <map>

@@ -4,8 +4,8 @@
 /// makes them whole, the same bits on every rank that has the site.
 
 #include "components/staggered.hpp"
-#include "engine/communicator.hpp"
-#include "engine/system.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/ranks/ghost_cells.hpp"
 
 #include <functional>

@@ -1,6 +1,6 @@
 #include "systems/shapes/closed_surface.hpp"
 
-#include "systems/setup/seed_text.hpp"
+#include "components/vector_text.hpp"
 
 #include <Eigen/Geometry>
 #include <spdlog/fmt/fmt.h>

@@ -2,7 +2,7 @@
 /// \file
 /// Points where the surface crosses the lines between sampled nodes, each once.
 
-#include "engine/parallel.hpp"
+#include "engine/schedule/parallel.hpp"
 #include "systems/shapes/marching.hpp"
 
 #include <algorithm>

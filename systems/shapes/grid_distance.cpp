@@ -1,6 +1,6 @@
 #include "systems/shapes/grid_distance.hpp"
 
-#include "engine/parallel.hpp"
+#include "engine/schedule/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

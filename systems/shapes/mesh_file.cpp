@@ -1,6 +1,6 @@
 #include "systems/shapes/mesh_file.hpp"
 
-#include "systems/setup/seed_text.hpp"
+#include "components/vector_text.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,9 +1,9 @@
 #include "systems/surface_tension/beside_bodies.hpp"
 
-#include "systems/bodies/cut.hpp"
-#include "systems/conforming/quadratic_spline.hpp"
-#include "systems/conforming/sites_around.hpp"
-#include "systems/solve/dense.hpp"
+#include "systems/bodies/geometry/cut.hpp"
+#include "systems/grid/quadratic_spline.hpp"
+#include "systems/grid/sites_around.hpp"
+#include "systems/linear/dense.hpp"
 #include "systems/surface_tension/free_surface.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"
 

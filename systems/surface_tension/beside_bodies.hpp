@@ -5,9 +5,9 @@
 
 #include "components/body.hpp"
 #include "components/surface_tension.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
-#include "systems/conforming/splines.hpp"
+#include "systems/grid/splines.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"
 
 namespace minamo {

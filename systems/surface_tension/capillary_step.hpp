@@ -2,8 +2,8 @@
 /// \file
 /// How long steps may be with surface tension that is taken as the step finds it.
 
-#include "engine/world.hpp"
-#include "systems/setup/scene.hpp"
+#include "engine/storage/world.hpp"
+#include "systems/scene/scene.hpp"
 
 namespace minamo {
 

@@ -1,6 +1,6 @@
 #include "systems/surface_tension/free_surface.hpp"
 
-#include "systems/conforming/quadratic_spline.hpp"
+#include "systems/grid/quadratic_spline.hpp"
 #include "systems/surface_tension/point_sites.hpp"
 #include "systems/surface_tension/surface_cube.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"

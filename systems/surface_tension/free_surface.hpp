@@ -7,9 +7,9 @@
 #include "components/cells.hpp"
 #include "components/particle.hpp"
 #include "components/surface_tension.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
-#include "systems/conforming/splines.hpp"
+#include "systems/grid/splines.hpp"
 
 namespace minamo {
 

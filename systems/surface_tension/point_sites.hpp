@@ -2,7 +2,7 @@
 /// \file
 /// The sites around points that are no particles, and their splines there.
 
-#include "systems/conforming/support.hpp"
+#include "systems/grid/site_support.hpp"
 
 namespace minamo {
 

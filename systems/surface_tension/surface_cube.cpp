@@ -1,6 +1,6 @@
 #include "systems/surface_tension/surface_cube.hpp"
 
-#include "systems/bodies/clip.hpp"
+#include "systems/bodies/geometry/clip.hpp"
 #include "systems/shapes/simplices.hpp"
 
 #include <Eigen/Geometry>

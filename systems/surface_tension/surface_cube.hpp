@@ -5,7 +5,7 @@
 /// a drop is the same in the mirror.
 
 #include "components/surface_tension.hpp"
-#include "systems/bodies/cut.hpp"
+#include "systems/bodies/geometry/cut.hpp"
 #include "systems/shapes/simplices.hpp"
 #include "systems/surface_tension/beside_bodies.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"

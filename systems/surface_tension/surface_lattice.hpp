@@ -4,7 +4,7 @@
 /// walls.
 
 #include "components/staggered.hpp"
-#include "systems/conforming/splines.hpp"
+#include "systems/grid/splines.hpp"
 
 #include <span>
 

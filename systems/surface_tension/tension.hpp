@@ -9,9 +9,9 @@
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "components/surface_tension.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/face_extension.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/splines.hpp"
+#include "systems/momentum/face_extension.hpp"
 
 namespace minamo {
 

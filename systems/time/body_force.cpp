@@ -1,8 +1,8 @@
 #include "systems/time/body_force.hpp"
 
-#include "engine/step_control.hpp"
+#include "engine/run/step_control.hpp"
 #include "systems/grid/constraint.hpp"
-#include "systems/transfer/scatter.hpp"
+#include "systems/transfer/node_scatter.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>

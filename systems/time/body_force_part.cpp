@@ -1,6 +1,6 @@
-#include "systems/parts.hpp"
-#include "systems/setup/discretization.hpp"
-#include "systems/setup/seed_text.hpp"
+#include "components/vector_text.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
 #include "systems/time/body_force.hpp"
 
 namespace minamo {

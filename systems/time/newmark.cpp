@@ -1,6 +1,6 @@
 #include "systems/time/newmark.hpp"
 
-#include "engine/parallel.hpp"
+#include "engine/schedule/parallel.hpp"
 
 namespace minamo {
 

@@ -10,8 +10,8 @@
 
 #include "components/node.hpp"
 #include "components/step.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

@@ -1,6 +1,6 @@
 #include "systems/time/ode.hpp"
 
-#include "engine/step_control.hpp"
+#include "engine/run/step_control.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -4,7 +4,7 @@
 
 #include "components/instant.hpp"
 #include "components/step.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

@@ -1,7 +1,7 @@
 #include "components/instant.hpp"
-#include "systems/parts.hpp"
-#include "systems/setup/scene.hpp"
-#include "systems/setup/scene_checks.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/scene.hpp"
+#include "systems/scene/scene_checks.hpp"
 #include "systems/time/ode.hpp"
 
 #include <spdlog/fmt/fmt.h>

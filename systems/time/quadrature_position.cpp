@@ -1,6 +1,6 @@
 #include "systems/time/quadrature_position.hpp"
 
-#include "systems/grid/support.hpp"
+#include "systems/grid/node_support.hpp"
 
 namespace minamo {
 

@@ -4,8 +4,8 @@
 
 #include "components/grid.hpp"
 #include "components/particle.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

@@ -1,6 +1,6 @@
 #include "systems/time/turns.hpp"
 
-#include "engine/parallel.hpp"
+#include "engine/schedule/parallel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 
 #include "components/node.hpp"
 #include "components/staggered.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {

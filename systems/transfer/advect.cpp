@@ -1,6 +1,6 @@
 #include "systems/transfer/advect.hpp"
 
-#include "systems/transfer/gather.hpp"
+#include "systems/transfer/node_gather.hpp"
 
 #include <atomic>
 

@@ -7,8 +7,8 @@
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
-#include "engine/system.hpp"
-#include "systems/grid/support.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/node_support.hpp"
 
 namespace minamo {
 

@@ -1,6 +1,6 @@
 #include "systems/transfer/apic.hpp"
 
-#include "systems/transfer/affine.hpp"
+#include "systems/transfer/node_affine.hpp"
 
 namespace minamo {
 

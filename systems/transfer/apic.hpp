@@ -12,7 +12,7 @@
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

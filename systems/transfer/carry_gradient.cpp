@@ -1,6 +1,6 @@
 #include "systems/transfer/carry_gradient.hpp"
 
-#include "systems/grid/support.hpp"
+#include "systems/grid/node_support.hpp"
 
 #include <Eigen/LU>
 

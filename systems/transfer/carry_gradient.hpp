@@ -14,8 +14,8 @@
 
 #include "components/cells.hpp"
 #include "components/particle.hpp"
-#include "engine/clock.hpp"
-#include "engine/system.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

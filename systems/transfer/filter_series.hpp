@@ -3,9 +3,9 @@
 /// The series that XPIC(m) and FMPM(k) filter a nodal velocity with: k terms of that of the inverse of the full mass
 /// matrix times the lumped one.
 
-#include "engine/input.hpp"
+#include "engine/input/input.hpp"
 #include "systems/grid/constraint.hpp"
-#include "systems/transfer/scatter.hpp"
+#include "systems/transfer/node_scatter.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "systems/transfer/fmpm.hpp"
 
 #include "systems/transfer/filter_series.hpp"
-#include "systems/transfer/gather.hpp"
+#include "systems/transfer/node_gather.hpp"
 
 namespace minamo {
 

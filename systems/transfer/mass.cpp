@@ -1,6 +1,6 @@
 #include "systems/transfer/mass.hpp"
 
-#include "systems/grid/support.hpp"
+#include "systems/grid/node_support.hpp"
 
 namespace minamo {
 

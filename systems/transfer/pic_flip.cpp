@@ -1,7 +1,7 @@
 #include "systems/transfer/pic_flip.hpp"
 
-#include "systems/transfer/gather.hpp"
-#include "systems/transfer/scatter.hpp"
+#include "systems/transfer/node_gather.hpp"
+#include "systems/transfer/node_scatter.hpp"
 
 namespace minamo {
 

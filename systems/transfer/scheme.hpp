@@ -2,7 +2,7 @@
 /// \file
 /// A transfer scheme is a name for the systems that go into the slots `p2g` and `g2p`.
 
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "systems/transfer/tpic.hpp"
 
-#include "systems/transfer/affine.hpp"
-#include "systems/transfer/gather.hpp"
-#include "systems/transfer/scatter.hpp"
+#include "systems/transfer/node_affine.hpp"
+#include "systems/transfer/node_gather.hpp"
+#include "systems/transfer/node_scatter.hpp"
 
 namespace minamo {
 

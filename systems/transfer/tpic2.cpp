@@ -1,7 +1,7 @@
 #include "systems/transfer/tpic2.hpp"
 
-#include "systems/transfer/affine.hpp"
-#include "systems/transfer/scatter.hpp"
+#include "systems/transfer/node_affine.hpp"
+#include "systems/transfer/node_scatter.hpp"
 
 namespace minamo {
 

@@ -8,8 +8,8 @@
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
-#include "engine/input.hpp"
-#include "engine/system.hpp"
+#include "engine/input/input.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

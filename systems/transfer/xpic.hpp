@@ -10,7 +10,7 @@
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/transfer/filter_series.hpp"
 
 namespace minamo {

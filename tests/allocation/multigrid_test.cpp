@@ -2,7 +2,7 @@
 /// Solvers of the staggered matrix do not ask the heap for memory once they have solved a problem of the size.
 
 #include "allocation/counting.hpp"
-#include "systems/conforming/multigrid.hpp"
+#include "systems/pressure/multigrid.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,11 +4,11 @@
 /// anew by malloc(), which is left out here.
 
 #include "allocation/counting.hpp"
-#include "engine/clock.hpp"
+#include "engine/run/clock.hpp"
 #include "support/folder.hpp"
 #include "support/scene_run.hpp"
 #include "systems/output/history.hpp"
-#include "tools/scene_file.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>

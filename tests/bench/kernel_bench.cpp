@@ -3,15 +3,15 @@
 /// matrices in a full box of particles at random places, the solve in a dam break.
 
 #include "bench/roofline.hpp"
-#include "engine/clock.hpp"
-#include "engine/linear_solver.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/linear_solver.hpp"
 #include "support/kernels.hpp"
 #include "support/scene_run.hpp"
-#include "systems/assemble/mass_balance.hpp"
-#include "systems/assemble/material.hpp"
-#include "systems/assemble/neighbours.hpp"
-#include "systems/assemble/viscosity.hpp"
+#include "systems/equal_order/mass_balance.hpp"
+#include "systems/equal_order/material.hpp"
+#include "systems/equal_order/viscosity.hpp"
 #include "systems/grid/activate.hpp"
+#include "systems/grid/node_neighbours.hpp"
 #include "systems/transfer/mass.hpp"
 #include "systems/transfer/tpic.hpp"
 

@@ -2,7 +2,7 @@
 /// \file
 /// Two components for the cases of this folder.
 
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 namespace minamo {
 

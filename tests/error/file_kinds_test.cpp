@@ -1,7 +1,7 @@
 /// \file
 /// Files that are no scene, or one in an odd shape: refused at once with one message, or read.
 
-#include "engine/input_text.hpp"
+#include "engine/input/input_text.hpp"
 #include "support/program_output.hpp"
 
 #include <catch2/catch.hpp>

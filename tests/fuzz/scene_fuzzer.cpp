@@ -3,11 +3,11 @@
 /// What must hold beyond "no crash": a text is understood or refused with a message that a terminal can show, and what
 /// was understood reads again as itself.
 
-#include "engine/schedule.hpp"
-#include "systems/register.hpp"
-#include "systems/setup/scene_size.hpp"
-#include "tools/scene_file.hpp"
-#include "tools/study_variant.hpp"
+#include "engine/schedule/schedule.hpp"
+#include "systems/step/register.hpp"
+#include "systems/step/scene_size.hpp"
+#include "tools/program/scene_file.hpp"
+#include "tools/program/study_variant.hpp"
 
 #include <cstdint>
 #include <cstdlib>

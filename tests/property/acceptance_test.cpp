@@ -1,8 +1,8 @@
 #include "systems/measure/acceptance.hpp"
 
-#include "engine/step_control.hpp"
+#include "engine/run/step_control.hpp"
 #include "support/scene_run.hpp"
-#include "tools/scene_file.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <catch2/catch.hpp>
 

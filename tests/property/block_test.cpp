@@ -8,12 +8,12 @@
 #include "components/matrix.hpp"
 #include "components/measure.hpp"
 #include "components/step.hpp"
-#include "engine/clock.hpp"
-#include "engine/linear_solver.hpp"
-#include "systems/krylov/gmres.hpp"
-#include "systems/solve/cholesky.hpp"
-#include "systems/solve/envelope_lu.hpp"
-#include "systems/solve/incomplete_lu.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/linear_solver.hpp"
+#include "systems/linear/cholesky.hpp"
+#include "systems/linear/envelope_lu.hpp"
+#include "systems/linear/gmres.hpp"
+#include "systems/linear/incomplete_lu.hpp"
 
 #include <random>
 

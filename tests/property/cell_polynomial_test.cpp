@@ -1,5 +1,5 @@
 #include "support/kernels.hpp"
-#include "systems/transfer/cell_polynomial.hpp"
+#include "systems/transfer/node_polynomial.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -8,11 +8,11 @@
 #include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
-#include "systems/conforming/balances.hpp"
-#include "systems/conforming/fill.hpp"
-#include "systems/conforming/pressure.hpp"
-#include "systems/conforming/splines.hpp"
-#include "systems/conforming/volume.hpp"
+#include "systems/grid/splines.hpp"
+#include "systems/momentum/balances.hpp"
+#include "systems/momentum/fill.hpp"
+#include "systems/pressure/pressure.hpp"
+#include "systems/volume/face_volume.hpp"
 
 #include <oneapi/tbb/global_control.h>
 

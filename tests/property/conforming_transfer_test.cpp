@@ -4,12 +4,12 @@
 #include "support/staggered.hpp"
 
 #include "components/measure.hpp"
-#include "systems/conforming/filters.hpp"
-#include "systems/conforming/gather.hpp"
-#include "systems/conforming/incidence.hpp"
-#include "systems/conforming/second_order.hpp"
-#include "systems/conforming/transfer.hpp"
+#include "systems/grid/incidence.hpp"
 #include "systems/measure/conservation.hpp"
+#include "systems/transfer/face_filters.hpp"
+#include "systems/transfer/face_gather.hpp"
+#include "systems/transfer/face_schemes.hpp"
+#include "systems/transfer/face_tpic2.hpp"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>

@@ -2,8 +2,8 @@
 #include "support/scene_run.hpp"
 
 #include "components/staggered.hpp"
-#include "engine/linear_solver.hpp"
-#include "systems/conforming/splines.hpp"
+#include "engine/run/linear_solver.hpp"
+#include "systems/grid/splines.hpp"
 
 #include <catch2/catch.hpp>
 

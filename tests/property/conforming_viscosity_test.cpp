@@ -3,12 +3,12 @@
 #include "support/kernels.hpp"
 #include "support/scene_run.hpp"
 
-#include "engine/clock.hpp"
-#include "engine/linear_solver.hpp"
-#include "systems/conforming/friction.hpp"
-#include "systems/conforming/incidence.hpp"
-#include "systems/conforming/solve_friction.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/linear_solver.hpp"
+#include "systems/grid/incidence.hpp"
 #include "systems/measure/conservation.hpp"
+#include "systems/viscosity/friction.hpp"
+#include "systems/viscosity/solve_friction.hpp"
 
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>

@@ -5,8 +5,8 @@
 #include "components/fluid.hpp"
 #include "components/matrix.hpp"
 #include "components/node.hpp"
-#include "engine/clock.hpp"
-#include "engine/linear_solver.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/linear_solver.hpp"
 
 #include <catch2/catch.hpp>
 

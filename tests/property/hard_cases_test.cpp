@@ -6,7 +6,7 @@
 #include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/node.hpp"
-#include "engine/step_control.hpp"
+#include "engine/run/step_control.hpp"
 #include "systems/transfer/scheme.hpp"
 
 using namespace minamo;

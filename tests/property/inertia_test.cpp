@@ -7,7 +7,7 @@
 #include "components/matrix.hpp"
 #include "components/node.hpp"
 #include "components/step.hpp"
-#include "engine/clock.hpp"
+#include "engine/run/clock.hpp"
 
 using namespace minamo;
 using namespace minamo::scene_run;

@@ -2,8 +2,8 @@
 
 #include "components/grid.hpp"
 #include "components/particle.hpp"
-#include "engine/warnings.hpp"
-#include "systems/bodies/watch_bodies.hpp"
+#include "engine/run/warnings.hpp"
+#include "systems/bodies/particles/watch_bodies.hpp"
 #include "systems/measure/watch_volume.hpp"
 
 #include <catch2/catch.hpp>

@@ -2,11 +2,11 @@
 #include "support/kernels.hpp"
 
 #include "components/step.hpp"
-#include "systems/assemble/mass_balance.hpp"
-#include "systems/assemble/neighbours.hpp"
-#include "systems/assemble/stencil.hpp"
-#include "systems/assemble/viscosity.hpp"
+#include "systems/equal_order/mass_balance.hpp"
+#include "systems/equal_order/viscosity.hpp"
 #include "systems/grid/activate.hpp"
+#include "systems/grid/node_neighbours.hpp"
+#include "systems/grid/node_stencil.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 #include "support/factorizations.hpp"
 #include "support/kernels.hpp"
 
-#include "systems/conforming/multigrid.hpp"
+#include "systems/pressure/multigrid.hpp"
 
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>

@@ -3,10 +3,10 @@
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
-#include "systems/assemble/mass_balance.hpp"
-#include "systems/assemble/neighbours.hpp"
+#include "systems/equal_order/mass_balance.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/filled_nodes.hpp"
+#include "systems/grid/node_neighbours.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "engine/schedule.hpp"
+#include "engine/schedule/schedule.hpp"
 
 #include "support/rows.hpp"
 

@@ -3,7 +3,7 @@
 #include "support/kernels.hpp"
 #include "support/scenes.hpp"
 
-#include "systems/solve/schur_operator.hpp"
+#include "systems/equal_order/schur_operator.hpp"
 
 using namespace minamo;
 using namespace minamo::scene_run;

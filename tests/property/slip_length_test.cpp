@@ -2,8 +2,8 @@
 
 #include "components/friction.hpp"
 #include "components/step.hpp"
-#include "engine/clock.hpp"
-#include "systems/conforming/friction_operator.hpp"
+#include "engine/run/clock.hpp"
+#include "systems/viscosity/friction_operator.hpp"
 
 #include <Eigen/Core>
 #include <catch2/catch.hpp>

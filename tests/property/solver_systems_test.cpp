@@ -1,8 +1,8 @@
 #include "support/scene_run.hpp"
 
 #include "components/matrix.hpp"
-#include "engine/schedule.hpp"
-#include "systems/setup/schemes.hpp"
+#include "engine/schedule/schedule.hpp"
+#include "systems/scene/schemes.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 
-#include "engine/linear_solver.hpp"
+#include "engine/run/linear_solver.hpp"
 
 #include <catch2/catch.hpp>
 

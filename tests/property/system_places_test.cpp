@@ -1,9 +1,9 @@
 #include "support/build.hpp"
 #include "support/scene_run.hpp"
 
-#include "engine/schedule.hpp"
-#include "engine/step_control.hpp"
-#include "systems/setup/seed.hpp"
+#include "engine/run/step_control.hpp"
+#include "engine/schedule/schedule.hpp"
+#include "systems/seeding/seed.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,8 +4,8 @@
 #include "support/scenes.hpp"
 
 #include "components/grid.hpp"
-#include "engine/step_control.hpp"
-#include "systems/solve/velocity_factors.hpp"
+#include "engine/run/step_control.hpp"
+#include "systems/equal_order/velocity_factors.hpp"
 
 using namespace minamo;
 using namespace minamo::scene_run;

@@ -3,7 +3,7 @@
 #include "support/scenes.hpp"
 
 #include "components/measure.hpp"
-#include "systems/volume/limit_shift.hpp"
+#include "systems/equal_order/limit_shift.hpp"
 
 using namespace minamo;
 using minamo::scene_run::of_equal_order;

@@ -1,8 +1,8 @@
 #include "support/scene_run.hpp"
 
-#include "engine/warnings.hpp"
-#include "systems/setup/time_plan.hpp"
-#include "tools/scene_file.hpp"
+#include "engine/run/warnings.hpp"
+#include "systems/step/time_plan.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,11 +2,11 @@
 // there.
 
 #include "systems/ranks/rank_map.hpp"
-#include "systems/setup/part.hpp"
-#include "systems/setup/scene.hpp"
-#include "tools/minamo.hpp"
+#include "systems/scene/part.hpp"
+#include "systems/scene/scene.hpp"
 #include "tools/mpi/mpi_communicator.hpp"
 #include "tools/mpi/solve_petsc.hpp"
+#include "tools/program/minamo.hpp"
 
 #include <random>
 

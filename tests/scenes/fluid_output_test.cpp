@@ -3,7 +3,7 @@
 #include "support/program.hpp"
 #include "support/program_output.hpp"
 
-#include "engine/hdf5.hpp"
+#include "engine/storage/hdf5.hpp"
 
 #include <catch2/catch.hpp>
 

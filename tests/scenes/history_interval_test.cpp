@@ -1,6 +1,6 @@
 // A history of every n-th step is part of the history of every step, and the run is the same.
 
-#include "engine/hdf5.hpp"
+#include "engine/storage/hdf5.hpp"
 #include "support/folder.hpp"
 #include "support/program.hpp"
 #include "support/program_output.hpp"

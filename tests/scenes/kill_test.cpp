@@ -6,7 +6,7 @@
 #include "support/program.hpp"
 #include "support/xml.hpp"
 
-#include "engine/hdf5.hpp"
+#include "engine/storage/hdf5.hpp"
 
 #include <catch2/catch.hpp>
 

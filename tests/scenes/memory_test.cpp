@@ -5,7 +5,7 @@
 #include "support/program.hpp"
 #include "support/program_output.hpp"
 #include "support/scene_run.hpp"
-#include "systems/setup/memory.hpp"
+#include "systems/step/memory.hpp"
 
 #include <catch2/catch.hpp>
 

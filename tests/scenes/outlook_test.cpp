@@ -4,7 +4,7 @@
 #include "support/build.hpp"
 #include "support/program_output.hpp"
 #include "support/scene_run.hpp"
-#include "tools/scene_file.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <catch2/catch.hpp>
 

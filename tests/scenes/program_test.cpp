@@ -2,8 +2,8 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-#include "engine/hdf5.hpp"
-#include "engine/step_control.hpp"
+#include "engine/run/step_control.hpp"
+#include "engine/storage/hdf5.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
-#include "tools/minamo.hpp"
+#include "tools/program/minamo.hpp"
 
-#include "engine/step_control.hpp"
+#include "engine/run/step_control.hpp"
 #include "support/folder.hpp"
 
 #include <catch2/catch.hpp>

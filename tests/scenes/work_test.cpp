@@ -1,10 +1,10 @@
 /// \file
 /// Systems from outside that give the liquid energy: what a run tells of it.
 
-#include "tools/minamo.hpp"
+#include "tools/program/minamo.hpp"
 
-#include "engine/parallel.hpp"
-#include "engine/problem.hpp"
+#include "engine/input/problem.hpp"
+#include "engine/schedule/parallel.hpp"
 #include "support/folder.hpp"
 
 #include <catch2/catch.hpp>

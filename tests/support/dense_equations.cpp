@@ -2,7 +2,7 @@
 
 #include "components/matrix.hpp"
 #include "components/step.hpp"
-#include "engine/clock.hpp"
+#include "engine/run/clock.hpp"
 #include "support/kernels.hpp"
 
 namespace minamo::dense {

@@ -6,13 +6,13 @@
 
 #include "support/scene_run.hpp"
 
-#include "systems/solve/operators.hpp"
+#include "systems/equal_order/operators.hpp"
 
 #include <Eigen/Core>
 
 namespace minamo::dense {
 
-/// Unknown (Dim + 1) r + d as in systems/solve/monolithic.hpp.
+/// Unknown (Dim + 1) r + d as in systems/equal_order/monolithic.hpp.
 struct Equations {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd right_hand_side;

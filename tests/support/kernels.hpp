@@ -6,11 +6,11 @@
 #include "components/fluid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/grid/bin.hpp"
 #include "systems/grid/capacity.hpp"
+#include "systems/grid/node_support.hpp"
 #include "systems/grid/number_nodes.hpp"
-#include "systems/grid/support.hpp"
 #include "systems/transfer/mass.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 /// \file
 /// Reads JSON texts with reading code of a test, and one document with a little of everything.
 
-#include "engine/input.hpp"
+#include "engine/input/input.hpp"
 
 #include <catch2/catch.hpp>
 

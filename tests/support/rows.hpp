@@ -2,7 +2,7 @@
 /// \file
 /// Two tables and columns of one of them, for tests of the engine.
 
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 #include <algorithm>
 #include <vector>

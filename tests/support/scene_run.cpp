@@ -1,9 +1,9 @@
 #include "support/scene_run.hpp"
 
 #include "components/measure.hpp"
-#include "engine/clock.hpp"
-#include "systems/register.hpp"
-#include "tools/scene_file.hpp"
+#include "engine/run/clock.hpp"
+#include "systems/step/register.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <numeric>
 #include <stdexcept>

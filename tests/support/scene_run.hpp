@@ -3,8 +3,8 @@
 /// A run without files: a scene, its world and its schedules, stepped by hand.
 
 #include "components/particle.hpp"
-#include "engine/schedule.hpp"
-#include "systems/pipeline.hpp"
+#include "engine/schedule/schedule.hpp"
+#include "systems/step/pipeline.hpp"
 
 #include <algorithm>
 #include <map>

@@ -5,8 +5,8 @@
 #include "support/kernels.hpp"
 
 #include "components/staggered.hpp"
-#include "systems/conforming/number_sites.hpp"
-#include "systems/conforming/splines.hpp"
+#include "systems/grid/number_sites.hpp"
+#include "systems/grid/splines.hpp"
 
 #include <algorithm>
 #include <cmath>

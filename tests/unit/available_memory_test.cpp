@@ -1,5 +1,5 @@
 #include "support/folder.hpp"
-#include "tools/available_memory.hpp"
+#include "tools/program/available_memory.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 #include "support/kernels.hpp"
-#include "systems/bodies/clip.hpp"
+#include "systems/bodies/geometry/clip.hpp"
 
 #include <catch2/catch.hpp>
 

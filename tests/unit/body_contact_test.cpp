@@ -1,7 +1,7 @@
 /// \file
 /// Where bodies may touch: between the points that stand for their surfaces, too.
 
-#include "systems/bodies/contact.hpp"
+#include "systems/bodies/particles/contact.hpp"
 #include "systems/shapes/primitives.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
-#include "engine/checkpoint.hpp"
+#include "engine/storage/checkpoint.hpp"
 
-#include "engine/clock.hpp"
-#include "engine/hdf5.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/storage/hdf5.hpp"
 #include "support/folder.hpp"
 #include "support/scene_run.hpp"
 

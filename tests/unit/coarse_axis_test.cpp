@@ -3,7 +3,7 @@
 
 #include "support/extremes.hpp"
 
-#include "systems/conforming/coarse_axis.hpp"
+#include "systems/viscosity/coarse_axis.hpp"
 
 #include <catch2/catch.hpp>
 

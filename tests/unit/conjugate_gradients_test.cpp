@@ -1,6 +1,6 @@
 #include "support/factorizations.hpp"
 
-#include "systems/krylov/conjugate_gradients.hpp"
+#include "systems/linear/conjugate_gradients.hpp"
 
 #include <catch2/catch.hpp>
 

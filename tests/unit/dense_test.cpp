@@ -3,7 +3,7 @@
 
 #include "support/kernels.hpp"
 
-#include "systems/solve/dense.hpp"
+#include "systems/linear/dense.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,9 +2,9 @@
 /// What the documents say of the program is what the program says of itself, where they point there is something, and
 /// figures that stand twice are the same. `tools/catalogue` writes anew what the program prints.
 
-#include "engine/input_text.hpp"
+#include "engine/input/input_text.hpp"
 #include "support/program_output.hpp"
-#include "systems/pipeline.hpp"
+#include "systems/step/pipeline.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "engine/expression.hpp"
+#include "engine/input/expression.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "systems/bodies/extension.hpp"
+#include "systems/bodies/coupling/extension.hpp"
 
 #include <catch2/catch.hpp>
 

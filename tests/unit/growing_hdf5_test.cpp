@@ -1,4 +1,4 @@
-#include "engine/growing_hdf5.hpp"
+#include "engine/storage/growing_hdf5.hpp"
 
 #include "support/folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/growing_xml.hpp"
+#include "engine/storage/growing_xml.hpp"
 
 #include "support/folder.hpp"
 #include "support/xml.hpp"

@@ -1,4 +1,4 @@
-#include "engine/hdf5.hpp"
+#include "engine/storage/hdf5.hpp"
 
 #include "support/folder.hpp"
 

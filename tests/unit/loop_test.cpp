@@ -1,7 +1,7 @@
-#include "engine/loop.hpp"
+#include "engine/schedule/loop.hpp"
 
-#include "engine/schedule.hpp"
-#include "engine/step_control.hpp"
+#include "engine/run/step_control.hpp"
+#include "engine/schedule/schedule.hpp"
 #include "support/rows.hpp"
 
 #include <catch2/catch.hpp>

@@ -2,10 +2,10 @@
 #include "support/rotation.hpp"
 
 #include "components/measure.hpp"
+#include "systems/equal_order/volume_projection.hpp"
 #include "systems/measure/conservation.hpp"
 #include "systems/measure/energy_watch.hpp"
 #include "systems/measure/volume.hpp"
-#include "systems/volume/projection.hpp"
 
 #include <catch2/catch.hpp>
 

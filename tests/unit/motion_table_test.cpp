@@ -1,5 +1,5 @@
 #include "support/folder.hpp"
-#include "systems/bodies/motion_table.hpp"
+#include "systems/bodies/motion/motion_table.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,8 +4,8 @@
 #include "support/extremes.hpp"
 #include "support/kernels.hpp"
 #include "support/scene_run.hpp"
-#include "systems/setup/seed.hpp"
-#include "systems/setup/time_plan.hpp"
+#include "systems/seeding/seed.hpp"
+#include "systems/step/time_plan.hpp"
 
 #include <catch2/catch.hpp>
 

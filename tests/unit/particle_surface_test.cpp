@@ -1,7 +1,7 @@
 #include "support/extremes.hpp"
 #include "support/outlines.hpp"
 
-#include "systems/surface/particle_surface.hpp"
+#include "systems/output/surface/particle_surface.hpp"
 
 #include <catch2/catch.hpp>
 

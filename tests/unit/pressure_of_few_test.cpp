@@ -1,4 +1,4 @@
-#include "systems/conforming/pressure_of_few.hpp"
+#include "systems/pressure/pressure_of_few.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "engine/problem.hpp"
+#include "engine/input/problem.hpp"
 
 #include <catch2/catch.hpp>
 

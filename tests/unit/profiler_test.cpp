@@ -1,4 +1,4 @@
-#include "engine/profiler.hpp"
+#include "engine/run/profiler.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "tools/progress.hpp"
+#include "tools/program/progress.hpp"
 
 #include <catch2/catch.hpp>
 

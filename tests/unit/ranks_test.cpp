@@ -1,10 +1,10 @@
 #include "systems/ranks/rank_map.hpp"
 
 #include "components/particle.hpp"
-#include "engine/communicator.hpp"
-#include "engine/problem.hpp"
-#include "engine/schedule.hpp"
-#include "engine/step_control.hpp"
+#include "engine/input/problem.hpp"
+#include "engine/run/communicator.hpp"
+#include "engine/run/step_control.hpp"
+#include "engine/schedule/schedule.hpp"
 #include "support/rows.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "engine/registry.hpp"
+#include "engine/schedule/registry.hpp"
 
 #include <catch2/catch.hpp>
 

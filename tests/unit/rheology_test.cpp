@@ -1,8 +1,8 @@
 /// \file
 /// Laws of flow: values, limits at rest and at high rates, and how fast they creep below a yield stress.
 
-#include "systems/rheology/creep.hpp"
-#include "systems/rheology/law.hpp"
+#include "systems/viscosity/creep.hpp"
+#include "systems/viscosity/law.hpp"
 
 #include <catch2/catch.hpp>
 

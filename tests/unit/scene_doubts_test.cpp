@@ -4,9 +4,9 @@
 #include "support/folder.hpp"
 #include "support/program_output.hpp"
 #include "support/scene_run.hpp"
-#include "systems/setup/scene_doubts.hpp"
-#include "systems/setup/time_counts.hpp"
-#include "tools/scene_file.hpp"
+#include "systems/scene/time_counts.hpp"
+#include "systems/step/scene_doubts.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,9 +3,9 @@
 
 #include "support/folder.hpp"
 
-#include "engine/input_text.hpp"
-#include "systems/register.hpp"
-#include "systems/setup/scene.hpp"
+#include "engine/input/input_text.hpp"
+#include "systems/scene/scene.hpp"
+#include "systems/step/register.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "support/scene_run.hpp"
-#include "systems/setup/memory.hpp"
-#include "tools/scene_file.hpp"
+#include "systems/step/memory.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,11 +1,11 @@
 /// \file
 /// Words of other programs: every one of them, at the place where one would write it, is answered with what it is here.
 
-#include "engine/input.hpp"
+#include "engine/input/input.hpp"
 #include "support/build.hpp"
 #include "support/scene_run.hpp"
-#include "systems/setup/scene.hpp"
-#include "systems/setup/scene_words.hpp"
+#include "systems/scene/scene.hpp"
+#include "systems/scene/scene_words.hpp"
 
 #include <catch2/catch.hpp>
 

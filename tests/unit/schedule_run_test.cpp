@@ -1,4 +1,4 @@
-#include "engine/schedule.hpp"
+#include "engine/schedule/schedule.hpp"
 
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>

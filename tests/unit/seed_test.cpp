@@ -4,8 +4,8 @@
 
 #include "components/grid.hpp"
 #include "components/node.hpp"
+#include "systems/grid/lattice.hpp"
 #include "systems/grid/node_volume.hpp"
-#include "systems/setup/lattice.hpp"
 #include "systems/shapes/primitives.hpp"
 
 #include <catch2/catch.hpp>

@@ -3,9 +3,9 @@
 #include "support/solids.hpp"
 
 #include "support/folder.hpp"
-#include "systems/register.hpp"
-#include "systems/shapes/read_shape.hpp"
-#include "tools/scene_file.hpp"
+#include "systems/scene/read_shape.hpp"
+#include "systems/step/register.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
-#include "engine/simulation.hpp"
+#include "engine/run/simulation.hpp"
 #include "support/scene_run.hpp"
-#include "systems/setup/time_plan.hpp"
+#include "systems/step/time_plan.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 #include "support/grids.hpp"
 #include "support/kernels.hpp"
 
-#include "systems/assemble/stencil.hpp"
+#include "systems/grid/node_stencil.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 #include "support/folder.hpp"
 #include "support/scene_run.hpp"
-#include "tools/history_reader.hpp"
-#include "tools/study_others.hpp"
-#include "tools/study_table.hpp"
-#include "tools/study_variant.hpp"
+#include "tools/program/history_reader.hpp"
+#include "tools/program/study_others.hpp"
+#include "tools/program/study_table.hpp"
+#include "tools/program/study_variant.hpp"
 
 #include <catch2/catch.hpp>
 

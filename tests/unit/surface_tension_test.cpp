@@ -5,8 +5,8 @@
 #include "support/scene_run.hpp"
 
 #include "components/surface_tension.hpp"
-#include "systems/conforming/quadratic_spline.hpp"
-#include "systems/setup/time_plan.hpp"
+#include "systems/grid/quadratic_spline.hpp"
+#include "systems/step/time_plan.hpp"
 #include "systems/surface_tension/beside_bodies.hpp"
 #include "systems/surface_tension/capillary_step.hpp"
 #include "systems/surface_tension/free_surface.hpp"

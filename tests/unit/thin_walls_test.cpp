@@ -1,6 +1,6 @@
 #include "support/extremes.hpp"
 
-#include "systems/bodies/thin_walls.hpp"
+#include "systems/bodies/geometry/thin_walls.hpp"
 #include "systems/shapes/combination.hpp"
 #include "systems/shapes/polygon.hpp"
 #include "systems/shapes/primitives.hpp"

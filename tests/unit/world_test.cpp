@@ -1,4 +1,4 @@
-#include "engine/world.hpp"
+#include "engine/storage/world.hpp"
 
 #include "support/rows.hpp"
 

@@ -9,8 +9,8 @@
 #include "components/body.hpp"
 #include "components/measure.hpp"
 #include "components/particle.hpp"
-#include "systems/bodies/seed_cut.hpp"
-#include "systems/conforming/sites_around.hpp"
+#include "systems/bodies/geometry/seed_cut.hpp"
+#include "systems/grid/sites_around.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -7,8 +7,8 @@
 
 #include "components/body.hpp"
 #include "components/measure.hpp"
-#include "systems/bodies/cut.hpp"
-#include "systems/conforming/wall_friction.hpp"
+#include "systems/bodies/geometry/cut.hpp"
+#include "systems/viscosity/wall_friction.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include "support/extremes.hpp"
 #include "support/scene_run.hpp"
 #include "systems/measure/meters.hpp"
-#include "systems/setup/scene_checks.hpp"
+#include "systems/scene/scene_checks.hpp"
 
 #include <catch2/catch.hpp>
 

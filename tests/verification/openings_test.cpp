@@ -8,7 +8,7 @@
 #include "components/measure.hpp"
 #include "components/openings.hpp"
 #include "systems/openings/particles.hpp"
-#include "systems/setup/time_plan.hpp"
+#include "systems/step/time_plan.hpp"
 
 #include <catch2/catch.hpp>
 

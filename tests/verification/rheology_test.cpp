@@ -7,7 +7,7 @@
 
 #include "components/measure.hpp"
 #include "components/rheology.hpp"
-#include "systems/rheology/creep.hpp"
+#include "systems/viscosity/creep.hpp"
 
 #include <catch2/catch.hpp>
 

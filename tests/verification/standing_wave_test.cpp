@@ -1,7 +1,7 @@
 #include "support/scenes.hpp"
 
 #include "components/measure.hpp"
-#include "engine/clock.hpp"
+#include "engine/run/clock.hpp"
 
 #include <cmath>
 #include <complex>

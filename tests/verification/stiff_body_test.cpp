@@ -3,7 +3,7 @@
 
 #include "support/scene_run.hpp"
 
-#include "engine/linear_solver.hpp"
+#include "engine/run/linear_solver.hpp"
 
 #include <catch2/catch.hpp>
 

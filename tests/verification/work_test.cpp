@@ -1,7 +1,7 @@
 /// \file
 /// The balance of energy (E59): whatever does work on the liquid, energy that nothing gave is told, and no other.
 
-#include "tools/summary.hpp"
+#include "tools/program/summary.hpp"
 
 #include "support/extremes.hpp"
 #include "support/scene_run.hpp"

@@ -22,7 +22,7 @@ if(MINAMO_PROCESSOR)
 endif()
 
 # Says at the start of a program what its processor lacks. It runs on any x86-64 itself.
-set(minamo_processor_check ${PROJECT_SOURCE_DIR}/tools/processor_check.cpp)
+set(minamo_processor_check ${PROJECT_SOURCE_DIR}/tools/program/processor_check.cpp)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   include(CheckCXXSourceCompiles)
   set(CMAKE_REQUIRED_FLAGS "-march=${MINAMO_PROCESSOR}")
@@ -36,10 +36,10 @@ endif()
 set(minamo_private_options -fno-math-errno)
 
 # Its roundings are corrected by an iteration, and its speed is that of fused multiply-add.
-set_source_files_properties(systems/solve/envelope_lu.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast
+set_source_files_properties(systems/linear/envelope_lu.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast
   SKIP_PRECOMPILE_HEADERS ON)
 # Likewise: 12 800 rows within 80 of the diagonal take 2.5 ms with it, 3.0 ms without.
-set_source_files_properties(systems/conforming/envelope_cholesky.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast
+set_source_files_properties(systems/linear/envelope_cholesky.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=fast
   SKIP_PRECOMPILE_HEADERS ON)
 
 # minamo_compile_options(TARGET [SANITIZER]): without one that of MINAMO_SANITIZE.

@@ -20,7 +20,7 @@ endforeach()
 install(TARGETS minamo EXPORT minamoTargets)
 install(EXPORT minamoTargets NAMESPACE minamo:: DESTINATION ${minamo_package})
 install(DIRECTORY engine components systems DESTINATION ${minamo_headers} FILES_MATCHING PATTERN "*.hpp")
-install(FILES tools/minamo.hpp ${PROJECT_BINARY_DIR}/generated/minamo_version.hpp DESTINATION ${minamo_headers})
+install(FILES tools/program/minamo.hpp ${PROJECT_BINARY_DIR}/generated/minamo_version.hpp DESTINATION ${minamo_headers})
 
 configure_package_config_file(tools/cmake/minamoConfig.cmake.in minamoConfig.cmake
   INSTALL_DESTINATION ${minamo_package})

@@ -3,8 +3,8 @@
 
 #include <minamo/minamo.hpp>
 
-#include <minamo/systems/setup/part.hpp>
-#include <minamo/systems/setup/scene.hpp>
+#include <minamo/systems/scene/part.hpp>
+#include <minamo/systems/scene/scene.hpp>
 
 #include <algorithm>
 

@@ -6,11 +6,11 @@
 
 #include <minamo/minamo.hpp>
 
-#include <minamo/systems/conforming/gather.hpp>
-#include <minamo/systems/conforming/scatter.hpp>
-#include <minamo/systems/grid/support.hpp>
-#include <minamo/systems/transfer/gather.hpp>
-#include <minamo/systems/transfer/scatter.hpp>
+#include <minamo/systems/grid/node_support.hpp>
+#include <minamo/systems/transfer/face_gather.hpp>
+#include <minamo/systems/transfer/face_scatter.hpp>
+#include <minamo/systems/transfer/node_gather.hpp>
+#include <minamo/systems/transfer/node_scatter.hpp>
 
 using namespace minamo;
 

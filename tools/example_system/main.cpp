@@ -4,8 +4,8 @@
 #include <minamo/minamo.hpp>
 
 #include <minamo/components/particle.hpp>
-#include <minamo/engine/clock.hpp>
-#include <minamo/engine/system.hpp>
+#include <minamo/engine/run/clock.hpp>
+#include <minamo/engine/schedule/system.hpp>
 
 #include <cstdio>
 

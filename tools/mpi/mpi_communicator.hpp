@@ -2,7 +2,7 @@
 /// \file
 /// The ranks of MPI.
 
-#include "engine/communicator.hpp"
+#include "engine/run/communicator.hpp"
 
 #include <memory>
 

@@ -5,11 +5,11 @@
 
 #include "components/staggered.hpp"
 #include "components/step.hpp"
-#include "engine/linear_solver.hpp"
-#include "engine/registry.hpp"
-#include "engine/system.hpp"
-#include "systems/conforming/multiplier_matrix.hpp"
+#include "engine/run/linear_solver.hpp"
+#include "engine/schedule/registry.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/ranks/site_exchange.hpp"
+#include "systems/viscosity/multiplier_matrix.hpp"
 
 #include <memory>
 

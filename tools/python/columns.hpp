@@ -2,7 +2,7 @@
 /// \file
 /// Columns as NumPy arrays: the memory of the table itself, and what becomes of an array when the table moves on.
 
-#include "engine/world.hpp"
+#include "engine/storage/world.hpp"
 
 #include <pybind11/numpy.h>
 

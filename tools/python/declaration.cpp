@@ -1,8 +1,8 @@
 #include "declaration.hpp"
 
 #include "components/measure.hpp"
-#include "engine/clock.hpp"
-#include "systems/setup/part.hpp"
+#include "engine/run/clock.hpp"
+#include "systems/scene/part.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

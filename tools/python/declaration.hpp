@@ -4,8 +4,8 @@
 
 #include "described_column.hpp"
 
-#include "engine/problem.hpp"
-#include "engine/registry.hpp"
+#include "engine/input/problem.hpp"
+#include "engine/schedule/registry.hpp"
 
 #include <pybind11/pybind11.h>
 

@@ -2,7 +2,7 @@
 /// \file
 /// Columns that a python program adds to a table: described when it runs, not by a type.
 
-#include "engine/system.hpp"
+#include "engine/schedule/system.hpp"
 
 #include <memory>
 #include <string>

@@ -2,8 +2,8 @@
 
 #include "part.hpp"
 
-#include "engine/schedule.hpp"
-#include "systems/register.hpp"
+#include "engine/schedule/schedule.hpp"
+#include "systems/step/register.hpp"
 
 #include <algorithm>
 

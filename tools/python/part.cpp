@@ -1,8 +1,8 @@
 #include "part.hpp"
 
-#include "engine/schedule.hpp"
-#include "systems/register.hpp"
-#include "systems/setup/scene_systems.hpp"
+#include "engine/schedule/schedule.hpp"
+#include "systems/step/register.hpp"
+#include "systems/step/scene_systems.hpp"
 
 #include <set>
 

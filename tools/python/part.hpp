@@ -4,7 +4,7 @@
 
 #include "python_system.hpp"
 
-#include "tools/scene_file.hpp"
+#include "tools/program/scene_file.hpp"
 
 #include <pybind11/stl.h>
 

@@ -1,7 +1,7 @@
 #include "problems.hpp"
 
-#include "engine/schedule.hpp"
-#include "tools/terminal.hpp"
+#include "engine/schedule/schedule.hpp"
+#include "tools/program/terminal.hpp"
 
 #include <spdlog/details/null_mutex.h>
 #include <spdlog/sinks/base_sink.h>

@@ -2,7 +2,7 @@
 /// \file
 /// The program's messages as python exceptions, and its log as python's.
 
-#include "engine/problem.hpp"
+#include "engine/input/problem.hpp"
 
 #include <pybind11/pybind11.h>
 

@@ -3,8 +3,8 @@
 #include "written.hpp"
 
 #include "components/measure.hpp"
-#include "engine/clock.hpp"
-#include "engine/step_control.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/run/step_control.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

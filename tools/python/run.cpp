@@ -2,8 +2,8 @@
 
 #include "problems.hpp"
 
-#include "tools/machine.hpp"
-#include "tools/single_run.hpp"
+#include "tools/program/machine.hpp"
+#include "tools/program/single_run.hpp"
 
 #include <oneapi/tbb/task_arena.h>
 

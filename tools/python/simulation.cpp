@@ -5,10 +5,10 @@
 #include "written.hpp"
 
 #include "components/measure.hpp"
-#include "engine/simulation.hpp"
+#include "engine/run/simulation.hpp"
 #include "systems/output/history.hpp"
-#include "systems/pipeline.hpp"
-#include "systems/setup/time_plan.hpp"
+#include "systems/step/pipeline.hpp"
+#include "systems/step/time_plan.hpp"
 
 #include <oneapi/tbb/task_arena.h>
 #include <spdlog/fmt/fmt.h>

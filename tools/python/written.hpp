@@ -2,8 +2,8 @@
 /// \file
 /// Whether a step can go on with what a python program has written.
 
-#include "engine/problem.hpp"
-#include "engine/world.hpp"
+#include "engine/input/problem.hpp"
+#include "engine/storage/world.hpp"
 
 #include <optional>
 

@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// (E120) The divergence that a velocity without divergence at the start of a step has at its middle, beside bodies.
+///
+/// Inside the liquid the velocities of the start, over the places of the middle, have the divergence -dt/2 tr(grad v
+/// grad v), the second term of (E63). Along a curved wall, and in front of one, they also lead through the wall, since
+/// the liquid turns in half a step. Damping that takes this for an error holds the liquid back: without (E120) a
+/// cylinder without friction has a drag coefficient of 1.6 instead of 0 on any grid.
+
+#include "components/body.hpp"
+#include "components/cells.hpp"
+#include "components/particle.hpp"
+#include "components/staggered.hpp"
+#include "engine/run/clock.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/bodies/body_set.hpp"
+#include "systems/grid/splines.hpp"
+
+namespace minamo {
+
+/// (E120) in the place of what particles bring to multipliers that bodies cut; with transfer schemes that carry a
+/// gradient.
+template <int Dim>
+struct FindDivergenceAhead {
+  static constexpr std::string_view doc = "(E120) divergence of the middle beside bodies";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                  Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells,
+                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
+                  Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
+                  Read<face::Open<Dim>> open, Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+                  Read<multiplier::Volume> v_l, Update<multiplier::Curvature> curvature) const;
+};
+
+}  // namespace minamo

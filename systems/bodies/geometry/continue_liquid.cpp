@@ -1,0 +1,405 @@
+#include "systems/bodies/geometry/continue_liquid.hpp"
+
+#include "systems/bodies/geometry/sides_around.hpp"
+#include "systems/grid/sites_around.hpp"
+#include "systems/liquid/liquid_surface.hpp"
+#include "systems/liquid/side_of_face.hpp"
+#include "systems/liquid/spline_fraction.hpp"
+#include "systems/liquid/spread.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+using liquid::farthest;
+using liquid::is_cut;
+
+namespace {
+
+/// What is farther than so many times that from those that no body cuts is not told, and keeps its particles.
+constexpr int continued_passes = 3;
+/// Open share of multipliers from which on their own particles tell where the surface is.
+constexpr double telling_open = 0.3;
+/// Length of the mean of normals from which on they are those of one plane.
+constexpr double agreeing = 0.7;
+/// Majority, as a share, from which on what is far from the surface counts as full or empty.
+constexpr double decisive = 0.25;
+/// Newton's steps to the plane below which the open part of a multiplier holds what was measured; least area of the
+/// surface in it, as a share, and largest move in units of h.
+constexpr int own_corrections = 3;
+constexpr double least_open_area = 0.1;
+constexpr double largest_own_move = 0.2;
+
+/// What is known of the liquid around a multiplier: from its particles, or continued.
+template <int Dim>
+struct Known {
+  Index<Dim> site;
+  double psi;
+  double fill;
+  Vec<Dim> normal;
+};
+
+/// The side of a wall from which one looks at multipliers around: that of a version of a continued one, or of one that
+/// no body cuts.
+template <int Dim>
+class View {
+ public:
+  using Around = SidesAround<Dim>;
+
+  View(const Splines<Dim>& splines, const ContinuedLiquid<Dim>& continued, const Index<Dim>& from)
+      : splines_(splines), continued_(continued), from_(from) {}
+  /// \param side  of the multiplier c from which one looks; all that is open if it has one at most
+  View(const Splines<Dim>& splines, const ContinuedLiquid<Dim>& continued, std::size_t c, std::size_t side)
+      : View(splines, continued, continued.site[c]) {
+    around_ = &continued.sides[c];
+    label_ = static_cast<std::uint8_t>(around_->is_parted() ? side + 1 : 0);
+  }
+
+  /// Whether a multiplier that no body cuts is on this side.
+  bool sees(const Index<Dim>& site) const { return label_ == 0 || around_->at(splines_.steps(from_, site)) == label_; }
+  /// The version of a continued multiplier on this side.
+  std::optional<std::size_t> version(std::size_t c) const {
+    const Index<Dim> to_it = splines_.steps(from_, continued_.site[c]);
+    if (around_ == nullptr) return continued_.version(c, negative(to_it));
+    const Around& other = continued_.sides[c];
+    if (around_->count == 0 || other.count == 0)
+      return other.is_parted() ? std::nullopt : std::optional<std::size_t>(continued_.first[c]);
+    if (label_ == 0 && !other.is_parted() && other.at({}) != 0) return continued_.first[c];
+    // They are on one side if they have something open in common; on no one side if with two of them.
+    std::optional<std::size_t> common;
+    for (std::size_t k = 0; k < Around::sites; ++k) {
+      if (around_->label[k] == 0 || (label_ != 0 && around_->label[k] != label_)) continue;
+      const auto found = other.at(difference(Around::steps(k), to_it));
+      if (found == 0) continue;
+      const std::size_t version = continued_.first[c] + (other.is_parted() ? found - 1U : 0U);
+      if (common && *common != version) return {};
+      common = version;
+    }
+    return common;
+  }
+
+ private:
+  static Index<Dim> difference(Index<Dim> a, const Index<Dim>& b) {
+    for (std::size_t d = 0; d < Dim; ++d) a[d] -= b[d];
+    return a;
+  }
+  static Index<Dim> negative(const Index<Dim>& a) { return difference(Index<Dim>{}, a); }
+
+  const Splines<Dim>& splines_;
+  const ContinuedLiquid<Dim>& continued_;
+  Index<Dim> from_;
+  const Around* around_ = nullptr;
+  std::uint8_t label_ = 0;  ///< 0: all that is open
+};
+
+/// Tells how the liquid goes on where a body cuts it.
+template <int Dim>
+class Continuation {
+ public:
+  struct Columns {
+    const Splines<Dim>& splines;
+    const StaggeredIndex<Dim>& rows;
+    std::span<const Index<Dim>> site;
+    std::span<const double> open;
+    std::span<const double> fill;
+    std::span<const double> psi;
+    std::span<const Vec<Dim>> normal;
+  };
+  /// \param wanted  multipliers and their sides
+  Continuation(const Columns& of, const ContinuedLiquid<Dim>& wanted)
+      : of_(of), wanted_(wanted), told_(wanted.psi.size()), is_told_(wanted.psi.size(), 0) {
+    for (std::size_t c = 0; c < wanted.site.size(); ++c) {
+      for (std::size_t side = 0; side < wanted.versions(c); ++side) of_version_.push_back({c, side});
+    }
+    tellers_.resize(of_version_.size());
+    for_each_row(of_version_.size(), [&](std::size_t v) {
+      const auto [c, side] = of_version_[v];
+      const View<Dim> view(of.splines, wanted, c, side);
+      Finder find(of.rows);
+      Finder find_told(wanted.rows);
+      for_each_site_around<Dim, Around::reach>(of.splines, wanted.site[c], [&](const auto& site, const auto& steps) {
+        tellers_[v][*Around::place(steps)] = teller(site, view, find, find_told);
+      });
+    });
+  }
+
+  /// First those that their particles tell of too, then behind them, then what is far from the surface.
+  /// \param own  corrects what is continued by what particles tell; false if they tell nothing
+  template <class Own>
+  void tell(const Own& own) {
+    for (const From from : {From::planes_and_particles, From::planes, From::most_around}) {
+      bool has_news = true;
+      for (int pass = 0; pass < continued_passes && has_news; ++pass) has_news = tell_once(own, from);
+    }
+  }
+  const Known<Dim>* told(std::size_t version) const { return is_told_[version] != 0 ? &told_[version] : nullptr; }
+
+ private:
+  enum class From : std::uint8_t { planes_and_particles, planes, most_around };
+  using Finder = typename SiteRows<Dim>::Finder;
+  using Around = SidesAround<Dim>;
+  /// A multiplier that may tell: the row of one that no body cuts, or a version of another one.
+  struct Teller {
+    std::int32_t row = staggered::none;
+    std::int32_t version = staggered::none;
+  };
+
+  Teller teller(const Index<Dim>& site, const View<Dim>& view, Finder& find, Finder& find_told) const {
+    Teller teller;
+    if (!of_.splines.has_multiplier(site)) return teller;
+    const auto row = find(site);
+    if (row && of_.open[*row] == 1) {
+      if (view.sees(site)) teller.row = static_cast<std::int32_t>(*row);
+    } else if (const auto c = find_told(site)) {
+      if (const auto version = view.version(*c)) teller.version = static_cast<std::int32_t>(*version);
+    }
+    return teller;
+  }
+  std::optional<Known<Dim>> known(const Teller& teller) const {
+    if (teller.row != staggered::none) {
+      const auto i = static_cast<std::size_t>(teller.row);
+      return Known<Dim>{of_.site[i], of_.psi[i], of_.fill[i], of_.normal[i]};
+    }
+    if (teller.version == staggered::none) return {};
+    const Known<Dim>* told_before = told(static_cast<std::size_t>(teller.version));
+    return told_before != nullptr ? std::optional(*told_before) : std::nullopt;
+  }
+
+  /// \return whether any was told
+  template <class Own>
+  bool tell_once(const Own& own, From from) {
+    std::vector<std::optional<Known<Dim>>> news(told_.size());
+    for_each_row(news.size(), [&](std::size_t v) {
+      if (is_told_[v] != 0) return;
+      const auto [c, side] = of_version_[v];
+      news[v] = continued(wanted_.site[c], tellers_[v], from != From::most_around);
+      if (news[v] && !own(*news[v], c, side) && from == From::planes_and_particles) news[v].reset();
+    });
+    bool any = false;
+    for (std::size_t v = 0; v < news.size(); ++v) {
+      if (!news[v]) continue;
+      told_[v] = *news[v];
+      is_told_[v] = 1;
+      any = true;
+    }
+    return any;
+  }
+
+  /// Whether the surface passes near, and it is no noise of particles in the depth.
+  bool is_at_surface(const Known<Dim>& k, const Teller& teller_of_k) const {
+    if (!is_cut(k.fill) || k.normal.squaredNorm() == 0) return false;
+    bool any_other = false;
+    const auto look_at = [&](const Teller& beside) {
+      const auto other = known(beside);
+      any_other = any_other || (other && (other->fill < 0.5) != (k.fill < 0.5));
+    };
+    if (teller_of_k.version != staggered::none) {
+      const auto& tellers = tellers_[static_cast<std::size_t>(teller_of_k.version)];
+      for (const std::size_t place : Around::places_beside) look_at(tellers[place]);
+      return any_other;
+    }
+    const View<Dim> view(of_.splines, wanted_, k.site);
+    Finder find(of_.rows);
+    Finder find_told(wanted_.rows);
+    for_each_site_around<Dim, 1>(of_.splines, k.site, [&](const Index<Dim>& site, const auto&) {
+      look_at(teller(site, view, find, find_told));
+    });
+    return any_other;
+  }
+
+  std::optional<Known<Dim>> continued(const Index<Dim>& site, const std::array<Teller, Around::sites>& tellers,
+                                      bool by_planes) const {
+    double weights = 0;
+    double distance = 0;
+    Vec<Dim> direction = Vec<Dim>::Zero();
+    double votes = 0;
+    double full = 0;
+    for (std::size_t place = 0; place < tellers.size(); ++place) {
+      const auto found = known(tellers[place]);
+      if (!found) continue;
+      const Known<Dim>& k = *found;
+      const Index<Dim> steps = Around::steps(place);
+      Vec<Dim> x;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const SplineAxis& axis = of_.splines.axis[d];
+        x[static_cast<Eigen::Index>(d)] = axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(k.site[d]);
+      }
+      const double near = 1 / x.squaredNorm();
+      votes += near;
+      full += near * (k.fill < 0.5 ? -1 : 1);
+      if (!is_at_surface(k, tellers[place])) continue;
+      const double weight = 4 * k.fill * (1 - k.fill) * near;
+      weights += weight;
+      distance += weight * (k.psi + k.normal.dot(x));
+      direction += weight * k.normal;
+    }
+    constexpr double none = 1e-6;
+    if (weights < none || direction.norm() < agreeing * weights) {
+      if (by_planes || std::abs(full) <= decisive * votes) return {};
+      const double psi = full > 0 ? farthest : -farthest;
+      return Known<Dim>{site, psi, full > 0 ? 1.0 : 0.0, Vec<Dim>::Zero()};
+    }
+    const double psi = distance / weights;
+    const Vec<Dim> normal = direction.normalized();
+    return Known<Dim>{site, std::clamp(psi, -farthest, farthest),
+                      SplineFraction<Dim>(of_.splines, site, normal)(psi).share, normal};
+  }
+
+  struct Version {
+    std::size_t c;
+    std::size_t side;
+  };
+  const Columns& of_;
+  const ContinuedLiquid<Dim>& wanted_;
+  std::vector<Version> of_version_;
+  std::vector<std::array<Teller, Around::sites>> tellers_;  ///< by version and SidesAround::place()
+  std::vector<Known<Dim>> told_;
+  std::vector<std::uint8_t> is_told_;
+};
+
+/// Calls use(site) for the multipliers of the cells that a face reaches.
+template <int Dim, class Use>
+void for_each_multiplier_of_face(const Splines<Dim>& splines, const Index<Dim>& site, std::size_t d, const Use& use) {
+  const int K = splines.degree;
+  Index<Dim> extent;
+  extent.fill(2 * K - 1);
+  extent[d] = 2 * K;
+  std::size_t count = 1;
+  for (const int of_axis : extent) count *= static_cast<std::size_t>(of_axis);
+  for (std::size_t k = 0; k < count; ++k) {
+    Index<Dim> steps;
+    std::size_t rest = k;
+    for (std::size_t e = 0; e < Dim; ++e) {
+      const auto of_axis = static_cast<std::size_t>(extent[e]);
+      steps[e] = static_cast<int>(rest % of_axis) - (e == d ? K : K - 1);
+      rest /= of_axis;
+    }
+    const auto other = splines.site_at(site, steps);
+    if (other && splines.has_multiplier(*other)) use(*other);
+  }
+}
+
+/// The multipliers that bodies cut, of the cells that faces with a share of exact integrals reach.
+template <int Dim>
+void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
+                          std::span<const Index<Dim>> site,
+                          std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
+                          std::span<const double> open, std::span<const Vec<Dim>> share,
+                          const OpenSites<Dim>& open_sites, ContinuedLiquid<Dim>& continued) {
+  // Most rows have no body near, and all others around: only those next to some that have not are looked at.
+  const RowsOfSites<Dim> all{splines, rows, site, neighbour};
+  const auto may_lack = [&](std::size_t i) { return open[i] < 1 || all.lacks_one_beside(i); };
+  std::vector<double> is_near;
+  with_degree(splines.degree, [&](auto degree) { is_near = near_any<Dim, degree()>(all, may_lack); });
+  continued.rows.start(splines.sites());
+  typename SiteRows<Dim>::Finder find(rows);
+  for (std::size_t i = 0; i < site.size(); ++i) {
+    if (is_near[i] == 0) continue;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (share[i][static_cast<Eigen::Index>(d)] == 0) continue;
+      for_each_multiplier_of_face<Dim>(splines, site[i], d, [&](const Index<Dim>& other) {
+        if (open_sites.share(other, find) < 1) continued.rows.add(other);
+      });
+    }
+  }
+  continued.site.resize(continued.rows.number_rows());
+  continued.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { continued.site[c] = at; });
+}
+
+/// The sides around them, and place for a version of each.
+/// \param has_sides  else all that is open hangs together
+template <int Dim>
+void find_versions(const OpenSites<Dim>& open, bool has_sides, ContinuedLiquid<Dim>& continued) {
+  const std::size_t count = continued.site.size();
+  continued.sides.assign(count, {});
+  if (has_sides) {
+    for_each_row(count, [&](std::size_t c) { continued.sides[c] = find_sides<Dim>(open, continued.site[c]); });
+  }
+  continued.first.resize(count);
+  continued.any_parted = false;
+  std::size_t versions = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    continued.first[c] = static_cast<std::uint32_t>(versions);
+    continued.any_parted = continued.any_parted || continued.sides[c].is_parted();
+    versions += continued.versions(c);
+  }
+  continued.psi.assign(versions, -farthest);
+  continued.fill.assign(versions, 0);
+}
+
+}  // namespace
+
+template <int Dim>
+void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                                     Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                                     Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                                     Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                     Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
+                                     Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l,
+                                     Read<multiplier::Capacity> capacity, Update<face::ExactShare<Dim>> share,
+                                     Update<multiplier::SurfaceDistance> psi,
+                                     Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
+                                     Write<ContinuedLiquid<Dim>> continued) const {
+  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
+  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
+  const OpenSites<Dim> open_sites{*splines, *rows, open.span(), open_face.span(), cuts};
+  list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(), open.span(), share.span(), open_sites,
+                            *continued);
+  find_versions<Dim>(open_sites, set->parts_liquid, *continued);
+  const typename Continuation<Dim>::Columns columns{*splines,    *rows,      site.span(), open.span(),
+                                                    fill.span(), psi.span(), n_l.span()};
+  Continuation<Dim> continuation(columns, *continued);
+  constexpr Index<Dim> here{};
+  // The plane in the continued direction below which the open part holds what was measured.
+  continuation.tell([&](Known<Dim>& known, std::size_t c, std::size_t side) {
+    const auto row = rows->find(known.site);
+    if (!row || open[*row] < telling_open || v_l[*row] == 0) return false;
+    if (continued->version(c, here) != std::optional<std::size_t>(continued->first[c] + side)) return false;
+    if (!is_cut(known.fill)) return true;
+    const double measured = v_l[*row] / capacity[*row] * open[*row];
+    for (int k = 0; k < own_corrections; ++k) {
+      const double lack = measured - cuts.open_below(known.site, known.psi, known.normal);
+      const double area = open[*row] * (1 - std::abs(known.psi));
+      const double move = std::clamp(lack / std::max(least_open_area, area), -largest_own_move, largest_own_move);
+      known.psi = std::clamp(known.psi + move, -farthest, farthest);
+    }
+    known.fill = SplineFraction<Dim>(*splines, known.site, known.normal)(known.psi).share;
+    return true;
+  });
+  bool is_all_told = true;
+  for (std::size_t v = 0; v < continued->psi.size(); ++v) {
+    const Known<Dim>* known = continuation.told(v);
+    is_all_told = is_all_told && known != nullptr;
+    if (known == nullptr) continue;
+    continued->psi[v] = known->psi;
+    continued->fill[v] = known->fill;
+  }
+  for (std::size_t c = 0; c < continued->site.size(); ++c) {
+    const auto version = continued->version(c, here);
+    const Known<Dim>* known = version ? continuation.told(*version) : nullptr;
+    const auto row = rows->find(continued->site[c]);
+    if (known == nullptr || !row) continue;
+    psi[*row] = known->psi;
+    n_l[*row] = known->normal;
+    if (fill[*row] > 0) fill[*row] = known->fill;  // without particles not all of its faces have rows
+  }
+  if (is_all_told && !continued->any_parted) return;
+  for_each_row(site.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      double& of_face = share[i][static_cast<Eigen::Index>(d)];
+      if (of_face == 0) continue;
+      const Index<Dim> from = side_of_face<Dim>(*splines, site.span(), neighbour.span(), open.span(), i, d);
+      for_each_multiplier_of_face<Dim>(*splines, site[i], d, [&](const Index<Dim>& other) {
+        const auto c = continued->rows.find(other);
+        if (!c) return;
+        const auto version = continued->version(*c, splines->steps(other, from));
+        if (!version || continuation.told(*version) == nullptr) of_face = 0;
+      });
+    }
+  });
+}
+
+template struct ContinueLiquid<2>;
+template struct ContinueLiquid<3>;
+
+}  // namespace minamo

@@ -1,0 +1,26 @@
+#pragma once
+/// \file
+/// (E135) The liquid goes on behind the walls of bodies: what of a spline that a body cuts is liquid, were it not
+/// there.
+
+#include "components/liquid.hpp"
+#include "systems/bodies/geometry/cut.hpp"
+
+namespace minamo {
+
+/// (E135)  psi_l, n_l and phi_l of multipliers that bodies cut: the mean of the planes of those around that none does,
+/// moved to hold what the particles in the open part tell. Faces that reach where nothing is known have no share w_f.
+template <int Dim>
+struct ContinueLiquid {
+  static constexpr std::string_view doc = "(E135) the liquid continued into bodies";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
+                  Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                  Update<face::ExactShare<Dim>> share, Update<multiplier::SurfaceDistance> psi,
+                  Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
+                  Write<ContinuedLiquid<Dim>> continued) const;
+};
+
+}  // namespace minamo

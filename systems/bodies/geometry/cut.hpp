@@ -1,0 +1,217 @@
+#pragma once
+/// \file
+/// (E85) What bodies leave open of the staggered grid: of every face a share of the plane between its two multipliers,
+/// of every multiplier a share of its volume.
+
+#include "components/grid.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/bodies/body_set.hpp"
+#include "systems/bodies/geometry/thin_walls.hpp"
+#include "systems/grid/sites_around.hpp"
+#include "systems/grid/splines.hpp"
+
+namespace minamo {
+
+/// Faces less open than this are closed.
+inline constexpr double least_open = 1e-3;
+/// Less open ones are slivers: what flows through them weighs little and may be fast. Particles do not see them (E87),
+/// and gaps beside moving bodies made of nothing else are closed. Rounding says nothing of one that is 0.2 open.
+inline constexpr double sliver = 0.2 - 1e-9;
+
+/// Place of an index among `count` per direction, x fastest, and the index at a place.
+template <int Dim>
+std::size_t row_in(const Index<Dim>& count, const Index<Dim>& index) {
+  std::size_t row = 0;
+  for (std::size_t d = Dim; d-- > 0;)
+    row = row * static_cast<std::size_t>(count[d]) + static_cast<std::size_t>(index[d]);
+  return row;
+}
+/// How many places there are.
+template <int Dim>
+std::size_t rows_in(const Index<Dim>& count) {
+  std::size_t rows = 1;
+  for (const int along : count) rows *= static_cast<std::size_t>(along);
+  return rows;
+}
+template <int Dim>
+Index<Dim> index_in(const Index<Dim>& count, std::size_t row) {
+  Index<Dim> index;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    index[d] = static_cast<int>(row % static_cast<std::size_t>(count[d]));
+    row /= static_cast<std::size_t>(count[d]);
+  }
+  return index;
+}
+
+template <int Dim>
+Vec<Dim> middle_of_cell(const Grid<Dim>& grid, const Index<Dim>& cell) {
+  return grid.position(cell) + Vec<Dim>::Constant(0.5 * grid.spacing);
+}
+
+/// Where faces and multipliers are: between the Greville points of neighbouring faces lies a multiplier.
+template <int Dim>
+class SitePlaces {
+ public:
+  SitePlaces(const Grid<Dim>& grid, const Splines<Dim>& splines) : grid_(grid), splines_(splines) {}
+
+  /// Greville point of the spline i of degree K along an axis. [m]
+  double along(std::size_t d, int i) const;
+  /// The box between the faces of a site: from its own to those of the sites above. [m]
+  Bounds<Dim> box(const Index<Dim>& site) const;
+  /// Middle of a face of direction d.
+  Vec<Dim> face(const Index<Dim>& site, std::size_t d) const;
+  /// Half of the diagonal of what the splines of a multiplier cover. [m]
+  double reach() const;
+  const Grid<Dim>& grid() const { return grid_; }
+  const Splines<Dim>& splines() const { return splines_; }
+
+ private:
+  const Grid<Dim>& grid_;
+  const Splines<Dim>& splines_;
+};
+
+/// (E85)  What moving bodies push through faces, with velocities of one's choice.
+template <int Dim>
+struct MovingWalls {
+  const SitePlaces<Dim>& places;
+  std::span<const Index<Dim>> site;
+  std::span<const typename face::Closed<Dim>::value_type> closed;
+  std::span<const typename face::Closer<Dim>::value_type> closer;
+  std::span<const Vec<Dim>> position;
+  std::span<const Vec<Dim>> velocity;
+  std::span<const Vec<rotations<Dim>>> spin;
+
+  /// c_fb w_b . e_f of the face of direction d of a row. [m/s]
+  double flux(std::size_t f, std::size_t d) const {
+    if (closer[f][d][1] < 0) return 0;
+    const auto b = static_cast<std::size_t>(closer[f][d][1]);
+    const Vec<Dim> r = places.face(site[f], d) - position[b];
+    return closed[f][d][1] * rigid_velocity(velocity[b], spin[b], r)[static_cast<Eigen::Index>(d)];
+  }
+};
+
+template <int Dim>
+struct SiteCut {
+  Vec<Dim> open = Vec<Dim>::Ones();  ///< of its faces [1]
+  double share = 1;                  ///< of the volume of its multiplier, weighted with its spline [1]
+};
+
+/// The cut of a site by a region, of which `distance` is the signed distance, negative inside.
+/// \param bounded  whether one distance tells of a neighbourhood (Shape::is_bounded_by_distance())
+template <int Dim, class Distance>
+SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded, const Distance& distance);
+
+/// The cut of all sites of the grid by the bodies at rest.
+template <int Dim>
+struct StaticCut {
+  Index<Dim> sites{};             ///< per direction
+  std::vector<SiteCut<Dim>> of;   ///< of all sites, x fastest; empty without bodies at rest
+  std::vector<double> clearance;  ///< within this of any point of a cell of the grid, x fastest, is no body [m]
+  static constexpr ComponentInfo info{"bodies.static_cut", "a_f", "1", Lifetime::constant};
+
+  const SiteCut<Dim>& at(const Index<Dim>& site) const { return of[row_in<Dim>(sites, site)]; }
+  double clearance_of(const Grid<Dim>& grid, const Index<Dim>& cell) const {
+    return of.empty() ? std::numeric_limits<double>::infinity() : clearance[row_in<Dim>(grid.cells, cell)];
+  }
+};
+
+template <int Dim>
+StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines);
+
+/// (E136) What is dry behind the thin walls of bodies. Only where a body has one.
+template <int Dim>
+struct DrySides {
+  std::vector<std::optional<ThinWalls<Dim>>> of_body;
+  std::vector<SiteCut<Dim>> at_rest;  ///< as StaticCut::of, by bodies with what is dry behind them
+  static constexpr ComponentInfo info{"bodies.dry_sides", "", "", Lifetime::cache};
+};
+
+/// The bodies of a scene at some place each.
+template <int Dim>
+class PlacedBodies {
+ public:
+  /// \param dry  what of the surroundings of bodies counts as part of them; null: nothing
+  PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim>> position, std::span<const Mat<Dim>> rotation,
+               const DrySides<Dim>* dry = nullptr);
+  static PlacedBodies at_start(const BodySet<Dim>& set);
+
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();  ///< [m]
+    int body = -1;
+  };
+  /// Of the bodies at rest, or of the moving ones.
+  Nearest nearest(const Vec<Dim>& x, bool moving) const;
+  double distance(const Vec<Dim>& x, bool moving) const { return nearest(x, moving).distance; }
+  double distance(const Vec<Dim>& x) const { return std::min(distance(x, false), distance(x, true)); }
+  /// Whether a moving body may be within a distance of a point.
+  bool may_be_near(const Vec<Dim>& x, double reach) const;
+  bool bounded() const { return bounded_; }
+  const Placement<Dim>& placement(std::size_t b) const { return placement_[b]; }
+  const DrySides<Dim>* dry() const { return dry_; }
+
+ private:
+  const BodySet<Dim>& set_;
+  const DrySides<Dim>* dry_;
+  std::vector<Placement<Dim>> placement_;
+  std::vector<std::size_t> moving_;
+  std::vector<std::size_t> resting_;
+  std::vector<Bounds<Dim>> moving_bounds_;
+  bool bounded_ = true;
+};
+
+/// What all bodies leave open of sites, whether particles touch them or not.
+template <int Dim>
+class SiteCuts {
+ public:
+  SiteCuts(const Grid<Dim>& grid, const Splines<Dim>& splines, const StaticCut<Dim>& at_rest,
+           const PlacedBodies<Dim>& bodies)
+      : places_(grid, splines), at_rest_(at_rest), bodies_(bodies) {}
+
+  SiteCut<Dim> by_resting(const Index<Dim>& site) const {
+    if (at_rest_.of.empty()) return {};
+    return bodies_.dry() != nullptr ? bodies_.dry()->at_rest[row_in<Dim>(at_rest_.sites, site)] : at_rest_.at(site);
+  }
+  /// The same, found anew.
+  SiteCut<Dim> cut_by_resting(const Index<Dim>& site) const;
+  SiteCut<Dim> at(const Index<Dim>& site) const;
+  /// Integral of N_l of a site over what of the open volume lies below a plane, over that of N_l.
+  /// \param psi  signed distance of the middle of the multiplier from the plane, in units of h
+  /// \param normal  into the liquid
+  double open_below(const Index<Dim>& site, double psi, const Vec<Dim>& normal) const;
+  /// Open share of the volume between the middles of the two multipliers of a face; at a wall there is one.
+  /// \param share  of a multiplier, by its site
+  template <class ShareOf>
+  double open_volume(const Index<Dim>& site, std::size_t d, const ShareOf& share) const;
+  const SitePlaces<Dim>& places() const { return places_; }
+
+ private:
+  SitePlaces<Dim> places_;
+  const StaticCut<Dim>& at_rest_;
+  const PlacedBodies<Dim>& bodies_;
+};
+
+template <int Dim>
+template <class ShareOf>
+double SiteCuts<Dim>::open_volume(const Index<Dim>& site, std::size_t d, const ShareOf& share) const {
+  const auto below = site_beside(places_.splines(), site, 2 * d);
+  if (!below) return share(site);
+  if (site[d] >= places_.splines().axis[d].multipliers()) return share(*below);
+  return 0.5 * (share(site) + share(*below));
+}
+
+/// (E85) of the sites of a step.
+template <int Dim>
+struct CutFaces {
+  static constexpr std::string_view doc = "(E85) what bodies leave open of faces and multipliers";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b,
+                  Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                  Write<face::Open<Dim>> open, Write<face::OpenVolume<Dim>> open_volume,
+                  Write<face::WallFlux<Dim>> flux, Write<face::OldWallFlux<Dim>> old_flux,
+                  Write<face::Closed<Dim>> closed, Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share,
+                  Update<multiplier::Capacity> capacity) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// (E74) Bodies among the parts of cells on which stirring counts particles.
+
+#include "components/body.hpp"
+#include "components/cells.hpp"
+#include "components/grid.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/bodies/geometry/cut.hpp"
+#include "systems/volume/face_volume.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace minamo {
+
+/// What bodies at rest fill of the parts of cells, found where particles have been.
+struct RestingParts {
+  std::vector<std::int32_t> place;  ///< of the window of a cell of the grid, x fastest, or one of these:
+  static constexpr std::int32_t unknown = -2;
+  static constexpr std::int32_t none = -1;
+  std::vector<double> fill;  ///< of the parts of a window [1]
+  static constexpr ComponentInfo info{"solid_parts.at_rest", "C_s", "1", Lifetime::cache};
+};
+
+/// (E74)  C_s, what bodies fill of the parts of the cells beside them, smoothed as particles are: near a plane wall it
+/// is the integral of a quadratic B-spline of spacing d up to the distance.
+template <int Dim>
+struct FindSolidParts {
+  static constexpr std::string_view doc = "(E74) C_s, what bodies fill of the parts of cells";
+  void operator()(Read<Grid<Dim>> grid, Read<GridCells<Dim>> cells, Read<StirGrid> stir, Read<BodySet<Dim>> set,
+                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MiddleRotation<Dim>> R_b, Update<RestingParts> resting, Write<SolidParts> solid) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// (E105) What the loop over the balances has beside the systems that it repeats.
+
+#include "components/body.hpp"
+#include "components/contact.hpp"
+#include "components/grid.hpp"
+#include "components/measure.hpp"
+#include "engine/schedule/system.hpp"
+#include "systems/grid/splines.hpp"
+
+namespace minamo {
+
+/// Passes after which a contact that still changes stays as it is.
+inline constexpr int most_contact_passes = 10;
+
+/// (E77) B v* for the contact of this pass, source of the balances; the others are zero.
+template <int Dim>
+struct FillContactSource {
+  static constexpr std::string_view doc = "(E77) B v*, with what is in contact at rest";
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Predictor<Dim>> predictor,
+                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::WallFlux<Dim>>> wall_flux,
+                  Read<unknown::Staggered> of_unknown, Write<unknown::Source> source) const;
+};
+
+/// It is enough when no contact has changed, or after most_contact_passes.
+template <int Dim>
+struct EndContactPass {
+  static constexpr std::string_view doc = "(E105) whether the contact has settled";
+  void operator()(Update<ContactLoop> loop) const;
+};
+
+/// `contact_passes` and `contact_unsettled` of the history.
+template <int Dim>
+struct MeasureContact {
+  static constexpr std::string_view doc = "(E105) passes of the contact, and what of it did not settle";
+  void operator()(Read<ContactLoop> loop, Update<measure::Columns> columns) const;
+};
+
+}  // namespace minamo

@@ -1,0 +1,114 @@
+#include "components/surface_tension.hpp"
+#include "systems/bodies/bodies_part.hpp"
+#include "systems/equal_order/moments.hpp"
+#include "systems/grid/filled_nodes.hpp"
+#include "systems/grid/lattice.hpp"
+#include "systems/liquid/exact_pressure.hpp"
+#include "systems/liquid/exact_volume.hpp"
+#include "systems/liquid/liquid_surface.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/scene/schemes.hpp"
+
+#include <algorithm>
+
+namespace minamo {
+
+namespace {
+
+/// Of faces and multipliers. Those of degree 1 have exact sums on any lattice.
+LatticePlaces places_of(const Discretization& conforming) {
+  return conforming.degree == 2 ? LatticePlaces::middle_of_parts : LatticePlaces::exact_for_splines;
+}
+
+/// Pressure on exact integrals over the liquid.
+void add_exact_pressure(bool has_bodies, Recipe& recipe) {
+  for (const char* system : {"find_pressure_acceleration", "find_exact_share", "find_liquid_surface"})
+    recipe.add("assemble", system);
+  if (has_bodies) recipe.add("assemble", "continue_liquid");
+  for (const char* system : {"find_exact_volume", "add_exact_pressure"}) recipe.add("assemble", system);
+}
+
+void set_places(Scene& scene, LatticePlaces of_equal_order) {
+  scene.facts.set(is_conforming(scene) ? places_of(scene.facts.get<Discretization>()) : of_equal_order);
+}
+
+Contribution read_mixed(Input&, Scene& scene) {
+  set_places(scene, LatticePlaces::nearer_to_walls);
+  return adds_systems("assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
+}
+
+/// What has masses of faces or forces at the surface of its own.
+void check_exact_at_surface(const Scene& scene, SeedProblems& problems) {
+  const auto note = [&](const char* what) {
+    problems.note("/quadrature/scheme", "not with this scene", R"("mixed")", std::string(R"("exact" with )") + what);
+  };
+  if (!is_conforming(scene)) note("equal_order");
+  if (scene.facts.find<SurfaceTension>()) note("surface_tension");
+}
+
+Contribution read_exact_at_surface(Input&, Scene& scene) {
+  set_places(scene, LatticePlaces::nearer_to_walls);
+  return [](const Scene& of, Recipe& recipe) {
+    recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_exact_at_surface(seeded, problems); });
+    add_systems(of, recipe, "assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
+    if (is_conforming(of)) add_exact_pressure(of.facts.find<BodiesOfScene>() != nullptr, recipe);
+  };
+}
+
+Contribution read_particles(Input&, Scene& scene) {
+  set_places(scene, LatticePlaces::middle_of_parts);
+  return adds_systems("assemble", {{"moments"}, {"find_mobility"}});
+}
+
+/// Whether objects of the scene have one of some keys.
+bool any_has(const Input& input, const std::vector<std::string>& objects, std::initializer_list<std::string_view> of) {
+  return std::any_of(objects.begin(), objects.end(), [&](const std::string& object) {
+    const std::vector<std::string> keys = input.names(object);
+    return std::find_first_of(keys.begin(), keys.end(), of.begin(), of.end()) != keys.end();
+  });
+}
+
+/// In the plane where liquid at rest would else begin to move: a body force presses it together, and no yield stress
+/// holds it; not where it was not measured.
+std::string recommended_quadrature(const Input& input, const Scene& scene) {
+  if (input.describing() || scene.dimension != 2 || !is_conforming(scene)) return "mixed";
+  if (scene.facts.get<Discretization>().degree != 2 || !input.has("body_force")) return "mixed";
+  for (const char* key : {"openings", "surface_tension"}) {
+    if (input.has(key)) return "mixed";
+  }
+  std::vector<std::string> motions;
+  for (std::size_t b = 0; b < input.elements("bodies").value_or(0); ++b)
+    motions.push_back("bodies/" + std::to_string(b) + "/motion");
+  if (!motions.empty() && (input.has("fluids") || any_has(input, motions, {"free"}))) return "mixed";
+  std::vector<std::string> laws{"fluid/rheology"};
+  if (input.has("fluids")) {
+    laws = input.names("fluids");
+    for (std::string& name : laws) name = "fluids/" + name + "/rheology";
+  }
+  return any_has(input, laws, {"bingham", "herschel_bulkley", "mu_i"}) ? "mixed" : "exact";
+}
+
+}  // namespace
+
+void add_quadrature(SystemRegistry& registry) {
+  registry.add<FindFilledNodes>("find_filled_nodes");
+  registry.add<GatherMoments>("moments");
+  registry.add<FindLiquidSurface>("find_liquid_surface");
+  registry.add<FindExactVolume>("find_exact_volume");
+  registry.add<FindPressureAcceleration>("find_pressure_acceleration");
+  registry.add<FindExactShare>("find_exact_share");
+  registry.add<AddExactPressure>("add_exact_pressure");
+  registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
+  registry.add(
+      Quadrature{{"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals",
+                  read_exact_at_surface}});
+  registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
+  const DefaultScheme fallback{
+      recommended_quadrature,
+      "\"exact\" in the plane under a body_force, with degree 2, without yield stress, openings and surface_tension; "
+      "beside bodies where none of these is free, without fluids"};
+  registry.add(choice<Quadrature>("quadrature", "integrals of the balances", fallback));
+}
+
+}  // namespace minamo

@@ -1,0 +1,201 @@
+#include "components/fluids.hpp"
+#include "components/surface_tension.hpp"
+#include "systems/bodies/bodies_part.hpp"
+#include "systems/equal_order/material.hpp"
+#include "systems/equal_order/right_hand_side.hpp"
+#include "systems/openings/openings_part.hpp"
+#include "systems/scene/discretization.hpp"
+#include "systems/scene/parts.hpp"
+#include "systems/viscosity/friction_choice.hpp"
+#include "systems/viscosity/friction_matrices.hpp"
+#include "systems/viscosity/law.hpp"
+#include "systems/viscosity/mixture.hpp"
+#include "systems/viscosity/read_rheology.hpp"
+#include "systems/viscosity/shear_rate.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace minamo {
+
+namespace {
+
+/// The matrices of friction, when there are the splines.
+template <int Dim>
+void seed_friction(const Scene&, World& world, SeedProblems&) {
+  world.resource<FrictionMatrices<Dim>>() = {world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>(),
+                                             world.resource<Walls<Dim>>()};
+}
+
+/// The system that gives cells their viscosity.
+std::string cell_viscosity_of(const Scene& scene) {
+  if (scene.facts.find<Fluids>()) return "find_cell_viscosity_of_fluids";
+  return scene.facts.find<Rheology>() ? "find_cell_viscosity_by_particles" : "find_cell_viscosity";
+}
+
+void add_friction(const Scene& scene, Recipe& recipe) {
+  const Friction friction = friction_of(scene);
+  if (friction == Friction::none) return;
+  const auto* rheology = scene.facts.find<Rheology>();
+  if (rheology != nullptr) recipe.add("material", "shear_particles");
+  recipe.add("assemble", cell_viscosity_of(scene));  // behind fill_beside_bodies
+  if (rheology != nullptr && depends_on_pressure(rheology->laws)) {
+    recipe.add("accept", "recover_pressure");
+    recipe.add("accept", "keep_pressure");
+  }
+  if (friction == Friction::at_start) recipe.add("assemble", "rub_faces");
+  recipe.seed(scene.dimension == 2 ? Seed(seed_friction<2>) : Seed(seed_friction<3>));
+}
+
+/// Solves again with the viscosity of the velocities that the solve before has given.
+RepeatsFriction repeat_friction(int iterations, const std::string& cell_viscosity) {
+  return {[iterations, cell_viscosity](Recipe& recipe, const std::vector<std::string>& solve) {
+    std::vector<System> body{recipe.make("shear_particles_again"), recipe.make(cell_viscosity)};
+    for (const std::string& system : solve) body.push_back(recipe.make(system));
+    body.push_back(recipe.make("compare_balance_velocity"));
+    recipe.add("solve", "keep_balance_velocity");
+    recipe.add("solve", make_loop<ViscosityLoop>("find_viscosity", std::move(body), iterations));
+  }};
+}
+
+/// What a scene says of a liquid.
+struct Liquid {
+  Fluid fluid;
+  std::optional<Rheology> rheology;
+
+  rheology::Law law() const {
+    if (rheology) return rheology->laws.front();
+    return rheology::PowerLaw{.consistency = fluid.viscosity, .index = 1, .least = 0, .most = fluid.viscosity};
+  }
+};
+
+Rheology read_flow(Input& input, const Scene& scene) {
+  const Rheology rheology = read_rheology(input);
+  if (!input.describing() && !is_conforming(scene))
+    input.problem("", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
+  return rheology;
+}
+
+Liquid read_liquid(Input& in, const Scene& scene) {
+  Liquid liquid;
+  liquid.fluid.density = in.number("density", {.unit = "kg/m^3", .doc = "density", .above = 0});
+  in.one_of("viscosity",
+            {{"viscosity",
+              [&](Input& of) {
+                liquid.fluid.viscosity =
+                    of.number("viscosity", {.unit = "Pa s", .doc = "dynamic viscosity; 0 is inviscid", .at_least = 0});
+              }},
+             {"rheology", [&](Input& of) {
+                of.object("rheology", "a viscosity that depends on the shear rate", Input::Presence::required,
+                          [&](Input& rheology) { liquid.rheology = read_flow(rheology, scene); });
+              }}});
+  // Without pressure, and at rest.
+  if (liquid.rheology && !in.describing() && !liquid.rheology->laws.empty())
+    liquid.fluid.viscosity = viscosity_at(liquid.law(), 0);
+  return liquid;
+}
+
+void set_rheology(Rheology rheology, Scene& scene) {
+  const int iterations = rheology.iterations;
+  scene.facts.set(std::move(rheology));
+  if (iterations > 1) scene.facts.set(repeat_friction(iterations, cell_viscosity_of(scene)));
+}
+
+void read_one(Input& input, Scene& scene) {
+  Liquid liquid;
+  input.object("fluid", "the liquid", Input::Presence::required, [&](Input& in) { liquid = read_liquid(in, scene); });
+  if (liquid.rheology) set_rheology(*liquid.rheology, scene);
+  scene.facts.set(liquid.fluid);
+}
+
+/// The liquids of a scene together: the density of the heaviest, the viscosity of the thickest, a law for each if one
+/// has one.
+void read_several(Input& input, Scene& scene) {
+  std::vector<Liquid> liquids;
+  Fluids fluids;
+  input.named_objects("fluids", "several liquids, by the names that particles have",
+                      [&](Input& in, const std::string& name) {
+                        liquids.push_back(read_liquid(in, scene));
+                        fluids.names.push_back(name);
+                        fluids.of.push_back(liquids.back().fluid);
+                      });
+  if (input.describing()) return;
+  if (!is_conforming(scene))
+    input.problem("fluids", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
+  if (liquids.empty() || liquids.size() > most_fluids)
+    input.problem("fluids", "number of liquids", fmt::format("1 to {} of them", most_fluids),
+                  fmt::format("{}", liquids.size()));
+  fluids.of.resize(std::min(fluids.of.size(), most_fluids));
+  Fluid together;
+  Rheology rheology;
+  bool has_law = false;
+  for (const Liquid& liquid : liquids) {
+    together.density = std::max(together.density, liquid.fluid.density);
+    together.viscosity = std::max(together.viscosity, liquid.fluid.viscosity);
+    rheology.laws.push_back(liquid.law());
+    if (!liquid.rheology) continue;
+    has_law = true;
+    rheology.iterations = std::max(rheology.iterations, liquid.rheology->iterations);
+  }
+  scene.facts.set(together);
+  scene.facts.set(fluids);
+  if (has_law) set_rheology(rheology, scene);
+}
+
+bool have_one_density(const Fluids& fluids) {
+  return std::all_of(fluids.of.begin(), fluids.of.end(),
+                     [&](const Fluid& fluid) { return fluid.density == fluids.of.front().density; });
+}
+
+/// What knows of one density alone.
+void check_several(const Scene& scene, SeedProblems& problems) {
+  if (scene.facts.find<OpeningsOfScene>())
+    problems.note("/openings", "not with several liquids", R"("fluid")", R"("fluids")");
+  if (scene.facts.find<SurfaceTension>())
+    problems.note("/surface_tension", "not with several liquids", R"("fluid")", R"("fluids")");
+  const auto* bodies = scene.facts.find<BodiesOfScene>();
+  if (bodies != nullptr && (bodies->in_plane.any_is_free() || bodies->in_space.any_is_free()))
+    problems.note("/fluids", "not with free bodies", R"("fluid")", R"("fluids")");
+}
+
+Contribution read_fluid(Input& input, Scene& scene) {
+  scene.facts.set(Fluid{});
+  input.one_of("the liquid, or several", {{"fluid", [&](Input& in) { read_one(in, scene); }},
+                                          {"fluids", [&](Input& in) { read_several(in, scene); }}});
+  // With both: what particles name is no problem of its own.
+  if (!input.describing() && input.has("fluids") && !scene.facts.find<Fluids>()) scene.facts.set(Fluids{});
+  return [](const Scene& of, Recipe& recipe) {
+    if (const auto* rheology = of.facts.find<Rheology>()) recipe.constant(*rheology);
+    add_systems(of, recipe, "p2g", {{}, {"p2g_multipliers"}});
+    add_systems(of, recipe, "material", {{"set_material"}, {"find_fill"}});
+    add_systems(of, recipe, "assemble", {{}, {"assemble_multipliers"}});
+    add_systems(of, recipe, "right_hand_side", {{"right_hand_side"}, {"face_source"}});
+    add_friction(of, recipe);
+    recipe.constant(of.facts.get<Fluid>());
+    if (const auto* fluids = of.facts.find<Fluids>()) {
+      recipe.constant(*fluids);
+      recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_several(seeded, problems); });
+      if (!have_one_density(*fluids)) recipe.add("p2g", "find_face_density");
+    }
+  };
+}
+
+}  // namespace
+
+void add_fluid(SystemRegistry& registry) {
+  registry.add<SetMaterial>("set_material");
+  registry.add<FillRightHandSide>("right_hand_side");
+  registry.add<ShearParticles>("shear_particles");
+  registry.add<ShearParticlesAgain>("shear_particles_again");
+  registry.add<FindCellViscosityByParticles>("find_cell_viscosity_by_particles");
+  registry.add<KeepPressure>("keep_pressure");
+  registry.add<KeepBalanceVelocity>("keep_balance_velocity");
+  registry.add<CompareBalanceVelocity>("compare_balance_velocity");
+  registry.add<FindFaceDensity>("find_face_density");
+  registry.add<FindCellViscosityOfFluids>("find_cell_viscosity_of_fluids");
+  registry.add(Part{"fluid", "density and viscosity of the liquid", read_fluid});
+}
+
+}  // namespace minamo

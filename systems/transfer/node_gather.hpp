@@ -1,0 +1,45 @@
+#pragma once
+/// \file
+/// The grid-to-particle kernels that transfer schemes are made of.
+
+#include "components/particle.hpp"
+#include "systems/transfer/node_polynomial.hpp"
+
+#include <span>
+
+namespace minamo {
+
+/// A nodal field as a function of the node's row.
+template <int Dim>
+auto of_nodes(std::span<const Vec<Dim>> q_i) {
+  return [q_i](std::size_t i) -> const Vec<Dim>& { return q_i[i]; };
+}
+
+/// (E17)  q_p = sum_I S_Ip q_I; use(p, q_p) for every particle. The nodal field is a function of the node's row.
+template <int Dim, class AtNode, class Use>
+void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+            const AtNode& at_node, const Use& use) {
+  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
+    const CellPolynomial<Dim> q(Support<Dim>(grid, cell), at_node);
+    for (std::size_t p = cell.begin; p < cell.end; ++p) use(p, q.at(q.local(y_p[p])).value);
+  });
+}
+
+/// The same of a nodal column.
+template <int Dim, class Use>
+void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+            std::span<const Vec<Dim>> q_i, const Use& use) {
+  gather<Dim>(grid, cells, y_p, of_nodes<Dim>(q_i), use);
+}
+
+/// (E17), (E18)  use(p, jet of the nodal field) for every particle.
+template <int Dim, class Use>
+void gather_with_gradient(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
+                          std::span<const Vec<Dim>> q_i, const Use& use) {
+  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
+    const CellPolynomial<Dim> q(Support<Dim>(grid, cell), of_nodes<Dim>(q_i));
+    for (std::size_t p = cell.begin; p < cell.end; ++p) use(p, q.at(q.local(y_p[p])));
+  });
+}
+
+}  // namespace minamo

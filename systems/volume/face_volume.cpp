@@ -1,0 +1,200 @@
+#include "systems/volume/face_volume.hpp"
+
+#include "systems/measure/conservation.hpp"
+#include "systems/time/body_force.hpp"
+#include "systems/transfer/face_gather.hpp"
+#include "systems/volume/shift.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace minamo {
+
+namespace {
+
+constexpr double stir_strength = 5;
+/// Fill fraction of all multipliers of a cell from which on it is stirred: not at the surface.
+constexpr double stirred_from = 0.6;
+/// A step that strains the liquid by one over this takes particles out of order as fast as a whole shift puts them in.
+constexpr double per_strain = 30;
+
+/// What a shift lifts and what it lowers. [J]
+struct Lift {
+  double up = 0;
+  double down = 0;
+  Lift operator+(const Lift& other) const { return {up + other.up, down + other.down}; }
+};
+
+template <class OfParticle>
+Lift sum_lifts(std::size_t particles, const OfParticle& lift_of, const SiteExchange* shared) {
+  const Lift sum = reduce_rows(
+      particles, Lift{},
+      [&](std::size_t p) {
+        const double lift = lift_of(p);
+        return lift > 0 ? Lift{lift, 0} : Lift{0, -lift};
+      },
+      std::plus<>());
+  return shared != nullptr ? Lift{shared->ranks().sum(sum.up), shared->ranks().sum(sum.down)} : sum;
+}
+
+/// Of cells that particles of several ranks fill. The site in the middle of 3^d cells stands for one, for all of them
+/// touch it.
+template <int Dim>
+void add_up_parts(const SiteExchange& shared, const Splines<Dim>& splines, const GridCells<Dim>& cells,
+                  const GhostCells<Dim>& ghosts, const StaggeredIndex<Dim>& index, std::size_t per_cell,
+                  std::span<double> fill) {
+  std::vector<double*> of_site(shared.rows(), nullptr);
+  const auto note = [&](const Index<Dim>& cell, std::size_t c) {
+    Index<Dim> middle;
+    middle.fill(1);
+    of_site[*index.find(splines.site(cell, middle))] = &fill[c * per_cell];
+  };
+  for (std::size_t c = 0; c < cells.cells.size(); ++c) note(cells.cells[c].node, c);
+  for (std::size_t g = 0; g < ghosts.cells.size(); ++g) note(ghosts.cells[g].at, cells.cells.size() + g);
+  shared.add_up(per_cell, [&](std::size_t row) { return of_site[row]; });
+}
+
+}  // namespace
+
+template <int Dim>
+void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
+                                Read<CellSites> sites, Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
+                                Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
+                                Optional<Read<SiteExchange>> shared, Optional<Read<GhostCells<Dim>>> ghosts,
+                                Read<StaggeredIndex<Dim>> index, Write<PartFill> parts) const {
+  const auto per_cell = static_cast<std::size_t>(std::pow(stir->parts, Dim));
+  const std::size_t own = cells->cells.size();
+  const std::size_t all = own + (ghosts ? ghosts->cells.size() : 0);
+  parts->fill.assign(all * per_cell, 0);
+  parts->cell_of_site.assign(neighbour.size(), -1);
+  for (std::size_t c = 0; c < own; ++c) parts->cell_of_site[sites->of(c)[0]] = static_cast<std::int32_t>(c);
+  for (std::size_t c = own; c < all; ++c) {
+    const std::uint32_t lowest = *index->find(splines->site(ghosts->cells[c - own].at, {}));
+    parts->cell_of_site[lowest] = static_cast<std::int32_t>(c);
+  }
+  const double per_volume = std::pow(stir->parts / grid->spacing, Dim);
+  for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+    const CellFrame<Dim> frame(*grid, *splines, cell.node);
+    PartWindow<Dim> window(stir->parts, *splines, cell.node, sites->of(c)[0], *parts, neighbour.span());
+    window.clear();
+    for (std::size_t p = cell.begin; p < cell.end; ++p) window.add(frame.local(y_p[p]), V_p[p] * per_volume);
+    window.add_to(parts->fill);
+  });
+  if (shared) add_up_parts<Dim>(*shared, *splines, *cells, *ghosts, *index, per_cell, parts->fill);
+}
+
+template <int Dim>
+void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                    Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<StirGrid> stir,
+                                    Read<PartFill> parts, Optional<Read<SolidParts>> solid,
+                                    Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+                                    Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
+                                    Write<particle::Stir<Dim>> s_p) const {
+  const double spacing = grid->spacing / stir->parts;
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
+      const std::uint32_t* rows = sites->of(c);
+      if (least_of_multipliers<Dim, K>(rows, phi.span()) < stirred_from) {
+        for (std::size_t p = cell.begin; p < cell.end; ++p) s_p[p].setZero();
+        return;
+      }
+      const CellFrame<Dim> frame(*grid, *splines, cell.node);
+      const auto q = coefficients<Dim, K>(rows, of_faces<Dim>(v_f.span()));
+      const Vec<Dim> middle = Vec<Dim>::Constant(0.5);
+      const auto jet = jet_at<Dim, K>(q, SplineWeights<Dim, K>(frame, middle), SplineSlopes<Dim, K>(frame, middle));
+      const double strain = (jet.gradient + jet.gradient.transpose()).norm() / std::sqrt(2.0);
+      const double per_gradient = -stir_strength * clock->step * strain * spacing;  // slopes are per part
+      PartWindow<Dim> window(stir->parts, *splines, cell.node, rows[0], *parts, neighbour.span());
+      window.load(parts->fill);
+      if (solid) window.add(*solid, c);
+      Vec<Dim> mean = Vec<Dim>::Zero();
+      for (std::size_t p = cell.begin; p < cell.end; ++p) {
+        s_p[p] = per_gradient * window.gradient(frame.local(y_p[p]));
+        mean += s_p[p];
+      }
+      mean /= static_cast<double>(cell.end - cell.begin);
+      for (std::size_t p = cell.begin; p < cell.end; ++p) s_p[p] -= mean;
+    });
+  });
+}
+
+template <int Dim>
+void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
+                                      Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
+                                      Read<face::Shift<Dim>> d_f, Write<particle::Shift<Dim>> d_p) const {
+  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(d_f.span()),
+                    [&](std::size_t p, const Vec<Dim>& d) { d_p[p] = d; });
+}
+
+template <int Dim>
+void LimitParticleShift<Dim>::operator()(Read<Clock> clock, Read<BodyForce> b, Read<Rates> rates,
+                                         Optional<Read<ode::AtBalances>> ode,
+                                         Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
+                                         Optional<Read<particle::VelocityGradient<Dim>>> grad_v,
+                                         Optional<Read<body::Work>> W_b, Optional<Read<body::OldWork>> W_old,
+                                         Optional<Read<opening::StepWork>> W_o, Optional<Read<SiteExchange>> shared,
+                                         Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+                                         Read<face::Mass<Dim>> m_f, Read<face::BodyForce<Dim>> b_f,
+                                         Read<face::Displacement<Dim>> u_f, Update<particle::Shift<Dim>> d_p,
+                                         Update<particle::Stir<Dim>> s_p) const {
+  Vec<Dim> everywhere = Vec<Dim>::Zero();
+  if (!b_p) everywhere = uniform_force<Dim>(*b, instant_of(ode, rates));
+  const auto lift_of = [&](std::size_t p) { return -m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); };
+  const Lift lift = sum_lifts(m_p.size(), lift_of, of_ranks(shared));
+  const double net = lift.up - lift.down;
+  if (net <= 0) return;
+  const auto work_at = [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); };
+  const double work = reduce_rows(
+      u_f.size(), 0.0, [&](std::size_t i) { return owns(of_ranks(shared), i) ? work_at(i) : 0; }, std::plus<>());
+  // What bodies have got is not lost: they give it back.
+  double given = 0;
+  if (W_b)
+    given = std::reduce(W_b.span().begin(), W_b.span().end()) - std::reduce(W_old.span().begin(), W_old.span().end());
+  if (W_o) given -= W_o->value;
+  double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
+  if (shared) lost = shared->ranks().sum(lost);
+  const double of_all = std::clamp(lost / net, 0.0, 1.0);
+  if (of_all == 1) return;
+  // What is left goes on as far as it lifts no more than it lowers: where liquid is strained, for slow waves would feel
+  // it, and water beside bodies, whose multipliers are never exactly full, would not rest.
+  const auto left = [&](std::size_t p) {
+    if (!grad_v) return 1 - of_all;
+    const double strain = clock->step * (grad_v[p] + grad_v[p].transpose()).norm() / std::sqrt(2.0);
+    return (1 - of_all) * std::min(1.0, per_strain * strain);
+  };
+  const Lift lift_left = sum_lifts(
+      m_p.size(), [&](std::size_t p) { return left(p) * lift_of(p); }, of_ranks(shared));
+  const double of_lifts = lift_left.up > lift_left.down ? lift_left.down / lift_left.up : 1;
+  for_each_row(d_p.size(), [&](std::size_t p) {
+    const double share = of_all + left(p) * (lift_of(p) > 0 ? of_lifts : 1);
+    d_p[p] *= share;
+    s_p[p] *= share;
+  });
+}
+
+template <int Dim>
+void ApplyParticleShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                         Read<particle::Shift<Dim>> d_p, Read<particle::Stir<Dim>> s_p,
+                                         Optional<Read<OpeningSet<Dim>>> openings,
+                                         Update<particle::Position<Dim>> x_p) const {
+  for_each_row(x_p.size(), [&](std::size_t p) {
+    // What has left the box through an opening stays where it is.
+    if (openings && openings->left_through(*grid, *splines, x_p[p]) != no_opening) return;
+    x_p[p] = shifted<Dim>(*grid, x_p[p], Vec<Dim>(d_p[p] + s_p[p]));
+  });
+}
+
+template struct FillParts<2>;
+template struct FillParts<3>;
+template struct StirParticles<2>;
+template struct StirParticles<3>;
+template struct GatherFaceShift<2>;
+template struct GatherFaceShift<3>;
+template struct LimitParticleShift<2>;
+template struct LimitParticleShift<3>;
+template struct ApplyParticleShift<2>;
+template struct ApplyParticleShift<3>;
+
+}  // namespace minamo

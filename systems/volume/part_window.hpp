@@ -1,0 +1,190 @@
+#pragma once
+/// \file
+/// The parts of a cell, d^Dim of them, with one more of its neighbours on every side: where the particles of a cell
+/// have weight on the grid of the parts. It is filled or read once per cell, so that a particle finds its 3^Dim parts
+/// side by side.
+
+#include "components/staggered.hpp"
+#include "systems/grid/site_support.hpp"
+
+namespace minamo {
+
+/// How full the parts of every occupied cell are, parts^d of them, x fastest. [1]
+struct PartFill {
+  std::vector<double> fill;
+  std::vector<std::int32_t> cell_of_site;  ///< by row of the lowest site of the cell; -1: none
+  static constexpr ComponentInfo info{"stir.fill", "C", "1", Lifetime::scratch};
+};
+
+/// C_s, how full bodies make the window of every occupied cell beside one. [1]
+struct SolidParts {
+  static constexpr std::int32_t none = -1;
+  std::vector<std::int32_t> place;  ///< by occupied cell, among those beside bodies
+  std::vector<double> fill;         ///< (parts + 2)^d of each, x fastest
+  static constexpr ComponentInfo info{"stir.solid", "C_s", "1", Lifetime::scratch};
+};
+
+/// Weights of a point on three parts along an axis, quadratic B-splines, and their slopes per part.
+struct PartWeights {
+  std::size_t first;  ///< in the window
+  std::array<double, 3> weight;
+  std::array<double, 3> slope;
+
+  PartWeights(double xi, int parts) {
+    const double s = xi * parts;
+    const int own = std::min(static_cast<int>(s), parts - 1);
+    const double r = s - own - 0.5;
+    first = static_cast<std::size_t>(own);
+    weight = {0.5 * (0.5 - r) * (0.5 - r), 0.75 - r * r, 0.5 * (0.5 + r) * (0.5 + r)};
+    slope = {r - 0.5, -2 * r, r + 0.5};
+  }
+};
+
+template <int Dim>
+class PartWindow {
+ public:
+  static constexpr int most_parts = 16;
+
+  /// \param row  of the lowest site of the cell
+  PartWindow(int parts, const Splines<Dim>& splines, const Index<Dim>& cell, std::uint32_t row, const PartFill& fill,
+             std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour)
+      : parts_(parts), side_(static_cast<std::size_t>(parts) + 2) {
+    find_cells_around(row, fill, neighbour);
+    per_cell_ = 1;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const SplineAxis& axis = splines.axis[d];
+      const bool low_wall = !axis.periodic() && cell[d] == 0;
+      const bool high_wall = !axis.periodic() && cell[d] + 1 == axis.cells();
+      // Beyond a wall lies the mirror image.
+      for (std::size_t k = 0; k < side_; ++k) {
+        const int at = static_cast<int>(k) - 1;
+        cell_[d][k] = at < 0 ? (low_wall ? 1 : 0) : at >= parts ? (high_wall ? 1 : 2) : 1;
+        part_[d][k] = at < 0 ? (low_wall ? 0 : parts - 1) : at >= parts ? (high_wall ? parts - 1 : 0) : at;
+      }
+      per_cell_ *= static_cast<std::size_t>(parts);
+    }
+  }
+
+  void clear() { std::fill_n(value_.begin(), power(side_, Dim), 0.0); }
+  void load(std::span<const double> fill) {
+    for_each([&](double& value, std::size_t at) { value = fill[at]; }, [](double& value) { value = 0; });
+  }
+  void add_to(std::span<double> fill) {
+    for_each([&](const double& value, std::size_t at) { fill[at] += value; }, [](double&) {});
+  }
+
+  /// Adds what bodies fill of the window of the occupied cell c.
+  void add(const SolidParts& solid, std::size_t c) {
+    if (solid.place[c] == SolidParts::none) return;
+    const std::size_t count = power(side_, Dim);
+    const double* of = solid.fill.data() + static_cast<std::size_t>(solid.place[c]) * count;
+    for (std::size_t k = 0; k < count; ++k) value_[k] += of[k];
+  }
+
+  /// Adds an amount around a point.
+  void add(const Vec<Dim>& xi, double amount) {
+    const auto axis = weights(xi);
+    if constexpr (Dim == 2) {
+      add_plane(axis[0], axis[1], axis[1].first * side_ + axis[0].first, amount);
+    } else {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t start = ((axis[2].first + c) * side_ + axis[1].first) * side_ + axis[0].first;
+        add_plane(axis[0], axis[1], start, amount * axis[2].weight[c]);
+      }
+    }
+  }
+  /// Gradient at a point, per part.
+  Vec<Dim> gradient(const Vec<Dim>& xi) const {
+    const auto axis = weights(xi);
+    if constexpr (Dim == 2) {
+      const auto plane = plane_sums(axis[0], axis[1], axis[1].first * side_ + axis[0].first);
+      return {plane[1], plane[2]};
+    } else {
+      Vec<3> sum = Vec<3>::Zero();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t start = ((axis[2].first + c) * side_ + axis[1].first) * side_ + axis[0].first;
+        const auto plane = plane_sums(axis[0], axis[1], start);
+        sum += Vec<3>(axis[2].weight[c] * plane[1], axis[2].weight[c] * plane[2], axis[2].slope[c] * plane[0]);
+      }
+      return sum;
+    }
+  }
+
+ private:
+  using AxisMap = std::array<int, most_parts + 2>;
+
+  /// 3^d of them with the cell itself, x fastest; -1: no particles there.
+  void find_cells_around(std::uint32_t own, const PartFill& fill,
+                         std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour) {
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
+      auto row = static_cast<std::int32_t>(own);
+      // First up: the sites there are the cell's own, and from them down those of the cell around, if it has particles.
+      for (const int side : {2, 0}) {
+        for (std::size_t d = 0; d < Dim && row != staggered::none; ++d) {
+          if (offset[d] == side) row = neighbour[static_cast<std::size_t>(row)][2 * d + (side == 2 ? 1 : 0)];
+        }
+      }
+      around_[k] = row == staggered::none ? -1 : fill.cell_of_site[static_cast<std::size_t>(row)];
+    });
+  }
+  /// use(value, place in PartFill::fill) for the parts of occupied cells, otherwise(value) for the others.
+  template <class Use, class Otherwise>
+  void for_each(const Use& use, const Otherwise& otherwise) {
+    std::size_t k = 0;
+    const auto row = [&](int cell, int part) {
+      for (std::size_t a = 0; a < side_; ++a, ++k) {
+        const std::int32_t c = around_[static_cast<std::size_t>(cell * 3 + cell_[0][a])];
+        if (c < 0) {
+          otherwise(value_[k]);
+        } else {
+          use(value_[k],
+              static_cast<std::size_t>(c) * per_cell_ + static_cast<std::size_t>(part * parts_ + part_[0][a]));
+        }
+      }
+    };
+    if constexpr (Dim == 2) {
+      for (std::size_t b = 0; b < side_; ++b) row(cell_[1][b], part_[1][b]);
+    } else {
+      for (std::size_t c = 0; c < side_; ++c) {
+        for (std::size_t b = 0; b < side_; ++b) row(cell_[2][c] * 3 + cell_[1][b], part_[2][c] * parts_ + part_[1][b]);
+      }
+    }
+  }
+  std::array<PartWeights, static_cast<std::size_t>(Dim)> weights(const Vec<Dim>& xi) const {
+    if constexpr (Dim == 2) {
+      return {PartWeights(xi[0], parts_), PartWeights(xi[1], parts_)};
+    } else {
+      return {PartWeights(xi[0], parts_), PartWeights(xi[1], parts_), PartWeights(xi[2], parts_)};
+    }
+  }
+  void add_plane(const PartWeights& x, const PartWeights& y, std::size_t start, double amount) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      const double share = amount * y.weight[b];
+      double* line = value_.data() + start + b * side_;
+      for (std::size_t a = 0; a < 3; ++a) line[a] += share * x.weight[a];
+    }
+  }
+  /// Value and slopes along x and y.
+  std::array<double, 3> plane_sums(const PartWeights& x, const PartWeights& y, std::size_t start) const {
+    std::array<double, 3> sum{};
+    for (std::size_t b = 0; b < 3; ++b) {
+      const double* of = value_.data() + start + b * side_;
+      const double line = x.weight[0] * of[0] + x.weight[1] * of[1] + x.weight[2] * of[2];
+      const double slope = x.slope[0] * of[0] + x.slope[1] * of[1] + x.slope[2] * of[2];
+      sum[0] += y.weight[b] * line;
+      sum[1] += y.weight[b] * slope;
+      sum[2] += y.slope[b] * line;
+    }
+    return sum;
+  }
+
+  int parts_;
+  std::size_t side_;
+  std::size_t per_cell_;
+  std::array<std::int32_t, support_size<Dim>> around_;
+  std::array<AxisMap, static_cast<std::size_t>(Dim)> cell_;  ///< 0 below, 1 own, 2 above, by place in the window
+  std::array<AxisMap, static_cast<std::size_t>(Dim)> part_;  ///< within that cell
+  std::array<double, power(most_parts + 2, Dim)> value_;
+};
+
+}  // namespace minamo

@@ -1,3 +1,0 @@
-#include "tools/minamo.hpp"
-
-int main(int argc, char** argv) { return minamo::run(argc, argv); }

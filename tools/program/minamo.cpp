@@ -1,0 +1,3 @@
+#include "tools/program/minamo.hpp"
+
+int main(int argc, char** argv) { return minamo::run(argc, argv); }
