@@ -4,8 +4,8 @@
     tests/same_bits.py BEFORE AFTER [--steps 20] [SCENE]...
 
 BEFORE and AFTER are programs; every scene of scenes/ by default. A scene is run by both for as many steps, and their
-histories and the columns of their checkpoints are compared. Ends with 0 if all are the same, 1 if any differs, 2 if
-nothing was compared.
+histories and the columns of their checkpoints are compared. Ends with 0 if all are the same, 1 if any differs or fails
+with both, 2 if nothing was compared.
 """
 
 import argparse
@@ -37,22 +37,24 @@ def run(program, scene, steps, out):
 def columns(folder):
     """All data sets of the checkpoint by name, as bytes with their type and shape."""
     found = {}
-    for path in sorted(pathlib.Path(folder).glob("checkpoint*.h5")):
+
+    def add(name, item):
+        if isinstance(item, h5py.Dataset):
+            value = str(item[()]) if item.dtype.hasobject else item[()].tobytes()
+            found[name] = (str(item.dtype), item.shape, value)
+
+    path = pathlib.Path(folder) / "checkpoint.h5"
+    if path.exists():
         with h5py.File(path) as file:
-            file.visititems(lambda name, item: found.update({f"{path.name}:{name}": (
-                str(item.dtype), item.shape, item[()].tobytes() if item.dtype.hasobject is False else str(item[()]))})
-                            if isinstance(item, h5py.Dataset) else None)
+            file.visititems(add)
     return found
 
 
 def differences(before, after):
     """Names of what differs between two folders of results."""
-    names = []
-    old, new = (pathlib.Path(folder) / "history.csv" for folder in (before, after))
-    if not old.exists() or not new.exists():
-        names += [] if old.exists() == new.exists() else ["history.csv"]
-    elif old.read_bytes() != new.read_bytes():
-        names.append("history.csv")
+    paths = [pathlib.Path(folder) / "history.csv" for folder in (before, after)]
+    old, new = (path.read_bytes() if path.exists() else None for path in paths)
+    names = [] if old == new else ["history.csv"]
     old, new = columns(before), columns(after)
     return names + [name for name in sorted(old.keys() | new.keys()) if old.get(name) != new.get(name)]
 
@@ -64,7 +66,7 @@ def main():
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     parser.add_argument("--steps", type=int, default=20)
     arguments = parser.parse_intermixed_args()
-    same = different = 0
+    same = different = failed = 0
     for scene in arguments.scenes or scenes():
         with tempfile.TemporaryDirectory() as folder:
             results = [run(program, scene, arguments.steps, f"{folder}/{name}")
@@ -75,12 +77,15 @@ def main():
         if names:
             different += 1
             print(f"{scene}: differs in {', '.join(names)}", flush=True)
+        elif results[0][0] != 0:
+            failed += 1
+            print(f"{scene}: fails with both: {results[0][1].strip()}", flush=True)
         else:
             same += 1
-    print(f"{same} scenes are the same, {different} differ")
-    if same + different == 0:
+    print(f"{same} scenes are the same, {different} differ, {failed} fail")
+    if same + different + failed == 0:
         return 2
-    return 1 if different else 0
+    return 1 if different or failed else 0
 
 
 if __name__ == "__main__":

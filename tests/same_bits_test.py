@@ -34,7 +34,7 @@ class SameBits(unittest.TestCase):
 
     def test_a_program_is_the_same_as_itself(self):
         done = compare(PROGRAM, SCENE)
-        self.assertEqual((done.returncode, done.stdout), (0, "1 scenes are the same, 0 differ\n"))
+        self.assertEqual((done.returncode, done.stdout), (0, "1 scenes are the same, 0 differ, 0 fail\n"))
 
     def test_another_viscosity_is_told(self):
         done = compare(program("thicker", "--set", "/fluid/viscosity=0.0011"), SCENE)
@@ -46,6 +46,11 @@ class SameBits(unittest.TestCase):
         done = compare(program("broken", "--no-such-option"), SCENE)
         self.assertEqual(done.returncode, 1)
         self.assertIn("exit code and words", done.stdout)
+
+    def test_a_scene_that_fails_with_both_is_not_the_same(self):
+        done = compare(PROGRAM, WORK / "no_such_scene.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("fails with both", done.stdout)
 
 
 if __name__ == "__main__":
