@@ -40,7 +40,7 @@ template <int Dim>
 struct SeparatingFaces {
   struct Face {
     std::uint32_t row;
-    std::uint32_t multiplier;  ///< row of the one multiplier beside it
+    std::uint32_t multiplier;  ///< row of the one multiplier next to it
     std::int32_t direction;
     double away;           ///< 1 or -1: the sign of velocities that leave the side
     double weight;         ///< what the multiplier counts in B^T [1/m]
@@ -53,7 +53,7 @@ struct SeparatingFaces {
   static constexpr ComponentInfo info{"separating.faces", "", "", Lifetime::scratch};
 };
 
-/// The multipliers beside separating bodies, in the order of their sites.
+/// The multipliers next to separating bodies, in the order of their sites.
 template <int Dim>
 struct SeparatingRows {
   struct Row {

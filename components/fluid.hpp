@@ -33,7 +33,7 @@ struct BodyForce {
     for (const Expression& b : of_place_and_time) force.push_back(b.is_constant() ? b({}) : 0);
     return force;
   }
-  /// Whether it is the same everywhere in space.
+  /// Whether it is the same everywhere in 3-D.
   bool is_uniform() const {
     return std::none_of(of_place_and_time.begin(), of_place_and_time.end(),
                         [](const Expression& b) { return b.uses("x") || b.uses("y") || b.uses("z"); });

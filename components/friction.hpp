@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What friction of the conforming discretization keeps beside the viscosity of cells.
+/// What friction of the conforming discretization keeps in addition to the viscosity of cells.
 
 #include "components/staggered.hpp"
 

@@ -13,7 +13,7 @@
 
 namespace minamo::measure {
 
-/// Energies of the liquid, in the plane per metre of depth.
+/// Energies of the liquid, in 2-D per metre of depth.
 struct Energy {
   double kinetic = 0;               ///< sum m_p |v_p|^2 / 2 [J]
   std::optional<double> potential;  ///< -sum m_p b . (x_p - low corner), for a constant body force [J]
@@ -30,7 +30,7 @@ struct EnergyBalance {
   static constexpr ComponentInfo info{"measure.energy_balance", "E - W", "J", Lifetime::scratch};
 };
 
-/// Momenta of the liquid, in the plane per metre of depth.
+/// Momenta of the liquid, in 2-D per metre of depth.
 template <int Dim>
 struct Momentum {
   Vec<Dim> linear = Vec<Dim>::Zero();  ///< sum m_p v_p [kg m/s]
@@ -88,7 +88,7 @@ struct Columns {
     const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     return found == columns.end() ? nullptr : &found->value;
   }
-  /// \param unit  of the column, which is that of its first value; "1" without one, in the plane per metre of depth
+  /// \param unit  of the column, which is that of its first value; "1" without one, in 2-D per metre of depth
   void set(std::string_view name, double value, std::string_view unit = {}) {
     const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns.end()) {

@@ -121,7 +121,7 @@ struct Pressure : Column<Nodes, double> {
   static constexpr ComponentInfo info{"node.pressure", "p_I", "Pa", Lifetime::state};
 };
 
-/// Velocity v*_I that FMPM hands to the particles, and XPIC beside the change of the step. [m/s]
+/// Velocity v*_I that FMPM hands to the particles, and XPIC in addition to the change of the step. [m/s]
 template <int Dim>
 struct FilteredVelocity : Column<Nodes, Vec<Dim>> {
   static constexpr ComponentInfo info{"node.filtered_velocity", "v*_I", "m/s", Lifetime::scratch};

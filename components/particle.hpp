@@ -54,7 +54,7 @@ struct VelocityGradient : Column<Particles, Mat<Dim>> {
   static constexpr ComponentInfo info{"particle.velocity_gradient", "grad v_p", "1/s", Lifetime::state};
 };
 
-/// Second derivatives of the velocity, in the order xx xy yy, in space xx xy xz yy yz zz: as much of them as the
+/// Second derivatives of the velocity, in the order xx xy yy, in 3-D xx xy xz yy yz zz: as much of them as the
 /// transfer keeps. [1/(m s)]
 template <int Dim>
 struct VelocityCurvature : Column<Particles, Eigen::Matrix<double, Dim, Dim*(Dim + 1) / 2>> {

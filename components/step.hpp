@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a step is made of beside its length (engine/run/clock.hpp).
+/// What a step is made of in addition to its length (engine/run/clock.hpp).
 
 #include "engine/storage/component.hpp"
 

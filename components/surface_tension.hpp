@@ -24,14 +24,14 @@ struct SurfaceTension {
   static constexpr ComponentInfo info{"surface_tension", "sigma, cos theta", "N/m, 1", Lifetime::constant};
 };
 
-/// The free surface in the middle of the step: segments in the plane, polygons in space, each by itself.
+/// The free surface in the middle of the step: segments in 2-D, polygons in 3-D, each by itself.
 template <int Dim>
 struct FreeSurface {
-  /// How many times the elements cover the surface: in space cubes are divided in two ways, which together prefer no
+  /// How many times the elements cover the surface: in 3-D cubes are divided in two ways, which together prefer no
   /// diagonal.
   static constexpr int covers = Dim == 2 ? 1 : 2;
   struct Areas {
-    double free = 0;              ///< of the surface, its length in the plane [m^(d-1)]
+    double free = 0;              ///< of the surface, its length in 2-D [m^(d-1)]
     double wetted = 0;            ///< of the sides of the box under the liquid [m^(d-1)]
     double wetted_of_bodies = 0;  ///< [m^(d-1)]
     double gained = 0;            ///< sum of what is wetted times the cosine of its contact angle [m^(d-1)]
@@ -83,7 +83,7 @@ struct FreeSurface {
     std::array<Corner, most> corner_;
     std::size_t size_ = 0;
   };
-  /// Where an element meets a side of the box or a body: in a point in the plane, along a segment in space.
+  /// Where an element meets a side of the box or a body: in a point in 2-D, along a segment in 3-D.
   struct Contact {
     std::array<Corner, static_cast<std::size_t>(Dim) - 1> corner;
     Vec<Dim> outward;  ///< along the wall, across the contact line, off what is wet [1]

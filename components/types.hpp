@@ -57,7 +57,7 @@ inline constexpr std::size_t support_size = power(3, Dim);
 template <int Dim>
 inline constexpr std::size_t stencil_size = power(5, Dim);
 
-/// Components of an angular momentum: 1 in the plane, 3 in space.
+/// Components of an angular momentum: 1 in 2-D, 3 in 3-D.
 template <int Dim>
 inline constexpr int rotations = Dim == 2 ? 1 : 3;
 

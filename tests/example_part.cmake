@@ -24,7 +24,7 @@ file(WRITE ${WORK}/misspelt.json "${misspelt}")
 expect("/wind/rates" check ${WORK}/misspelt.json)
 expect("closest   \"rate\"" check ${WORK}/misspelt.json)
 
-# The wind moves the water, in the plane and in space; a scene that does not name it has no trace of it.
+# The wind moves the water, in 2-D and in 3-D; a scene that does not name it has no trace of it.
 # last_momentum(FOLDER OUT): momentum_x of the last row.
 function(last_momentum folder out)
   file(STRINGS ${folder}/history.csv rows)

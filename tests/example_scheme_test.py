@@ -1,4 +1,4 @@
-"""Whether the transfer scheme of tools/example_scheme is what it says it is, in the plane and in space.
+"""Whether the transfer scheme of tools/example_scheme is what it says it is, in 2-D and in 3-D.
 
   example_scheme_test.py PROGRAM SCENE FOLDER
 """
@@ -51,7 +51,7 @@ class Run:
 
     def __init__(self, scene: Scene, steps: int = 20, **transfer: Any):
         folder = Path(FOLDER) / "run"
-        file = folder.with_suffix(".json")  # beside the results, among which there is a scene.json
+        file = folder.with_suffix(".json")  # next to the results, among which there is a scene.json
         file.write_text(json.dumps({**scene, "transfer": transfer}))
         subprocess.run([PROGRAM, "run", file, "--out", folder, "--steps", str(steps), "--quiet", "--overwrite"], check=True)
         self.conserved = json.loads((folder / "summary.json").read_text())["conservation"]
@@ -65,7 +65,7 @@ class Run:
 
 class Rpic(unittest.TestCase):
     def both(self, scene: Scene) -> list[Scene]:
-        """In the plane and in space, on nodes and on faces."""
+        """In 2-D and in 3-D, on nodes and on faces."""
         faces = [{**of, "discretization": {"scheme": "conforming"}, "fluid": {**of["fluid"], "viscosity": 0}}
                  for of in (scene, in_space(scene))]
         return [scene, in_space(scene), *faces]

@@ -1,4 +1,4 @@
-# Builds tools/example_system and runs its systems in the plane and in space. In: see example.cmake, and SCENES.
+# Builds tools/example_system and runs its systems in 2-D and in 3-D. In: see example.cmake, and SCENES.
 
 include(${CMAKE_CURRENT_LIST_DIR}/example.cmake)
 

@@ -161,7 +161,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(figures("mixer", "--times", "0", "--field", "speed").stderr, "")
         panel = panel_of(WORK / "mixer/figures/speed.png")[5:-5, 5:-5]
         rows, columns = np.nonzero(close_to(panel, (0.725, 0.745, 0.769), 0.01))
-        # The arms of the cross reach over 0.6 of the tank, which is square; the bar of colours is as long as a wall.
+        # The arms of the cross reach over 0.6 of the tank, which is square; the colour bar is as long as a wall.
         self.assertAlmostEqual(np.ptp(columns) / panel.shape[0], 0.6, delta=0.02)
         self.assertAlmostEqual(rows.min() / panel.shape[0], 0.2, delta=0.02)
         self.assertEqual(int(stream_of(WORK / "mixer/figures/speed.mp4")["nb_read_frames"]), 3)
@@ -209,7 +209,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(figures("dry", "--field", "speed").stderr, "")
         self.assertEqual(strips("dry", "--field", "speed", "--times", "2").stderr, "")
         panel = panel_of(WORK / "dry/figures/speed.png")
-        left = panel[:, :panel.shape[1] // 2]  # beside a square panel the bar of colours is as long as a wall
+        left = panel[:, :panel.shape[1] // 2]  # next to a square panel the colour bar is as long as a wall
         self.assertFalse((np.ptp(left, axis=2) > 0.1).any())
 
     def test_a_slice_shows_nothing_where_there_is_no_liquid(self):
@@ -223,7 +223,7 @@ class Figures(unittest.TestCase):
         names = ("speed.png", "history.png", "systems.png", "speed.mp4")
         self.expect_files(figures("failed", "--field", "speed"), *(f"failed/figures/{name}" for name in names))
         self.assertEqual(int(stream_of(WORK / "failed/figures/speed.mp4")["nb_read_frames"]), frames_of("failed"))
-        # Beside a run that went on its panels say that it ended.
+        # Next to a run that went on its panels say that it ended.
         done = figures("dam_break_tpic", "failed", "--times", "0,0.1", "--no-movie", "--out", "beside")
         self.assertEqual(done.stderr, "")
 
@@ -266,7 +266,7 @@ class Figures(unittest.TestCase):
                           "dam_break_tpic", "--times", "0.1,3")
         self.expect_error("dam_break_tpic: no frame at t = 0.056 s; nearest: 0.05 and 0.06 s",
                           "dam_break_tpic", "--times", "0.056")
-        self.expect_error("dam_break_tpic: a run in the plane cannot be cut at z = 0.1 m",
+        self.expect_error("dam_break_tpic: a run in 2-D cannot be cut at z = 0.1 m",
                           "dam_break_tpic", "--slice", "z=0.1")
         self.expect_error("space: the slice y = 0.4 m misses the box; expected: y between 0 and 0.292 m",
                           "space", "--slice", "y=0.4")

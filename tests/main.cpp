@@ -52,7 +52,7 @@ constexpr bool looks_for_races = true;
 constexpr bool looks_for_races = false;
 #endif
 
-/// Cases that start the program take a second each, others less: a group is small beside what one processor has to do.
+/// Cases that start the program take a second each, others less: a group is small next to what one processor has to do.
 std::size_t cases_at_most(const Catch::TestCase& test) {
   if (has_tag(test, "scene")) return 8;
   return has_tag(test, "unit") ? 40 : 12;

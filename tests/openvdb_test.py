@@ -1,4 +1,4 @@
-"""Level sets of surfaces as OpenVDB reads them, beside the meshes of the same run. In the environment: PROGRAM, WORK."""
+"""Level sets of surfaces as OpenVDB reads them, and the meshes of the same run. In the environment: PROGRAM, WORK."""
 
 import os
 import shutil

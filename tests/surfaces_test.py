@@ -182,7 +182,7 @@ class Surfaces(unittest.TestCase):
         self.assertEqual(run_scene("dam_break", "plane", SHORT | {"/time/end": 0.01}), 0)
         coarse = {"/grid/cells": [8, 4, 8], "/time/end": 0.01, "/time/step": 0.01}
         self.assertEqual(run_scene("dam_break_3d", "space", coarse), 0)
-        for folder, message in (("plane", "plane: --render shows runs in space, this one is in the plane"),
+        for folder, message in (("plane", "plane: --render shows runs in 3-D, this one is in 2-D"),
                                 ("space", "space/surface: no surface of frame 0; expected: that of a run with "
                                           "\"output\": {\"surface\": \"ply\"}")):
             done = figures(folder, "--render")

@@ -193,7 +193,7 @@ def draw(parameters, rows, title, error, out, cost, others):
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("csv", type=pathlib.Path, help="study.csv")
-    options.add_argument("--out", type=pathlib.Path, help="by default study.png beside it")
+    options.add_argument("--out", type=pathlib.Path, help="by default study.png next to it")
     options.add_argument("--title", default="")
     options.add_argument("--error", default="error", help="label of the axis, without unit")
     options.add_argument("--cost", choices=list(COSTS), default="wall_s", help="column of the axis")

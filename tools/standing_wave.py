@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Frequency and damping of the first standing wave of a tank, beside those of theory.
+"""Frequency and damping of the first standing wave of a tank, compared with those of theory.
 
   tools/run scenes/sloshing.json --set /time/end=11.82
   tools/standing_wave.py out/sloshing
@@ -11,7 +11,7 @@ surface, where the shear stress of that flow is undone, exp(n t) has, s = tanh(k
   (n + 2 nu k^2)^2 + g k s = 4 nu^2 k^3 m coth(m H) s
 
 (H. Lamb, Hydrodynamics (1932), section 349, for a deep liquid): 2.8 % less damping in scenes/sloshing.json.
-For tanks in the plane between slip walls, with a depth "depth" among the constants of the scene.
+For tanks in 2-D between slip walls, with a depth "depth" among the constants of the scene.
 """
 
 from __future__ import annotations

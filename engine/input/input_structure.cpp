@@ -198,7 +198,7 @@ std::string Input::one_of(std::string_view doc, const Variants& variants) {
   const bool decided = present.size() == 1;
   if (!decided) place_->unknown_keys_pass = true;
   if (decided) {
-    place_->decided.append(fmt::format(" beside \"{}\"", present.front()));
+    place_->decided.append(fmt::format(" next to \"{}\"", present.front()));
     std::copy_if(names.begin(), names.end(), std::back_inserter(place_->excluded),
                  [&](const std::string& name) { return name != present.front(); });
   }

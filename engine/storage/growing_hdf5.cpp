@@ -20,7 +20,7 @@ std::string parent_of(const std::string& path) { return path.substr(0, path.find
 std::string name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 auto depth_of(const std::string& path) { return std::count(path.begin(), path.end(), '/'); }
 
-/// The first bytes of all numbers, then the second ones, and so on: neighbours in space have those of the exponent
+/// The first bytes of all numbers, then the second ones, and so on: neighbours in 3-D have those of the exponent
 /// alike.
 hdf5::Bytes shuffled(std::span<const std::byte> numbers, std::size_t size) {
   const std::size_t count = numbers.size() / size;

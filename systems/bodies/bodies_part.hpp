@@ -26,7 +26,7 @@ struct BodiesOfScene {
   }
 };
 
-/// Whether friction is found beside the bodies, (E110). It costs something: not where a liquid that flows easily slips
+/// Whether friction is found near the bodies, (E110). It costs something: not where a liquid that flows easily slips
 /// along all of them.
 bool finds_friction(const BodiesOfScene& bodies, const Scene& scene);
 

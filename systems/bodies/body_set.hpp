@@ -24,7 +24,7 @@ template <int Dim>
 struct Prescribed {
   std::vector<Expression> velocity;                        ///< per direction [m/s]
   Expression rate;                                         ///< angular velocity about the axis [1/s]
-  Vec<rotations<Dim>> axis = Vec<rotations<Dim>>::Zero();  ///< unit; 1 in the plane, 0 without rotation
+  Vec<rotations<Dim>> axis = Vec<rotations<Dim>>::Zero();  ///< unit; 1 in 2-D, 0 without rotation
 };
 
 /// A body whose place is given at some instants; in between it moves steadily.
@@ -32,7 +32,7 @@ template <int Dim>
 struct Tabulated {
   std::vector<double> time;        ///< rising [s]
   std::vector<Vec<Dim>> position;  ///< displacement since the start [m]
-  std::vector<double> angle;       ///< counter-clockwise, in space about z, the same count [rad]
+  std::vector<double> angle;       ///< counter-clockwise, in 3-D about z, the same count [rad]
 };
 
 /// Draws the centre of mass of a body to a point.
@@ -88,7 +88,7 @@ struct BodyScene {
 template <int Dim>
 struct BodySet {
   std::vector<BodyScene<Dim>> bodies;
-  bool rubs = false;          ///< whether friction is found beside the bodies (E110)
+  bool rubs = false;          ///< whether friction is found near the bodies (E110)
   bool parts_liquid = false;  ///< whether a wall is so thin that one of its sides could tell of the liquid on the other
   static constexpr ComponentInfo info{"bodies", "", "", Lifetime::constant};
 

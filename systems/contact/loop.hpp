@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E105) What the loop over the balances has beside the systems that it repeats.
+/// (E105) What the loop over the balances has in addition to the systems that it repeats.
 
 #include "components/body.hpp"
 #include "components/contact.hpp"

@@ -48,7 +48,7 @@ struct HoldContactOfSides {
                   Update<face::Mobility<Dim>> mobility) const;
 };
 
-/// (E107)  No volume is added beside a face that the liquid leaves: what is missing there is air.
+/// (E107)  No volume is added next to a face that the liquid leaves: what is missing there is air.
 template <int Dim>
 struct LimitVolumeSourceAtSides {
   static constexpr std::string_view doc = "(E107) no volume added where liquid leaves a side";

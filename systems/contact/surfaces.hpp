@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E108) Bodies that the liquid may leave. A multiplier beside such a body pushes, or there is none and the cell may
+/// (E108) Bodies that the liquid may leave. A multiplier next to such a body pushes, or there is none and the cell may
 /// take in air.
 
 #include "components/body.hpp"
@@ -17,14 +17,14 @@ namespace minamo {
 /// The multipliers with a face that a separating body closes, in part or whole; released as in the last step.
 template <int Dim>
 struct FindSeparatingRows {
-  static constexpr std::string_view doc = "multipliers beside bodies that the liquid may leave";
+  static constexpr std::string_view doc = "multipliers near bodies that the liquid may leave";
   void operator()(Read<BodySet<Dim>> set, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Closed<Dim>> closed,
                   Read<face::Closer<Dim>> closer, Read<multiplier::Released> released,
                   Write<SeparatingRows<Dim>> separating) const;
 };
 
-/// (E109) Faces that no particle touches take the mean velocity of those beside them that have one, up to three faces
+/// (E109) Faces that no particle touches take the mean velocity of those next to them that have one, up to three faces
 /// away. They count among those that velocities of closed faces are made of (E87): at rest in a falling liquid they
 /// would hold it at the body.
 template <int Dim>

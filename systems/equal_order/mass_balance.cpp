@@ -84,7 +84,7 @@ void add_gradient(const Support<Dim>& support, std::span<const std::int32_t> row
   }
 }
 
-/// Where tau_c rho_c is the same in all cells G_IJ is a multiple of D_JI: a pass over the rows, which in space takes
+/// Where tau_c rho_c is the same in all cells G_IJ is a multiple of D_JI: a pass over the rows, which in 3-D takes
 /// less time than to add it up, by 3 % of a step.
 template <int Dim, class Force>
 void fill_from_divergence(double tau_rho, std::span<const std::int32_t> row,

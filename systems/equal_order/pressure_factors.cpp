@@ -6,7 +6,7 @@ namespace minamo {
 
 namespace {
 
-/// Multiplications from which on an envelope is slower than incomplete factors: in space a step of 27 648 particles
+/// Multiplications from which on an envelope is slower than incomplete factors: in 3-D a step of 27 648 particles
 /// takes 1.35 times as long with 1e10.
 template <int Dim>
 constexpr double widest = Dim == 2 ? 1e10 : 1e8;

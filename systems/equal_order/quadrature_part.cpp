@@ -69,7 +69,7 @@ bool any_has(const Input& input, const std::vector<std::string>& objects, std::i
   });
 }
 
-/// In the plane where liquid at rest would else begin to move: a body force presses it together, and no yield stress
+/// In 2-D where liquid at rest would else begin to move: a body force presses it together, and no yield stress
 /// holds it; not where it was not measured.
 std::string recommended_quadrature(const Input& input, const Scene& scene) {
   if (input.describing() || scene.dimension != 2 || !is_conforming(scene)) return "mixed";
@@ -106,8 +106,8 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
   const DefaultScheme fallback{
       recommended_quadrature,
-      "\"exact\" in the plane under a body_force, with degree 2, without yield stress, openings and surface_tension; "
-      "beside bodies where none of these is free, without fluids"};
+      "\"exact\" in 2-D under a body_force, with degree 2, without yield stress, openings and surface_tension; "
+      "with bodies where none of these is free, without fluids"};
   registry.add(choice<Quadrature>("quadrature", "integrals of the balances", fallback));
 }
 

@@ -21,7 +21,7 @@ constexpr std::int64_t most_velocity_iterations = 2000;
 
 }  // namespace
 
-/// What a row of A has beside its diagonal, over its inertia.
+/// What a row of A has off its diagonal, over its inertia.
 template <int Dim>
 void VelocityFactors<Dim>::find_friction(const Operators<Dim>& t, const Values& inverse_diagonal) {
   constexpr std::size_t own = stencil_size<Dim> / 2;
@@ -87,7 +87,7 @@ void VelocityFactors<Dim>::factorize(const Matrix& matrix) {
   if (!factors_.factorize()) throw StepRejected("solve: the velocity block is not positive definite");
 }
 
-/// Whether iterations cost less than factors, which fill in, in space more than in the plane: where more than a few
+/// Whether iterations cost less than factors, which fill in, in 3-D more than in 2-D: where more than a few
 /// unknowns are viscous, but half of all not too much, or where factors outgrow memory.
 template <int Dim>
 bool VelocityFactors<Dim>::prefers_iteration() const {

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
 /// The velocity block A = c_a m + c_v K of the equations of a step, and about its inverse. Unknowns whose friction is
-/// large against their inertia (all of them in viscous liquids; in water those of light nodes beside walls) have
+/// large against their inertia (all of them in viscous liquids; in water those of light nodes at walls) have
 /// viscous rows, s; the others n have the diagonal d for A_nn:
 ///
 /// (E60)  A^ = [d_n, 0; A_sn, A_ss], with a sparse Cholesky factorization of A_ss. A^ - A has rows n only, which add up
 /// to a small part of the diagonal.
 ///
-/// Where the factors would cost more, for moderate friction or many unknowns in space, conjugate gradients solve with A
+/// Where the factors would cost more, for moderate friction or many unknowns in 3-D, conjugate gradients solve with A
 /// itself, as exactly as each call asks for.
 
 #include "systems/equal_order/schur_operator.hpp"
@@ -16,7 +16,7 @@
 
 namespace minamo {
 
-/// Viscous rows in space beyond which factors, of 2 GB there, are not tried.
+/// Viscous rows in 3-D beyond which factors, of 2 GB there, are not tried.
 inline constexpr std::size_t most_factorized_in_space = 40000;
 
 enum class ViscousSolver { cheapest, factors, iteration };
@@ -28,7 +28,7 @@ class VelocityFactors {
   static constexpr ComponentInfo info{"solve.velocity_factors", "A^", "", Lifetime::scratch};
 
   using Viscosity = std::span<const typename matrix::Viscosity<Dim>::value_type>;
-  /// What a solve looks at beside the factors, too large to be copied into them. \pre as prepare() had it
+  /// What a solve looks at in addition to the factors, too large to be copied into them. \pre as prepare() had it
   struct Matrix {
     const SchurOperator<Dim>& schur;
     Viscosity viscosity;

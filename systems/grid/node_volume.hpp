@@ -11,7 +11,7 @@
 
 namespace minamo {
 
-/// (E39)  V_I of a box with nothing inside: h^d, times 13/24 on a wall and 23/24 beside it. Kernels read
+/// (E39)  V_I of a box with nothing inside: h^d, times 13/24 on a wall and 23/24 next to it. Kernels read
 /// node::Capacity, which may be less. [m^3; m^2 in 2-D]
 template <int Dim>
 double full_volume(const Grid<Dim>& grid, const Index<Dim>& site) {

@@ -27,7 +27,7 @@ constexpr double moving_from = 0.2;
 /// In the depth of the liquid masses are those of the full grid (E68) to this: there is nothing to replace.
 constexpr double as_full = 1e-12;
 
-/// 1 where the liquid is all but at rest, 0 where it moves, by the faces beside one that have mass; `fall` is h |q|.
+/// 1 where the liquid is all but at rest, 0 where it moves, by the faces next to one that have mass; `fall` is h |q|.
 template <int Dim>
 double stillness(const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const Vec<Dim>> m_f,
                  std::span<const Vec<Dim>> v_f, std::size_t i, Eigen::Index axis, double fall) {
@@ -46,7 +46,7 @@ double stillness(const typename staggered::Neighbour<Dim>::value_type& neighbour
   return std::clamp((moving_from - std::sqrt(squares / fall)) / (moving_from - still_to), 0.0, 1.0);
 }
 
-/// The row of a face of direction e beside one of direction d: bit 0 of the corner below it, bit 1 above it along e.
+/// The row of a face of direction e next to one of direction d: bit 0 of the corner below it, bit 1 above it along e.
 template <int Dim>
 std::optional<std::size_t> row_at_corner(const RowsOfSites<Dim>& of, std::size_t i, std::size_t d, std::size_t e,
                                          unsigned corner) {

@@ -20,10 +20,10 @@ constexpr double largest_correction = 0.2;
 /// Least area of the surface in a multiplier, in units of h^(d-1): where it leaves, a small move would be a large one.
 constexpr double least_area = 0.25;
 constexpr std::size_t cells_per_task = 16;
-/// Beside a wall particles may tell next to nothing of the mass of a face that holds much of what continues the liquid:
+/// At a wall particles may tell next to nothing of the mass of a face that holds much of what continues the liquid:
 /// it is heavier then. More than that a face without inertia would take of the pressure.
 constexpr double heaviest_ratio = 10;
-/// Share w_f from which on a face beside what no particle touches is without an unknown: in what moves it would get
+/// Share w_f from which on a face next to what no particle touches is without an unknown: in what moves it would get
 /// energy from nowhere.
 constexpr double at_rest_from = 0.9;
 /// Fill that particles may not see: the surface reaches so far into the spline of a multiplier before a lattice of

@@ -50,7 +50,7 @@ double fill_towards(const Splines<Dim>& splines, typename SiteRows<Dim>::Finder&
   return 0;
 }
 
-/// Differences of phi, weighed 1 2 1 across; what lies beyond walls is what is beside them.
+/// Differences of phi, weighed 1 2 1 across; what lies beyond walls is what is next to them.
 template <int Dim>
 Vec<Dim> slope_of_fill(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows, const Index<Dim>& site,
                        std::span<const double> phi, const Whole& is_whole) {
@@ -145,7 +145,7 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
                                         Write<multiplier::SurfaceNormal<Dim>> n_l, Write<multiplier::NearExact> near,
                                         Write<multiplier::ContinuedFill> continued) const {
   const Whole is_whole{open.span()};
-  // The integrals of a face reach K - 1 multipliers beyond the two beside it, and planes are fitted to those around.
+  // The integrals of a face reach K - 1 multipliers beyond the two next to it, and planes are fitted to those around.
   for_each_row(phi.size(), [&](std::size_t i) {
     near[i] = share[i].maxCoeff();
     for (std::size_t d = 0; d < Dim; ++d) {

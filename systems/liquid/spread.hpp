@@ -15,7 +15,7 @@ struct RowsOfSites {
   std::span<const Index<Dim>> site;
   std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
 
-  /// Whether a site beside one has no row, though the grid goes on.
+  /// Whether a site next to one has no row, though the grid goes on.
   bool lacks_one_beside(std::size_t i) const {
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (neighbour[i][side] == staggered::none && !splines.ends_at(site[i], side)) return true;

@@ -41,8 +41,8 @@ struct MeasureEnergyBalance {
 };
 
 /// (E29)  P = sum m_p v_p;  L = sum m_p (x_p - x_c) x v_p.
-/// (E30)  Where particles carry velocity gradients L has more: sum m_p (D_11 dv/dx - D_22 du/dy) in the plane, its
-/// cyclic kin in space, with D_p = sum_I S_I(x_p) (x_I - x_p) (x) (x_I - x_p), which is diagonal.
+/// (E30)  Where particles carry velocity gradients L has more: sum m_p (D_11 dv/dx - D_22 du/dy) in 2-D, its
+/// cyclic kin in 3-D, with D_p = sum_I S_I(x_p) (x_I - x_p) (x) (x_I - x_p), which is diagonal.
 template <int Dim>
 struct MeasureMomentum {
   static constexpr std::string_view doc = "(E29) (E30) momentum and angular momentum";

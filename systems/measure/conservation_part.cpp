@@ -68,7 +68,7 @@ void add_conservation(SystemRegistry& registry) {
                }
                if (of.time.step) recipe.add("measure", "watch_move", When::step);
                watch_lid(of, recipe);
-               // Beside bodies it is measured in the slot of the solve, before velocities are extended to closed faces.
+               // Near bodies it is measured in the slot of the solve, before velocities are extended to closed faces.
                if (!of.facts.find<BodiesOfScene>())
                  add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});
                recipe.add("measure", "watch_volume");

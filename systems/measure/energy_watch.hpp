@@ -6,7 +6,7 @@
 
 namespace minamo {
 
-/// What a rise is judged by, beside the energies themselves.
+/// What a rise is judged by, in addition to the energies themselves.
 struct EnergyScales {
   double exchanged = 0;   ///< with bodies, through openings and with forces, by absolute value [J]
   double unresolved = 0;  ///< of the energy of the surface, what the grid cannot tell [J]

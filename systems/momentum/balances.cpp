@@ -164,7 +164,7 @@ void FillFaceVolumeSource<Dim>::operator()(Read<VolumeRate> rate, Read<Splines<D
                                            Read<multiplier::Capacity> capacity,
                                            Optional<Read<ContinuedLiquid<Dim>>> continued,
                                            Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
-  // Beside bodies phi is that of neighbours, too, and no lattice fills a cut multiplier exactly: water at rest would be
+  // Near bodies phi is that of neighbours, too, and no lattice fills a cut multiplier exactly: water at rest would be
   // stirred. Where the liquid is continued, particles of the multiplier alone have to say the same.
   const auto own_fill = [&](std::size_t i) -> std::optional<double> {
     if (!continued || !open || open[i] == 1 || open[i] < own_fill_from) return {};

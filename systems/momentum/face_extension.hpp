@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E87) Velocities of closed faces, on which particles beside a body have weight: linear functions of those of the
+/// (E87) Velocities of closed faces, on which particles near a body have weight: linear functions of those of the
 /// open faces around, and of the motion of a wall to which the liquid sticks.
 
 #include "components/rigid.hpp"

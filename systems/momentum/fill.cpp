@@ -11,7 +11,7 @@ namespace minamo {
 
 namespace {
 
-/// Fill fraction from which on a multiplier is an unknown. In space more: foam at the surface would never settle.
+/// Fill fraction from which on a multiplier is an unknown. In 3-D more: foam at the surface would never settle.
 template <int Dim>
 constexpr double active_from = Dim == 2 ? 0.05 : 0.1;
 /// The same under surface tension, which holds the surface together: pressure balances its force as far out as it acts.

@@ -114,7 +114,7 @@ Outside integrate_outside(const Opening<Dim>& opening, const OpeningSet<Dim>& se
   }
 }
 
-/// How full the grid is beside an opening, compared to what is under the level outside, from which on it bears all of
+/// How full the grid is next to an opening, compared to what is under the level outside, from which on it bears all of
 /// the pressure. Gaps between particles are no reason for less: it would drive a flow.
 constexpr double full_from = 0.5;
 

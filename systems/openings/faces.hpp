@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// What openings do to the staggered grid: which faces they hold and at which velocity, which they leave open, how full
-/// the grid is beside them, and the pressure outside.
+/// the grid is next to them, and the pressure outside.
 
 #include "components/body.hpp"
 #include "components/cells.hpp"
@@ -54,7 +54,7 @@ struct PassInflow {
 /// the middle of the step count nothing. What particles bring of (E63) is in proportion.
 template <int Dim>
 struct FillAtOpenings {
-  static constexpr std::string_view doc = "(E98) V~_l beside openings, where lattices end";
+  static constexpr std::string_view doc = "(E98) V~_l at openings, where lattices end";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::QuadraturePosition<Dim>> y_p,
@@ -76,7 +76,7 @@ struct PushAtOpenings {
 
 /// Velocities on the sides of openings whose faces are unknowns; (E100) the work done in all openings, dt sum_f F_f v_f
 /// of the pressure outside and, where faces are held, dt sum_f (m_f ((v^{n+1} - v^n)/dt - b) - a_f (B^T lambda)_f) w_f;
-/// beside bodies a_f F_f is the force outside.
+/// near bodies a_f F_f is the force outside.
 template <int Dim>
 struct TakeOpeningVelocities {
   static constexpr std::string_view doc = "(E100) velocities in openings, and the work done there";

@@ -101,7 +101,7 @@ void scale_to_flow(const Opening<Dim>& opening, const Grid<Dim>& grid, const Sid
   for (double& velocity : across) velocity *= given / of_faces;
 }
 
-/// [m^3/s; m^2/s in the plane]
+/// [m^3/s; m^2/s in 2-D]
 template <int Dim>
 double inflow_rate(const Opening<Dim>& opening, double time) {
   const double rate = at_time(opening.rate, time);

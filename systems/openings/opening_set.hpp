@@ -29,7 +29,7 @@ struct Opening {
   bool is_static = false;            ///< the pressure is that on the side, else that of liquid at rest outside
   int per_cell = 2;                  ///< particles that come in, per direction
   std::vector<double> share = {};    ///< of every face across that belongs to the opening, by Side::index() [1]
-  std::vector<double> held = {};     ///< the same of faces that a wall beside the opening holds [1]
+  std::vector<double> held = {};     ///< the same of faces that a wall next to the opening holds [1]
 
   bool is_prescribed() const { return kind == OpeningKind::velocity || kind == OpeningKind::rate; }
   bool has_pressure() const { return kind == OpeningKind::level || kind == OpeningKind::pressure; }

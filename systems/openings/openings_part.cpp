@@ -19,7 +19,7 @@ namespace minamo {
 
 namespace {
 
-/// What stands in an opening beside its name and its place.
+/// What stands in an opening in addition to its name and its place.
 struct Flow {
   OpeningKind kind = OpeningKind::free;
   std::vector<Expression> velocity;
@@ -45,7 +45,7 @@ Expression read_of_time(Input& in, const std::string& key, const std::map<std::s
                         const Number& rule) {
   const Expression value = in.expression(key, {{"t"}, constants}, rule);
   const auto text = in.text_at(key);
-  // Evaluated with the places of the others beside it.
+  // Evaluated with the places of the others next to it.
   return text && in.sound(key) ? Expression(*text, of_place_and_time(constants)) : value;
 }
 

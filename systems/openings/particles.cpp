@@ -98,7 +98,7 @@ class Columns {
     }
     return true;
   }
-  /// How a value of the columns at rest changes along the side at one of them: from those beside it that are on the
+  /// How a value of the columns at rest changes along the side at one of them: from those next to it that are on the
   /// side, zero along an axis without any. [unit/m]
   Vec<Dim> slope(std::span<const double> values, std::size_t k) const {
     Vec<Dim> slope = Vec<Dim>::Zero();

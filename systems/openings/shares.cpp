@@ -12,7 +12,7 @@ namespace {
 template <int Dim>
 constexpr int parts = Dim == 2 ? 32 : 8;
 
-/// How far beside a middle it is tried, on both sides, as a share of a part: of edges that lie on middles either side
+/// How far next to a middle it is tried, on both sides, as a share of a part: of edges that lie on middles either side
 /// of the box has the half, whatever rounding says.
 constexpr double beside = 1e-6;
 
@@ -65,7 +65,7 @@ Tried try_face(const Vec<Dim>& x, std::size_t axis, const std::optional<Expressi
   return {tried.where / count, tried.open / count};
 }
 
-/// Whether a wall beside an opening holds a face across it, as no-slip walls do.
+/// Whether a wall next to an opening holds a face across it, as no-slip walls do.
 template <int Dim>
 bool is_held_beside(const Sides<Dim>& sides, const OpeningSet<Dim>& set, std::size_t own, const Index<Dim>& site,
                     std::size_t d) {

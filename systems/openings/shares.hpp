@@ -8,7 +8,7 @@
 
 namespace minamo {
 
-/// What the sides of the box are beside their openings.
+/// What the sides of the box are outside of their openings.
 template <int Dim>
 struct Sides {
   const Grid<Dim>& grid;

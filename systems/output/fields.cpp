@@ -19,7 +19,7 @@ std::span<const double> numbers(std::span<const Vec<Size>> values) {
   return {reinterpret_cast<const double*>(values.data()), values.size() * Size};
 }
 
-/// With a third component of zero in the plane.
+/// With a third component of zero in 2-D.
 template <int Dim>
 DatasetRows vectors(const std::string& dataset, std::span<const Vec<Dim>> values) {
   if constexpr (Dim == 3) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// fields.h5 and fields.xdmf: what particles carry, at every output time. /particles/{frame}/{position, velocity,
-/// pressure, id, ...}, attribute `time`. Vectors have three components and tensors nine, in the plane too, as
+/// pressure, id, ...}, attribute `time`. Vectors have three components and tensors nine, in 2-D too, as
 /// ParaView's filters want them; position, which it takes for points, has as many as the scene. Bodies are in
 /// body_fields.hpp.
 

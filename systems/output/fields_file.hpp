@@ -17,7 +17,7 @@ namespace minamo {
 
 /// What a frame has, and how.
 struct FieldsChoice {
-  std::optional<std::vector<std::string>> names = {};  ///< beside position and id; none: all
+  std::optional<std::vector<std::string>> names = {};  ///< in addition to position and id; none: all
   bool in_single = true;                               ///< 4 bytes a number, of those that are no whole numbers
   int compression = 0;                                 ///< level of deflate [1]
   static constexpr ComponentInfo info{"fields.choice", "", "", Lifetime::constant};
@@ -46,7 +46,7 @@ struct FieldsFile {
   std::size_t frames = 0;
   double time = 0;                       ///< of the last one [s]
   std::size_t particles = 0;             ///< in it
-  std::vector<Field> fields;             ///< of it, beside position and id
+  std::vector<Field> fields;             ///< of it, in addition to position and id
   std::optional<FieldsPosition> before;  ///< while a frame is being written
   GrowingHdf5 file;
   GrowingXml index;

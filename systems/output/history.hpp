@@ -51,7 +51,7 @@ struct HistoryFile {
     RunTotals totals;  ///< with it
   };
   std::ofstream file;
-  std::string path;           ///< with its units beside it; empty: none
+  std::string path;           ///< with its units next to it; empty: none
   std::int64_t rows = 0;      ///< written, among them that of a step which is taken back
   std::size_t row_bytes = 0;  ///< of the last one
   int error = 0;              ///< errno of what went wrong
@@ -67,7 +67,7 @@ const RunTotals& totals_of_all_rows(World& world);
 /// Beside history.csv, the units of its columns.
 inline constexpr const char* history_units_name = "history.units.json";
 
-/// The columns of history.csv and their units, in the plane those per metre of depth.
+/// The columns of history.csv and their units, in 2-D those per metre of depth.
 template <int Dim>
 std::vector<std::pair<std::string, std::string>> history_units(const measure::Columns& further);
 

@@ -18,12 +18,12 @@ namespace {
 std::string read_surface(Input& input, int dimension) {
   const auto format =
       input.choice("surface", std::vector<std::string>{"none", "vtp", "ply", "vdb"},
-                   "of every frame: lines or triangles for ParaView (vtp) or Blender (ply), or in space a "
+                   "of every frame: lines or triangles for ParaView (vtp) or Blender (ply), or in 3-D a "
                    "level set (vdb, with OpenVDB)",
                    "none");
   if (format != "vdb") return format;
   if (dimension == 2) {
-    input.problem("surface", "level sets are of scenes in space", "vtp or ply in the plane", shown(Json("vdb")));
+    input.problem("surface", "level sets are of scenes in 3-D", "vtp or ply in 2-D", shown(Json("vdb")));
   } else if (!can_write_level_sets()) {
     input.problem("surface", "this program was built without OpenVDB", "vtp or ply, or `tools/run --openvdb SCENE`",
                   shown(Json("vdb")));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// S x = b by conjugate gradients with geometric multigrid as preconditioner: for large problems in space. Aggregates
+/// S x = b by conjugate gradients with geometric multigrid as preconditioner: for large problems in 3-D. Aggregates
 /// of 2^d sites, piecewise constant corrections, Gauss-Seidel by colour before and, in reverse, after them, a direct
 /// solver on the coarsest grid. Galerkin's matrices of piecewise constants are too stiff, hence weaker ones: D. Braess,
 /// Computing 55 (1995) 379, doi:10.1007/BF02238488. The same bits on any number of threads. All that is global is sums

@@ -132,7 +132,7 @@ class PressureMass {
     }
   }
   /// use(p, place in the cell, weights of the multipliers around). Weights are found anew each time: stored, they would
-  /// take 64 bytes a particle in space.
+  /// take 64 bytes a particle in 3-D.
   template <class Use>
   void for_each_particle(const Run& run, const Use& use) const {
     const CellFrame<Dim> frame(grid_, splines_, run.cell);
@@ -155,7 +155,7 @@ class PressureMass {
     }
     add_up(volume_);
   }
-  /// phi' of (E125), by these particles, with neighbours as full as crowded ones at most: a hole beside a corner that
+  /// phi' of (E125), by these particles, with neighbours as full as crowded ones at most: a hole next to a corner that
   /// holds particles back is none less for it.
   std::vector<double> fill_around(double cell_volume, const SiteRows<Dim>& rows,
                                   std::span<const Index<Dim>> site) const {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E75) Pressure where particles do not tell it: beside bodies, and of multipliers with few of them or too many.
+/// (E75) Pressure where particles do not tell it: near bodies, and of multipliers with few of them or too many.
 
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/grid/sites_around.hpp"
@@ -18,7 +18,7 @@ namespace minamo {
 /// Fill fraction from which on a multiplier has more particles than there is room for.
 inline constexpr double crowded_from = 1.3;
 
-/// (E75)  Beside bodies p_l = lambda_l/V_l where the liquid fills the grid, for there are too few particles to tell;
+/// (E75)  Near bodies p_l = lambda_l/V_l where the liquid fills the grid, for there are too few particles to tell;
 /// near its surface, and inside of a body, where multipliers carry no force, it continues that of the multipliers
 /// around.
 template <int Dim>
@@ -74,7 +74,7 @@ class PressureOfFewParticles {
     const double half = few * whole_volume(i);
     return (volume_[i] < half && volume_[i] < filled_share(i, 0) * half) || is_hole_at_wall(i);
   }
-  /// Particles that flow along a wall leave holes beside it: no surface, for the liquid is on the other side.
+  /// Particles that flow along a wall leave holes next to it: no surface, for the liquid is on the other side.
   bool is_hole_at_wall(std::size_t i) const {
     constexpr double few = 0.75;
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
@@ -113,7 +113,7 @@ class PressureOfFewParticles {
     }
     return filled < open && filled > 0 ? filled / open : 1;
   }
-  /// How far the liquid fills the space around a multiplier, and those beside it that bodies leave enough of, as (E68)
+  /// How far the liquid fills the space around a multiplier, and those next to it that bodies leave enough of, as (E68)
   /// has it for the mass of faces.
   double full_share(std::size_t i) const {
     constexpr double telling_from = 0.4;
@@ -169,7 +169,7 @@ class PressureOfFewParticles {
   double cell_volume_;
   std::vector<double> lumped_;
   std::vector<bool> has_few_;  ///< of those that carry a force
-  std::vector<bool> tells_;    ///< of multipliers: their pressure is what lumped_ says, beside a body, too
+  std::vector<bool> tells_;    ///< of multipliers: their pressure is what lumped_ says, near a body, too
 };
 
 }  // namespace minamo

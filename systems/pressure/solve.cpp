@@ -15,7 +15,7 @@ namespace {
 template <int Dim>
 constexpr std::size_t most_rows_factorized = Dim == 2 ? 20'000 : 2'000;
 /// Floating-point operations per row up to which a factorization costs less than the iteration, which takes about 12
-/// to 16 steps whatever the size. In the plane the two tie around there, and a factorization is exact.
+/// to 16 steps whatever the size. In 2-D the two tie around there, and a factorization is exact.
 template <int Dim>
 constexpr double most_work_per_row = Dim == 2 ? 5'000 : 700;
 constexpr std::int64_t most_multigrid_iterations = 300;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E79) Solves for the multipliers of a step: by a factorization where that is cheap, as it is in the plane, else by
+/// (E79) Solves for the multipliers of a step: by a factorization where that is cheap, as it is in 2-D, else by
 /// conjugate gradients with multigrid.
 
 #include "components/staggered.hpp"

@@ -125,7 +125,7 @@ struct Part {
 struct Scheme {
   std::string name;  ///< as in the scene
   std::string doc;   ///< one line
-  /// Reads its options beside `scheme`. May be empty: no options, and nothing to add.
+  /// Reads its options next to `scheme`. May be empty: no options, and nothing to add.
   std::function<Contribution(Input&, Scene&)> read;
 };
 

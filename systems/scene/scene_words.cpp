@@ -68,7 +68,7 @@ constexpr auto meanings = std::to_array<Meaning>({
      "box ball sphere circle polygon cylinder cube mesh geometry region where low high center radius type",
      R"("shape": {"box": {"low": [...], "high": [...]}}, or another shape in the place of "box")"},
     {Of::key, "/particles/*/per_cell", "ppc particles_per_cell nppc npc particles_per_direction per_cell",
-     "per direction: 3 are 9 in a cell of the plane, 27 in space"},
+     "per direction: 3 are 9 in a cell of the plane, 27 in 3-D"},
     {Of::key, "/particles/*/per_cell", "dp particle_spacing particle_radius particle_size inter_particle_distance",
      "per cell and direction: the spacing of the grid over that of the particles"},
     {Of::key, "/particles/*/arrangement", "packing sampling dense_mode distribution placement jitter random"},

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The choices of a scene beside the transfer scheme. Every type is registered by name,
+/// The choices of a scene in addition to the transfer scheme. Every type is registered by name,
 /// `registry.add(Stabilization{{...}})`, by the built-in parts and by programs that link minamo alike.
 
 #include "systems/scene/part.hpp"

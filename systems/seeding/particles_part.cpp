@@ -163,7 +163,7 @@ void cut_seeds(const Scene& scene, const Grid<Dim>& grid, World& world, Seeds<Di
   if (bodies != nullptr) world.resource<LiquidCut>() = cut;
   if (!any || is_any(seeds)) return;
   if (bodies != nullptr) {
-    problems.note("/bodies", "no liquid is left", "bodies with liquid beside them", "all of it lies in bodies");
+    problems.note("/bodies", "no liquid is left", "bodies with liquid next to them", "all of it lies in bodies");
   } else {
     problems.note("/particles", "no liquid in them", "a shape that fills a part of a cell", "less than 0.3 of any");
   }

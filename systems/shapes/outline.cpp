@@ -98,7 +98,7 @@ double outline_bytes(const Shape<Dim>& shape, const Bounds<Dim>& box, double spa
   const bool is_endless = !shape.bounds().finite();
   const auto nodes = nodes_around<Dim>(is_endless ? box : shape.bounds(), spacing);
   const double along = *std::max_element(nodes.count.begin(), nodes.count.end());
-  // Of the sides of a box in space: a square has three points and six triangles.
+  // Of the sides of a box in 3-D: a square has three points and six triangles.
   return Dim == 2 ? bytes(4 * along, 4 * along) : bytes(18 * along * along, 36 * along * along);
 }
 

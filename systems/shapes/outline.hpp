@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surface of a shape to be looked at: closed lines in the plane, triangles in space. Nothing is computed with it.
+/// The surface of a shape to be looked at: closed lines in 2-D, triangles in 3-D. Nothing is computed with it.
 
 #include "systems/shapes/shape.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace minamo {
 
-/// Closed: in the plane every point begins one segment and ends one, in space every edge has two triangles.
+/// Closed: in 2-D every point begins one segment and ends one, in 3-D every edge has two triangles.
 template <int Dim>
 struct Outline {
   std::vector<Vec<Dim>> point;  ///< [m]
@@ -19,7 +19,7 @@ struct Outline {
 };
 
 /// Exact for boxes, polygons and meshes. Of other shapes the distance is sampled in their bounds: points are on the
-/// surface, edges in space are cut off by less than a sample, and what is thinner than a sample may be missed. Shapes
+/// surface, edges in 3-D are cut off by less than a sample, and what is thinner than a sample may be missed. Shapes
 /// without bounds are cut off at the box.
 /// \param box      finite [m]
 /// \param spacing  of the samples at most, but for shapes that are very large against it [m]

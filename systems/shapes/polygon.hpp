@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A simple polygon in the plane.
+/// A simple polygon in 2-D.
 
 #include "systems/shapes/shape.hpp"
 

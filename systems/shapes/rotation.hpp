@@ -8,7 +8,7 @@
 
 namespace minamo {
 
-/// By an angle in the plane, from x to y. [rad]
+/// By an angle in 2-D, from x to y. [rad]
 inline Mat<2> rotation(double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);

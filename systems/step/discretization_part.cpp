@@ -114,7 +114,7 @@ void add_discretization(SystemRegistry& registry) {
   registry.add(DiscretizationScheme{
       {"conforming", "splines free of divergence at every point, velocities on faces", read_conforming}});
   registry.add(DiscretizationScheme{{"equal_order", "velocity and pressure on nodes, stabilized", read_equal_order}});
-  const DefaultScheme fallback{recommended, "\"equal_order\" beside stabilization, or volume by \"delta\""};
+  const DefaultScheme fallback{recommended, "\"equal_order\" with stabilization, or volume by \"delta\""};
   registry.add(choice<DiscretizationScheme>("discretization", "where velocity and pressure live", fallback));
 }
 

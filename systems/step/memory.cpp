@@ -16,13 +16,13 @@ namespace minamo {
 
 namespace {
 
-/// Water that moves wets more nodes than at the start; in the plane the more, the fewer particles there are.
+/// Water that moves wets more nodes than at the start; in 2-D the more, the fewer particles there are.
 double spread(const Scene& scene) { return scene.dimension == 3 ? 2.5 : 1 + 6.0 / fewest_per_cell(scene); }
 
-/// Columns of faces and multipliers, what cells know of their sites, factors in the plane and multigrid in space.
+/// Columns of faces and multipliers, what cells know of their sites, factors in 2-D and multigrid in 3-D.
 double bytes_per_site(const Scene& scene) { return scene.dimension == 2 ? 2500 : 2000; }
 
-/// Friction in the balances: matrices of cells, the vectors of its iteration and, in space, coarser levels.
+/// Friction in the balances: matrices of cells, the vectors of its iteration and, in 3-D, coarser levels.
 double bytes_of_friction(const Scene& scene) {
   if (friction_of(scene) != Friction::in_balances) return 0;
   return scene.dimension == 2 ? 800 : 1600;

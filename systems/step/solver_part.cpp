@@ -26,7 +26,7 @@ bool is_stiff(const Scene& scene) {
 }
 
 /// The block solver's: whole factors, of the velocities in stiff liquids, of the pressure where few particles have many
-/// nodes, have more in a node the more nodes there are. In space those of the velocities end at a number of nodes.
+/// nodes, have more in a node the more nodes there are. In 3-D those of the velocities end at a number of nodes.
 double block_bytes_per_node(const Scene& scene, double nodes) {
   if (scene.dimension == 2) return 8e3 + (is_stiff(scene) ? 900 * std::log2(nodes) : 0);
   const double factorized = std::min(nodes, most_factorized_in_space / 3.0);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E121) The distance from the free surface beside bodies, where splines are cut and no particle tells of the other
+/// (E121) The distance from the free surface near bodies, where splines are cut and no particle tells of the other
 /// side.
 
 #include "components/body.hpp"
@@ -42,7 +42,7 @@ struct DistanceAround {
 /// around.
 template <int Dim>
 struct ExtendSurfaceDistance {
-  static constexpr std::string_view doc = "(E121) psi_i beside bodies and in them";
+  static constexpr std::string_view doc = "(E121) psi_i near bodies and in them";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<SolidAtRest> at_rest, Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,

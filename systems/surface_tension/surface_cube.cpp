@@ -84,7 +84,7 @@ SurfaceCube<Dim>::SurfaceCube(const SurfaceLattice<Dim>& lattice, std::span<cons
       if (lattice.axis(d).is_high_wall(node.at[d])) node.on |= 1U << (2 * d + 1);
     }
     if (bodies != nullptr) {
-      // A cell with little room beside a body has no particle, and sites around it no rows.
+      // A cell with little room near a body has no particle, and sites around it no rows.
       lattice.for_each_source_site(node.at, [&](const Index<Dim>& site, double weight) {
         const auto row = lattice.row_of_site(site);
         node.psi += weight * (row ? psi[*row] : bodies->around.at(site));

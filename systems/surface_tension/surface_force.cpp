@@ -13,8 +13,8 @@ namespace minamo {
 
 namespace {
 
-/// Directions in which the face of a row takes forces: beside a multiplier that is an unknown, for others nothing holds
-/// against it, and where walls hold, from which the walls take it.
+/// Directions in which the face of a row takes forces: next to a multiplier that is an unknown, for others nothing
+/// holds against it, and where walls hold, from which the walls take it.
 template <int Dim>
 std::uint8_t takers_of(const Incidence<Dim>& incidence, std::size_t i, unsigned held,
                        std::span<const std::int32_t> row) {
@@ -65,7 +65,7 @@ double energy_of(const SurfaceTension& tension, const FreeSurface<Dim>& surface)
   return tension.coefficient * (surface.areas.free - surface.areas.gained);
 }
 
-/// Lines where the surface meets walls: their length, in the plane their number. [m^(d-2)]
+/// Lines where the surface meets walls: their length, in 2-D their number. [m^(d-2)]
 template <int Dim>
 double contact_lines_of(const FreeSurface<Dim>& surface) {
   double length = 0;

@@ -53,7 +53,7 @@ class SurfaceLattice {
   /// The row of a node that is a site, if the liquid touches it.
   std::optional<std::uint32_t> row(const Index<Dim>& node) const;
   std::optional<std::uint32_t> row_of_site(const Index<Dim>& site) const { return rows_.find(site); }
-  /// Calls use(row or none, weight) for the sites from which the value at a node comes: itself, or those beside a wall,
+  /// Calls use(row or none, weight) for the sites from which the value at a node comes: itself, or those at a wall,
   /// by linear extrapolation. The weights are 1 in sum.
   template <class Use>
   void for_each_source(const Index<Dim>& node, const Use& use) const {
@@ -86,7 +86,7 @@ class SurfaceLattice {
       from_axis(node, d - 1, weight, use);
       return;
     }
-    // The two sites beside a wall stand h/4 and 3 h/4 from it.
+    // The two sites at a wall stand h/4 and 3 h/4 from it.
     const int inward = axis_[k].is_low_wall(node[k]) ? 1 : -1;
     node[k] += inward;
     from_axis(node, d - 1, 1.5 * weight, use);

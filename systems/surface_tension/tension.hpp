@@ -40,7 +40,7 @@ struct FindSurfaceTraction {
                   Write<surface::Traction<Dim>> t_i, Write<surface::ForceOnBodies<Dim>> F_b) const;
 };
 
-/// (E113)  F_f = integral of N_f sum_i N_i t_i over the surface; v*_f gets tau F_f/m_f. (E121) Beside bodies E^T F_f.
+/// (E113)  F_f = integral of N_f sum_i N_i t_i over the surface; v*_f gets tau F_f/m_f. (E121) Near bodies E^T F_f.
 template <int Dim>
 struct AddSurfaceTension {
   static constexpr std::string_view doc = "(E113) F_f of surface tension";

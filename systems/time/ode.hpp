@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The `ode` block of a scene: variables that are integrated beside the flow, for its exact solution or its body force.
+/// The `ode` block of a scene: variables that are integrated along with the flow, for its exact solution or its body
+/// force.
 
 #include "components/instant.hpp"
 #include "components/step.hpp"

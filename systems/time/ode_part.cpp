@@ -60,7 +60,7 @@ Contribution read_ode(Input& input, Scene& scene) {
   of_rate.variables.insert(of_rate.variables.end(), names.begin(), names.end());
   ode::Equations equations;
   input.named_objects(
-      "ode", "variables integrated beside the flow, which expressions may use by name",
+      "ode", "variables integrated along with the flow, which expressions may use by name",
       [&](Input& in, const std::string& name) {
         const Expression start = in.expression("start", {{}, scene.constants}, {.unit = "", .doc = "value at t = 0"});
         const Expression rate = in.expression("rate", of_rate, {.unit = "", .doc = "change per second"});
@@ -80,7 +80,7 @@ Contribution read_ode(Input& input, Scene& scene) {
 void add_ode(SystemRegistry& registry) {
   registry.add<IntegrateOde>("integrate_ode");
   registry.add<HoldOde>("hold_ode");
-  registry.add(Part{"ode", "variables that are integrated beside the flow", read_ode});
+  registry.add(Part{"ode", "variables that are integrated along with the flow", read_ode});
 }
 
 }  // namespace minamo

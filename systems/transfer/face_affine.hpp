@@ -71,7 +71,7 @@ void gather_faces_with_affine(const FaceTarget<Dim>& target, const AtFace& at_fa
   });
 }
 
-/// What APIC's affine part has of spin beside that of the gradient.
+/// What APIC's affine part has of spin in addition to that of the gradient.
 template <int Dim>
 [[gnu::always_inline]] inline Mat<Dim> spin_beyond(const Mat<Dim>& c_p, const Mat<Dim>& gradient) {
   const Mat<Dim> beyond = c_p - gradient;

@@ -91,7 +91,7 @@ auto of_faces(std::span<const Vec<Dim>> q_f) {
   return [q_f](std::size_t i) -> const Vec<Dim>& { return q_f[i]; };
 }
 
-/// What a gather reads beside the field.
+/// What a gather reads in addition to the field.
 template <int Dim>
 struct FaceTarget {
   const Grid<Dim>& grid;            ///< Read<Grid>

@@ -114,7 +114,7 @@ class FaceSeries {
     if constexpr (Lanes::order > 1) tilt = mixed<0, 1>() * way<1>(b);
     return in_row(start, tilt);
   }
-  /// In space, c its place along z.
+  /// In 3-D, c its place along z.
   auto row(std::size_t b, std::size_t c) const {
     Four start = std::get<1>(part_)[b] + std::get<2>(part_)[c];
     Four tilt{};

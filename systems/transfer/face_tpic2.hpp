@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// TPIC of second order on the staggered grid, as systems/transfer/tpic2.hpp says. Hats across have no second
-/// derivative across within a cell, and need none: what a particle then brings from its place to the two faces beside
+/// derivative across within a cell, and need none: what a particle then brings from its place to the two faces next to
 /// it is what they have.
 
 #include "components/cells.hpp"

@@ -6,7 +6,7 @@
 
 namespace minamo {
 
-/// Second derivatives of a vector field, in the order xx xy yy, in space xx xy xz yy yz zz.
+/// Second derivatives of a vector field, in the order xx xy yy, in 3-D xx xy xz yy yz zz.
 template <int Dim>
 using SecondDerivatives = Eigen::Matrix<double, Dim, Dim*(Dim + 1) / 2>;
 
@@ -30,7 +30,7 @@ template <int Dim>
 struct Jet {
   Vec<Dim> value;                 ///< q
   Mat<Dim> gradient;              ///< row i: gradient of component i
-  SecondDerivatives<Dim> second;  ///< on nodes zero across a wall in the half cell beside it
+  SecondDerivatives<Dim> second;  ///< on nodes zero across a wall in the half cell next to it
 };
 
 /// phi_p of (E65), how much of a velocity's second derivatives the grid resolves.

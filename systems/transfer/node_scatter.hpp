@@ -11,7 +11,7 @@
 
 namespace minamo {
 
-/// What a scatter reads beside the quantity itself.
+/// What a scatter reads in addition to the quantity itself.
 template <int Dim>
 struct ScatterSource {
   const Grid<Dim>& grid;            ///< Read<Grid>

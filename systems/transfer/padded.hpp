@@ -6,7 +6,7 @@
 
 namespace minamo {
 
-/// In space with a fourth number, zero.
+/// In 3-D with a fourth number, zero.
 template <int Dim>
 using PaddedVec = Eigen::Matrix<double, Dim == 3 ? 4 : Dim, 1>;
 

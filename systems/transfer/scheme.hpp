@@ -9,7 +9,7 @@
 
 namespace minamo {
 
-/// Names of registered systems, in their order. They read their options, if any, beside `scheme`. Accelerations are
+/// Names of registered systems, in their order. They read their options, if any, next to `scheme`. Accelerations are
 /// transferred only by integrators that carry them; those of PIC suit every scheme.
 struct TransferScheme {
   std::string name = {};                                                 ///< as in the scene

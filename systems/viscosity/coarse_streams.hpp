@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E119) A second level for friction in the plane: velocities without divergence that are smooth on two cells. Of a
+/// (E119) A second level for friction in 2-D: velocities without divergence that are smooth on two cells. Of a
 /// stream function with coefficients psi at the corners (i, j) below-left of multipliers, on the splines of degree K
 /// along both axes, the curl has coefficients u_x = (psi_{i,j+1} - psi_ij)/w_j, u_y = -(psi_{i+1,j} - psi_ij)/w_i: free
 /// of divergence at every point, whatever psi is.

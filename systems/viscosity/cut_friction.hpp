@@ -44,7 +44,7 @@ class CutMatrices {
   /// K^ of a cell, n x n, symmetric. [m in 3-D; 1 in 2-D]
   double* matrix(std::size_t k) { return numbers_.data() + k * stride(); }
   const double* matrix(std::size_t k) const { return numbers_.data() + k * stride(); }
-  /// Row sums of what is beside and on the diagonal, without signs, by face.
+  /// Row sums of what is off and on the diagonal, without signs, by face.
   double* bounds(std::size_t k) { return matrix(k) + faces_ * faces_; }
   const double* bounds(std::size_t k) const { return matrix(k) + faces_ * faces_; }
   /// What the motions of the wall take from the force of a face, n x motions: the force on the wall is its transpose

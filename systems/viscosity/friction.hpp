@@ -29,7 +29,7 @@ struct FindCellViscosity {
 /// (E81)  v*_f -= tau (K v°)_f/m_f, K = sum_c theta_c mu_c K^_c, theta_c = min(1, m_f/(2 tau D_f)) over the faces of
 /// the cell, D_f = sum_c mu_c sum_g |K^_fg|. Then 2 tau K <= m, and 1 - 2 tau m^-1 K of the midpoint rule lies between
 /// 0 and 1 for every viscosity and every mass: energy never rises. theta_c is 1 but in cells with faces that next to no
-/// particles touch. By cells, so that momentum and angular momentum stay. Beside bodies that rub by (E110).
+/// particles touch. By cells, so that momentum and angular momentum stay. Near bodies that rub by (E110).
 template <int Dim>
 struct RubFaces {
   static constexpr std::string_view doc = "(E81) friction at the start of the step, of liquids that flow easily";

@@ -39,7 +39,7 @@ void for_each_parent(const FrictionSplines<Dim>& splines, const Index<Dim>& fine
   }
 }
 
-/// 2 D(N_f):D(N_f) over a cell of unit viscosity, in units of h^(d-2), and what walls with slip lengths beside it add.
+/// 2 D(N_f):D(N_f) over a cell of unit viscosity, in units of h^(d-2), and what walls with slip lengths next to it add.
 template <int Dim>
 double friction_of_face(const FrictionSplines<Dim>& splines, const Index<Dim>& cell, const Index<Dim>& offset,
                         int direction) {

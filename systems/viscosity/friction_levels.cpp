@@ -4,7 +4,7 @@ namespace minamo {
 
 namespace {
 
-/// What all levels together add beside the grid itself. In a closed box .5 and .7 take 21 and 22 iterations.
+/// What all levels together add in addition to the grid itself. In a closed box .5 and .7 take 21 and 22 iterations.
 constexpr double share_of_levels = 0.5;
 
 template <int Dim>

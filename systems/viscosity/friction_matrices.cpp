@@ -32,7 +32,7 @@ double at_end(const Polynomial& p, std::size_t end) {
 }
 
 /// Integrals of products of the splines of a cell and of their slopes along an axis: splines of degree K come first,
-/// those of degree K - 1 after them. A matrix in space takes each of them a thousand times.
+/// those of degree K - 1 after them. A matrix in 3-D takes each of them a thousand times.
 class AxisIntegrals {
  public:
   explicit AxisIntegrals(const CellSplines& splines) {
@@ -125,7 +125,7 @@ double wall_friction(const CellIntegrals<Dim>& axes, const Product<Dim>& f, cons
   return sum;
 }
 
-/// Cells of an axis with the same splines and the same ends of the axis beside them.
+/// Cells of an axis with the same splines and the same ends of the axis next to them.
 struct Kind {
   std::size_t number;
   AxisIntegrals integrals;
@@ -147,7 +147,7 @@ std::vector<Kind> kinds_of(const SplineAxis& axis) {
 
 }  // namespace
 
-/// The splines of a cell, and 1/b of the walls beside it in units of 1/h, 0 where there is none.
+/// The splines of a cell, and 1/b of the walls next to it in units of 1/h, 0 where there is none.
 template <int Dim>
 struct FrictionMatrices<Dim>::Cell {
   CellIntegrals<Dim> axes{};

@@ -4,7 +4,7 @@
 /// over the cell, D the symmetric gradient. Cells of one kind have the same matrix. It takes translations and rotations
 /// to zero, and no other velocity.
 ///
-/// (E83) In a cell beside a wall with slip length b it has the wall's friction as well, the integral of N_f N_g/b over
+/// (E83) In a cell at a wall with slip length b it has the wall's friction as well, the integral of N_f N_g/b over
 /// the cell's part of the wall for the directions along the wall: the traction mu v/b of Navier's condition, C. L. M.
 /// H. Navier, Mem. Acad. Sci. Inst. France 6 (1823) 389. So mu_c, what of the cell is liquid, weighs both alike, and
 /// what holds for friction inside the liquid, its bound and its diagonal, holds at the wall.

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The friction matrix K = sum_c mu_c K^_c of the faces, never put together: cell by cell. Beside bodies that rub it is
+/// The friction matrix K = sum_c mu_c K^_c of the faces, never put together: cell by cell. Near bodies that rub it is
 /// E^T K E, E the extension (E87), with the matrices of cells that are cut (E110).
 
 #include "components/cells.hpp"

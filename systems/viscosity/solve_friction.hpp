@@ -7,7 +7,7 @@
 /// G is the matrix. N. I. M. Gould, M. E. Hribar, J. Nocedal, SIAM J. Sci. Comput. 23 (2001) 1376, algorithm 6.2 with
 /// the residual update of section 6: preconditioned projected conjugate gradients.
 ///
-/// Beside bodies B a v takes the place of B v (E85), and (E110) that of K v.
+/// Near bodies B a v takes the place of B v (E85), and (E110) that of K v.
 
 #include "components/body.hpp"
 #include "components/friction.hpp"

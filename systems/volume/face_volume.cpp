@@ -158,7 +158,7 @@ void LimitParticleShift<Dim>::operator()(Read<Clock> clock, Read<BodyForce> b, R
   const double of_all = std::clamp(lost / net, 0.0, 1.0);
   if (of_all == 1) return;
   // What is left goes on as far as it lifts no more than it lowers: where liquid is strained, for slow waves would feel
-  // it, and water beside bodies, whose multipliers are never exactly full, would not rest.
+  // it, and water near bodies, whose multipliers are never exactly full, would not rest.
   const auto left = [&](std::size_t p) {
     if (!grad_v) return 1 - of_all;
     const double strain = clock->step * (grad_v[p] + grad_v[p].transpose()).norm() / std::sqrt(2.0);

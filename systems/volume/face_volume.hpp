@@ -55,7 +55,7 @@ struct FillParts {
 /// middle of the cell; only where all multipliers of the cell are more than 60 % full. A velocity without divergence at
 /// every point never mixes what it stretches: columns of particles stay columns, with gaps between them wider than h.
 /// Nothing at rest, and Galilean invariant. Without the mean, because C falls off towards the surface and stirring
-/// would move it. Beside bodies with what they fill, C + C_s.
+/// would move it. Near bodies with what they fill, C + C_s.
 template <int Dim>
 struct StirParticles {
   static constexpr std::string_view doc = "(E74) s_p, away from where particles lie close";

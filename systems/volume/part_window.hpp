@@ -16,10 +16,10 @@ struct PartFill {
   static constexpr ComponentInfo info{"stir.fill", "C", "1", Lifetime::scratch};
 };
 
-/// C_s, how full bodies make the window of every occupied cell beside one. [1]
+/// C_s, how full bodies make the window of every occupied cell next to one. [1]
 struct SolidParts {
   static constexpr std::int32_t none = -1;
-  std::vector<std::int32_t> place;  ///< by occupied cell, among those beside bodies
+  std::vector<std::int32_t> place;  ///< by occupied cell, among those near bodies
   std::vector<double> fill;         ///< (parts + 2)^d of each, x fastest
   static constexpr ComponentInfo info{"stir.solid", "C_s", "1", Lifetime::scratch};
 };

@@ -57,7 +57,7 @@ Work p2g_velocity_tpic(const Rows& rows) {
 /// (E17), (E18), (E71)  Reads y_p, v_I; writes v_p, grad v_p. A polynomial per cell: per axis, line of three nodes and
 /// component 3 numbers of 5 each. Per particle and component, 4 for a value and 2 for a slope of a polynomial: along x
 /// both on every line, along y both of the values and the value of the slopes, along z alike with two slopes; d to
-/// scale. Second derivatives along an axis of the components across it: along x 4, in space 16, along y 0 and 4, along
+/// scale. Second derivatives along an axis of the components across it: along x 4, in 3-D 16, along y 0 and 4, along
 /// z 0. Spin: 2 to xi, moments 5 d, per entry off the diagonal 1, per pair of them 4.
 template <int Dim>
 Work g2p_velocity_tpic(const Rows& rows) {
@@ -70,7 +70,7 @@ Work g2p_velocity_tpic(const Rows& rows) {
 }
 
 /// (E19)  Reads y_p, V_p; writes M_c. Per particle xi: 2 d, powers: 3 d, V eta^b: 5, times xi^a: 25, added up:
-/// 25, in space 2 * 125.
+/// 25, in 3-D 2 * 125.
 template <int Dim>
 Work moments(const Rows& rows) {
   const double products = 30 + (Dim == 3 ? 2 * 125 : 25);

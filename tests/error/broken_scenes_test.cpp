@@ -1,5 +1,5 @@
 /// \file
-/// Every NAME.json beside this file is broken in one way; NAME.txt is what the program says about it, NAME.args, where
+/// Every NAME.json next to this file is broken in one way; NAME.txt is what the program says about it, NAME.args, where
 /// there is one, holds further arguments, one a line, NAME.obj is a mesh of the scene.
 
 #include "support/build.hpp"

@@ -96,7 +96,7 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK", "[property
   const std::string stabilization = GENERATE("pspg", "oss", "vms");
   const std::string integrator = GENERATE("midpoint", "newmark");
   CAPTURE(viscosity, stabilization, integrator);
-  // In space, where a step costs fifty times as much, each viscosity with every stabilization, in turn with either.
+  // In 3-D, where a step costs fifty times as much, each viscosity with every stabilization, in turn with either.
   const bool newmark_is_next = (viscosity > 2) == (stabilization == "oss");
   if (Dim == 3 && newmark_is_next != (integrator == "newmark")) return;
   const Json scene = with(lump_and_drop<Dim>(viscosity), {R"(/stabilization={"scheme": ")" + stabilization + "\"}",
@@ -116,7 +116,7 @@ TEMPLATE_TEST_CASE_SIG("the block solver gives the steps of UMFPACK where iterat
                        "[property][long]", ((int Dim), Dim), 2, 3) {
   // Friction of once and seven times the inertia; more than 3000 velocities.
   constexpr double viscosity = Dim == 2 ? 10 : 450;
-  constexpr int steps = Dim == 2 ? 2 : 1;  // UMFPACK takes seconds in space
+  constexpr int steps = Dim == 2 ? 2 : 1;  // UMFPACK takes seconds in 3-D
   Json scene = lump_and_drop<Dim>(viscosity);
   scene["grid"]["cells"] = Dim == 2 ? Json({100, 80}) : Json({20, 16, 8});
   scene["particles"].erase(1);
@@ -281,7 +281,7 @@ TEST_CASE("LU within an envelope tells a singular matrix", "[property]") {
   CHECK_FALSE(lu.factorize());
 }
 
-TEST_CASE("few particles with many nodes in space are solved without UMFPACK, which has no memory for them",
+TEST_CASE("few particles with many nodes in 3-D are solved without UMFPACK, which has no memory for them",
           "[property]") {
   if (is_address_sanitized()) return;  // three quarters of a minute there
   Json scene = paper(scene_of_file("dam_break_3d.json"));

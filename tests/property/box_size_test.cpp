@@ -62,7 +62,7 @@ std::vector<std::string> differences(const Map& a, const Map& b) {
 TEMPLATE_TEST_CASE_SIG("what a step keeps and goes through does not depend on the dry part of the box", "[property]",
                        ((int Dim), Dim), 2, 3) {
   const std::string volume = GENERATE("none", "projection", "delta");
-  if (Dim == 3 && volume == "delta") return;  // what it adds is one source, seen in the plane
+  if (Dim == 3 && volume == "delta") return;  // what it adds is one source, seen in 2-D
   CAPTURE(volume);
   SceneRun small(pond<Dim>(32, volume));
   SceneRun large(pond<Dim>(Dim == 2 ? 2048 : 256, volume));

@@ -220,7 +220,7 @@ TEST_CASE("what is liquid and what spray is told by volumes, in a corner as else
       "time": {"end": 1, "step": 1e-3}})json"),
                           degree));
   run.step();
-  // Multipliers beside the wall: h/2, h with degree 2, h/3, 2h/3, h with degree 3.
+  // Multipliers at the wall: h/2, h with degree 2, h/3, 2h/3, h with degree 3.
   const double room = degree == 2 ? 1.5 * 1.5 : 2.0 * 2.0;
   const auto w_c = run.world().column<cell::LiquidIndicator>();
   REQUIRE(w_c.size() == 1);
@@ -298,7 +298,7 @@ TEST_CASE("a gap between particles is no surface, a hole is one", "[property]") 
   v_l[middle] = 0.4 * volume;
   kernels::run<FindFill<2>>(world);
   CHECK(least[middle] < 0.85);
-  // Beside the surface none counts as full.
+  // Next to the surface none counts as full.
   const auto phi = world.column<multiplier::FillFraction>();
   const auto is_beside_air = [&](std::int32_t j) {
     return j != staggered::none && capacity[static_cast<std::size_t>(j)] > 0 && phi[static_cast<std::size_t>(j)] < 0.6;

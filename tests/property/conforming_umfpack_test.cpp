@@ -111,9 +111,9 @@ bool has(const Json& scene, const std::string& system) {
 TEST_CASE("UMFPACK on all equations makes the step that the multipliers' solver makes", "[property]") {
   const double viscosity = GENERATE(0.0, 0.05, 10.0, 1e4);
   CAPTURE(viscosity);
-  SECTION("in the plane, degree 2") { check_step<2>(scattered(2, 2, viscosity)); }
-  SECTION("in the plane, degree 3") { check_step<2>(scattered(2, 3, viscosity)); }
-  SECTION("in space") { check_step<3>(scattered(3, 2, viscosity)); }
+  SECTION("in 2-D, degree 2") { check_step<2>(scattered(2, 2, viscosity)); }
+  SECTION("in 2-D, degree 3") { check_step<2>(scattered(2, 3, viscosity)); }
+  SECTION("in 3-D") { check_step<3>(scattered(3, 2, viscosity)); }
   SECTION("in a closed box") { check_step<2>(closed(viscosity)); }
   SECTION("all around") { check_step<2>(around(viscosity)); }
 }

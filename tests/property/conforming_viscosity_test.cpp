@@ -38,7 +38,7 @@ Grid<Dim> box() {
   return grid;
 }
 
-/// A corner, the cell beside it, and one inside.
+/// A corner, the cell next to it, and one inside.
 template <int Dim>
 Index<Dim> cell_number(int number) {
   Index<Dim> cell;
@@ -428,26 +428,26 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 TEST_CASE("friction of a cell is that of quadrature and takes rigid motions alone to zero", "[property]") {
-  SECTION("in the plane, degree 2") { check_matrices<2, 2>(); }
-  SECTION("in the plane, degree 3") { check_matrices<2, 3>(); }
-  SECTION("in space, degree 2") { check_matrices<3, 2>(); }
+  SECTION("in 2-D, degree 2") { check_matrices<2, 2>(); }
+  SECTION("in 2-D, degree 3") { check_matrices<2, 3>(); }
+  SECTION("in 3-D, degree 2") { check_matrices<3, 2>(); }
 }
 
 TEST_CASE("the balances with friction are solved as a dense solver does", "[property]") {
-  SECTION("in the plane, degree 2") { check_balances<2>(2); }
-  SECTION("in the plane, degree 3") { check_balances<2>(3); }
-  SECTION("in space, degree 2") { check_balances<3>(2); }
+  SECTION("in 2-D, degree 2") { check_balances<2>(2); }
+  SECTION("in 2-D, degree 3") { check_balances<2>(3); }
+  SECTION("in 3-D, degree 2") { check_balances<3>(2); }
 }
 
 TEST_CASE("friction at the start of the step is m^-1 K v and takes no more than there is", "[property]") {
-  SECTION("in the plane, degree 2") { check_rubbing<2>(2); }
-  SECTION("in the plane, degree 3") { check_rubbing<2>(3); }
-  SECTION("in space, degree 2") { check_rubbing<3>(2); }
+  SECTION("in 2-D, degree 2") { check_rubbing<2>(2); }
+  SECTION("in 2-D, degree 3") { check_rubbing<2>(3); }
+  SECTION("in 3-D, degree 2") { check_rubbing<3>(2); }
 }
 
 TEST_CASE("friction leaves a body in free flight its momentum and its spin", "[property]") {
-  SECTION("in the plane") { check_free_flight<2>(); }
-  SECTION("in space") { check_free_flight<3>(); }
+  SECTION("in 2-D") { check_free_flight<2>(); }
+  SECTION("in 3-D") { check_free_flight<3>(); }
 }
 
 TEST_CASE("friction in the balances lets energy of the faces never rise, whatever the viscosity", "[property]") {

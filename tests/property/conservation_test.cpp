@@ -61,14 +61,14 @@ TEST_CASE("a step in free space conserves linear momentum while no node is light
   CHECK((momentum<2>(run.world()) - before).norm() < 9e-12);
 }
 
-TEST_CASE("a step in free space conserves linear momentum while no node is light, in space", "[property]") {
+TEST_CASE("a step in free space conserves linear momentum while no node is light, in 3-D", "[property]") {
   SceneRun run(any_method(flying_3d()));
   CAPTURE(run.scene().schemes);
   run.start();
   const Vec<3> before = momentum<3>(run.world());
   run.step(2);
   REQUIRE_FALSE(has_light_nodes(run.world()));
-  CHECK((momentum<3>(run.world()) - before).norm() < 4e-12);  // as in the plane; 5e-13 measured
+  CHECK((momentum<3>(run.world()) - before).norm() < 4e-12);  // as in 2-D; 5e-13 measured
 }
 
 TEST_CASE("ballistic nodes take little linear momentum away", "[property]") {
@@ -167,7 +167,7 @@ TEMPLATE_TEST_CASE_SIG("a block keeps its angular momentum, whatever axis it tur
   const auto& angular = run.world().template resource<measure::Momentum<Dim>>().angular;
   CHECK((angular - exact).norm() < 2e-13 * exact.norm());  // roundings of central differences: 2e-14 measured
   run.step(20);
-  // 5e-5 in the plane. In space 1.24e-3 with three of the schemes, 5e-4 on twice as many cells: along the edges of the
+  // 5e-5 in 2-D. In 3-D 1.24e-3 with three of the schemes, 5e-4 on twice as many cells: along the edges of the
   // block no node is full enough for the inertia correction, without which 1.3e-4 would be lost in both.
   // On faces D is another one where a particle has moved to, s (1 - s) h^2 is h^2/6 on average: 1.7e-2 measured.
   CHECK((angular - exact).norm() < (on_faces ? 2.5e-2 : Dim == 2 ? 1e-4 : 2e-3) * exact.norm());

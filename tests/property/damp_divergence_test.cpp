@@ -37,7 +37,7 @@ TEST_CASE("a divergence that a step starts with does not turn over and over", "[
   run.start();
   const double before = run.world().resource<measure::Energy>().kinetic;
   run.step(30);
-  // All of it is divergence: 0.8^60 = 1.5e-6 of its energy, 1.7e-6 measured. Undamped, TPIC in the plane keeps 0.68.
+  // All of it is divergence: 0.8^60 = 1.5e-6 of its energy, 1.7e-6 measured. Undamped, TPIC in 2-D keeps 0.68.
   CHECK(run.world().resource<measure::Energy>().kinetic < 3.5e-6 * before);
 }
 

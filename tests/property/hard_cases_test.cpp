@@ -80,7 +80,7 @@ double largest_gain(SceneRun& run, int steps) {
   return gain.value();
 }
 
-// The projection of the volume lifts the surface a little: 8e-5 in the plane and 9e-5 in space. All else is rounding.
+// The projection of the volume lifts the surface a little: 8e-5 in 2-D and 9e-5 in 3-D. All else is rounding.
 constexpr double lift = 1.7e-4;
 
 }  // namespace
@@ -122,7 +122,7 @@ TEST_CASE("water that lies flat on a wall gains no energy", "[property]") {
   CHECK(lost<2>(run.world()) == 0);
 }
 
-TEST_CASE("nothing is lost in space, nor gains energy", "[property]") {
+TEST_CASE("nothing is lost in 3-D, nor gains energy", "[property]") {
   const auto [shape, velocity, per_cell] = GENERATE(table<std::string, std::string, int>({
       {R"({"box": {"low": [0.3, 0.3, 0.3], "high": [0.33, 0.33, 0.33]}})", "[-16, -16, -16]", 1},
       {R"({"box": {"low": [0, 0, 0], "high": [0.25, 0.25, 0.5]}})", "[0, 0, 0]", 2},

@@ -62,7 +62,7 @@ std::vector<Mat<Dim>> cell_means(World& world, const std::vector<Mat<Dim>>& q_p)
   return means;
 }
 
-/// w_c of (E53) at a point: how full the nearest node and those beside it are, zero up to 0.3, one from 0.5 on.
+/// w_c of (E53) at a point: how full the nearest node and those next to it are, zero up to 0.3, one from 0.5 on.
 template <int Dim>
 double share_at(World& world, const std::vector<double>& m_i, const Vec<Dim>& y) {
   const Grid<Dim>& grid = world.resource<Grid<Dim>>();
@@ -194,7 +194,7 @@ TEMPLATE_TEST_CASE_SIG("the force gradient is that of force over lumped mass", "
 }
 
 TEMPLATE_TEST_CASE_SIG("the inertia correction keeps momentum", "[property]", ((int Dim), Dim), 2, 3) {
-  // A lattice has no ballistic nodes in the plane.
+  // A lattice has no ballistic nodes in 2-D.
   Json scene = lump<Dim>(false);
   scene["particles"][0].erase("arrangement");
   scene["particles"][0].erase("seed");

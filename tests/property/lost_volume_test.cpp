@@ -13,7 +13,7 @@ using namespace minamo::scene_run;
 
 namespace {
 
-/// A tank of 1 m, half full of water at rest, cells of 0.1 m; in space 0.3 m deep.
+/// A tank of 1 m, half full of water at rest, cells of 0.1 m; in 3-D 0.3 m deep.
 Json tank(int dimension, const std::string& discretization) {
   Json scene = Json::parse(R"({
     "dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [10, 10]},

@@ -191,16 +191,16 @@ bool has(const Json& scene, const std::string& system) {
 
 }  // namespace
 
-TEST_CASE("the friction of a cell beside a wall has that of the wall, as by quadrature", "[property]") {
-  SECTION("in the plane, degree 2") { check_matrices<2, 2>(); }
-  SECTION("in the plane, degree 3") { check_matrices<2, 3>(); }
-  SECTION("in space, degree 2") { check_matrices<3, 2>(); }
+TEST_CASE("the friction of a cell at a wall has that of the wall, as by quadrature", "[property]") {
+  SECTION("in 2-D, degree 2") { check_matrices<2, 2>(); }
+  SECTION("in 2-D, degree 3") { check_matrices<2, 3>(); }
+  SECTION("in 3-D, degree 2") { check_matrices<3, 2>(); }
 }
 
 TEST_CASE("a step loses the energy that viscosity and walls take", "[property]") {
-  SECTION("in the plane, degree 2") { check_energy<2>(2); }
-  SECTION("in the plane, degree 3") { check_energy<2>(3); }
-  SECTION("in space, degree 2") { check_energy<3>(2); }
+  SECTION("in 2-D, degree 2") { check_energy<2>(2); }
+  SECTION("in 2-D, degree 3") { check_energy<2>(3); }
+  SECTION("in 3-D, degree 2") { check_energy<3>(2); }
 }
 
 TEST_CASE("short slip lengths tend to no-slip walls, long ones to slip walls", "[property]") {

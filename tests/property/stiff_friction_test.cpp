@@ -1,5 +1,5 @@
 /// \file
-/// (E119) Coarser levels of friction, in the plane and in space: few iterations on any grid, and the same solution.
+/// (E119) Coarser levels of friction, in 2-D and in 3-D: few iterations on any grid, and the same solution.
 
 #include "support/extremes.hpp"
 #include "support/scene_run.hpp"
@@ -67,7 +67,7 @@ TEST_CASE("stiff friction takes few iterations under a surface", "[property]") {
   CHECK(most_iterations(slump("[128, 64]"), 3) <= 14);
 }
 
-TEST_CASE("stiff friction in space takes few iterations on any grid", "[property][long]") {
+TEST_CASE("stiff friction in 3-D takes few iterations on any grid", "[property][long]") {
   // 18, 20, 21, 32 measured; the diagonal alone takes 26, 46, 28, 75.
   CHECK(most_iterations(honey("[16, 16, 16]", 1), 2) <= 22);
   CHECK(most_iterations(honey("[32, 32, 32]", 1), 1) <= 24);
@@ -100,7 +100,7 @@ double difference_to_direct(const Json& scene) {
 
 }  // namespace
 
-TEST_CASE("stiff friction in space has the solution of the sparse LU", "[property][long]") {
+TEST_CASE("stiff friction in 3-D has the solution of the sparse LU", "[property][long]") {
   const Json box = honey("[9, 9, 9]", 2.0 / 3);
   CHECK(difference_to_direct<3>(box) < 1e-6);
   CHECK(difference_to_direct<3>(with(box, {R"(/walls={"x": "slip", "y": {"slip_length": 0.01}, "z": "no_slip"})"})) <

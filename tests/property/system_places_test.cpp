@@ -86,7 +86,7 @@ TEST_CASE("every system in every slot is refused or runs, whatever the stabiliza
   try_all_places(2, GENERATE("/stabilization/scheme=\"vms\"", "/stabilization/scheme=\"oss\"", "/fluid/viscosity=0"));
 }
 
-TEST_CASE("every system in every slot is refused or runs, whatever the volume correction, and in space",
+TEST_CASE("every system in every slot is refused or runs, whatever the volume correction, and in 3-D",
           "[property][long]") {
   try_all_places(2, GENERATE("/volume/scheme=\"delta\"", "/volume/scheme=\"none\""));
   try_all_places(3, "/solver/scheme=\"block\"");

@@ -200,7 +200,7 @@ TEMPLATE_TEST_CASE_SIG("TPIC of second order gives a quadratic velocity to the p
     worst.add((v_i[i] - v_new[i]).norm());
   }
   CHECK(seen > 0);
-  CHECK(worst.value() < 1e-9);  // 5.5e-10 measured; TPIC of first order is 0.015 off in the plane, 0.05 in space
+  CHECK(worst.value() < 1e-9);  // 5.5e-10 measured; TPIC of first order is 0.015 off in 2-D, 0.05 in 3-D
 }
 
 TEMPLATE_TEST_CASE_SIG("TPIC of second order keeps the second derivatives by as much as the grid resolves them",

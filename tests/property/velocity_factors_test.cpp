@@ -171,7 +171,7 @@ TEST_CASE("iterations are preferred where many velocities are stiff, but not too
   CHECK(of_step.block.is_iteration() == is_iteration);
 }
 
-TEST_CASE("iterations are preferred sooner in space, where factors fill in", "[property]") {
+TEST_CASE("iterations are preferred sooner in 3-D, where factors fill in", "[property]") {
   // Friction of once and fifty times the inertia on some hundred unknowns.
   const double viscosity = GENERATE(100.0, 5000.0);
   CAPTURE(viscosity);

@@ -42,7 +42,7 @@ Json thrown(int dimension, std::size_t axis, int sign) {
   return scene;
 }
 
-/// The step that a CFL number of 0.5 gives the block at rest beside moving bodies.
+/// The step that a CFL number of 0.5 gives the block at rest near moving bodies.
 double first_step(int dimension, const std::string& motion, const std::string& more = "") {
   Json scene = with(block(dimension, 1), {R"(/time={"end": 10, "cfl": 0.5})", "/output={\"every\": 10}"});
   const std::string box = dimension == 2 ? R"({"low": [0.6, 0.1], "high": [0.8, 0.4]})"

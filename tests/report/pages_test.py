@@ -1,4 +1,4 @@
-"""Pages on runs in space, on several runs, on runs that went wrong, seen in a browser."""
+"""Pages on runs in 3-D, on several runs, on runs that went wrong, seen in a browser."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The page on a run in the plane, seen in a browser."""
+"""The page on a run in 2-D, seen in a browser."""
 
 from __future__ import annotations
 

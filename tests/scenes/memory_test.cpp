@@ -13,7 +13,7 @@ using namespace minamo;
 
 TEST_CASE("a run takes as much memory as was estimated, within the bounds that are documented", "[scene]") {
   if (is_address_sanitized()) return;  // which takes several times the memory, and all address space
-  // Water, and honey: in space the factors of its velocities are most of what a run takes.
+  // Water, and honey: in 3-D the factors of its velocities are most of what a run takes.
   const auto [name, viscosity, steps, most] =
       GENERATE(table<std::string, std::string, std::string, double>({{"dam_break.json", "1e-3", "1000", 2.4},
                                                                      {"dam_break_3d.json", "1e-3", "5", 2.4},

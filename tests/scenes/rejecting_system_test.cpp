@@ -13,7 +13,8 @@ using namespace minamo;
 
 namespace {
 
-/// A user's system that rejects the sixth step at its full length, late enough for the history beside it to be written.
+/// A user's system that rejects the sixth step at its full length, late enough for the history next to it to be
+/// written.
 template <int Dim>
 struct RefuseSixth {
   static constexpr std::string_view doc = "rejects a step";

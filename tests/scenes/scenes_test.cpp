@@ -22,7 +22,7 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
-/// The scene with at most 2 particles per cell and direction, on a coarse grid in space, and with a fixed step.
+/// The scene with at most 2 particles per cell and direction, on a coarse grid in 3-D, and with a fixed step.
 Json quick(const std::string& name) {
   Json scene = scene_of_file(name);
   for (Json& particles : scene["particles"]) particles["per_cell"] = std::min(2, particles.value("per_cell", 2));
@@ -113,7 +113,7 @@ TEST_CASE("the world of an inviscid scene has no viscosity matrix", "[scene]") {
   CHECK_FALSE(run.world().has<matrix::Viscosity<2>>());
 }
 
-TEST_CASE("the world of a scene in the plane has no column of space", "[scene]") {
+TEST_CASE("the world of a scene in 2-D has no column of space", "[scene]") {
   SceneRun run(scene_of_file("dam_break.json"));
   CHECK_FALSE(run.world().has<particle::Position<3>>());
 }

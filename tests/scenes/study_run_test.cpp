@@ -88,7 +88,7 @@ TEST_CASE("the table of a study has a line per variant", "[scene]") {
   CHECK(std::count(study.output.out.begin(), study.output.out.end(), '\n') == 8);
 }
 
-TEST_CASE("repeated runs leave the errors, and points of others stand beside", "[scene]") {
+TEST_CASE("repeated runs leave the errors, and points of others stand next to them", "[scene]") {
   const Folder folder;
   std::ofstream(folder / "others.csv") << "code,setting,cost,error\nAbc,coarse,1000,0.9\n";
   std::ofstream(folder / "small.json") << small_study("", R"(, "cost": "cpu", "repeat": 2, "others": "others.csv")");

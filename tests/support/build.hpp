@@ -13,7 +13,7 @@ namespace minamo {
 /// Whether the library is that of the address sanitizer.
 inline bool is_address_sanitized() { return __asan_init != nullptr; }
 
-/// The program of the same build: it lies beside the tests.
+/// The program of the same build: it lies next to the tests.
 inline std::string program_path() {
   return (std::filesystem::canonical("/proc/self/exe").parent_path() / "minamo").string();
 }

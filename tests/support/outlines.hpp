@@ -47,7 +47,7 @@ inline bool is_closed(const Outline<3>& outline) {
   });
 }
 
-/// Points less edges plus triangles: 2 per ball in space; 0 of closed lines.
+/// Points less edges plus triangles: 2 per ball in 3-D; 0 of closed lines.
 inline long euler_number(const Outline<2>& outline) {
   return static_cast<long>(outline.point.size()) - static_cast<long>(outline.element.size());
 }

@@ -39,7 +39,7 @@ TEST_CASE("a uniform body force is the same at all nodes with mass", "[unit]") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("a body force in space is sampled at the particles at the time of the balance", "[unit]") {
+TEST_CASE("a body force in 3-D is sampled at the particles at the time of the balance", "[unit]") {
   World world;
   fill<2>(world, 40, 52);
   set_force(world, "x*t", "y - g", 2);

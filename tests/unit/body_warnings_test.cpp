@@ -51,7 +51,7 @@ TEST_CASE("a thin gap between a body and a side is told with its place and width
   CHECK_THAT(found[0], Contains("thinner than two cells, 0.1 m"));
 }
 
-TEST_CASE("a thin gap beside a body that reaches through the sides is told", "[unit]") {
+TEST_CASE("a thin gap near a body that reaches through the sides is told", "[unit]") {
   const auto found =
       sentences_of(beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, -1], "high": [0.3, 2]}}}])"));
   const auto tells = [](const std::string& sentence) {
@@ -101,13 +101,13 @@ TEST_CASE("where bodies touch, stand on each other, reach through a side or meet
   for (const auto& sentence : sentences_of(beside_bodies(bodies))) CHECK_THAT(sentence, !Contains("gap"));
 }
 
-TEST_CASE("a side that is periodic has no gap beside it", "[unit]") {
+TEST_CASE("a side that is periodic has no gap next to it", "[unit]") {
   Json scene = beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [-1, 0.3], "high": [2, 0.5]}}}])");
   scene["walls"] = Json::parse(R"({"x": "periodic"})");
   for (const auto& sentence : sentences_of(scene)) CHECK_THAT(sentence, !Contains("gap"));
 }
 
-TEST_CASE("gaps in space are found", "[unit]") {
+TEST_CASE("gaps in 3-D are found", "[unit]") {
   const auto found =
       sentences_of(around_bodies(R"([{"name": "ball", "shape": {"ball": {"center": [0.25, 0.25, 0.35], "radius": 0.1}}},
                                        {"name": "lid", "shape": {"half_space": {"point": [0, 0, 0.48], "normal": [0, 0, -1]}}}])"));
@@ -136,7 +136,7 @@ TEST_CASE("bodies at rest that overlap are told which, how deep and where; those
   CHECK(sentences_of(beside_bodies(bodies(0.5))).empty());
 }
 
-TEST_CASE("bodies in space that overlap are told", "[unit]") {
+TEST_CASE("bodies in 3-D that overlap are told", "[unit]") {
   const auto found = sentences_of(
       around_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.1, 0.1, 0.25], "high": [0.3, 0.3, 0.4]}}},
                         {"name": "b", "shape": {"ball": {"center": [0.35, 0.2, 0.3], "radius": 0.1}}}])"));

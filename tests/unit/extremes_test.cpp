@@ -56,7 +56,7 @@ TEST_CASE("a NaN is not lost on the way from a value so far", "[unit]") {
 }
 
 TEST_CASE("no test sums up errors by what loses a NaN", "[unit]") {
-  // Whole numbers have their type beside std::max.
+  // Whole numbers have their type next to std::max.
   const std::regex loses(R"((\w+) = std::(max|min)\(\1,)");
   for (const auto& at : std::filesystem::recursive_directory_iterator(MINAMO_SOURCE_DIR "/tests")) {
     const std::string path = at.path();

@@ -155,7 +155,7 @@ TEST_CASE("a frame takes as much of a growing file at its end as at its begin", 
     ends.push_back(file.committed().end);
   }
   // Between powers of two the room for names does not move. The path through the tree has two nodes more at the end: of
-  // 288 bytes, for two groups, beside 2770.
+  // 288 bytes, for two groups, next to 2770.
   const auto mean = [&](std::size_t from, std::size_t to) {
     return static_cast<double>(ends[to] - ends[from]) / static_cast<double>(to - from);
   };

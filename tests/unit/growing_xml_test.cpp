@@ -45,7 +45,7 @@ TEST_CASE("a document that grows is well-formed and has its elements in order", 
     is_right = is_right && is_well_formed(text) && element_numbers(text) == numbers_up_to(k + 1);
   }
   CHECK(is_right);
-  // Beside the elements there is the room that the tail has had, and what is left of a page.
+  // Next to the elements there is the room that the tail has had, and what is left of a page.
   CHECK(std::filesystem::file_size(path) < 50 * (bytes + 60) + 50 * (bytes + 60) / 4096 * 20 + 100);
 }
 

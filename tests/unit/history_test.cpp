@@ -36,13 +36,13 @@ constexpr std::size_t columns_2d = 14;
 
 }  // namespace
 
-TEST_CASE("the history in the plane has the columns of the interface", "[unit]") {
+TEST_CASE("the history in 2-D has the columns of the interface", "[unit]") {
   CHECK(history_header<2>({}) ==
         "step,time,dt,kinetic_energy,potential_energy,momentum_x,momentum_y,angular_momentum,max_speed,"
         "max_divergence,overlap,active_nodes,iterations,residual");
 }
 
-TEST_CASE("the history in space has the columns of the interface", "[unit]") {
+TEST_CASE("the history in 3-D has the columns of the interface", "[unit]") {
   CHECK(history_header<3>({}) ==
         "step,time,dt,kinetic_energy,potential_energy,momentum_x,momentum_y,momentum_z,angular_momentum_x,"
         "angular_momentum_y,angular_momentum_z,max_speed,max_divergence,overlap,active_nodes,iterations,residual");

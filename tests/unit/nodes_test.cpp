@@ -37,10 +37,10 @@ TEST_CASE("a node with hardly any mass is active next to a node of a wall that h
   for (const std::size_t heavy : {at(3, 0), at(0, 0), at(3, 3)}) masses[heavy] = 1;
   for (const std::size_t light : {at(3, 1), at(1, 1), at(4, 3), at(6, 3)}) masses[light] = 1e-12;
   const auto row = rows_of(masses, world);
-  CHECK(row[at(3, 1)] >= 0);   // beside the floor
+  CHECK(row[at(3, 1)] >= 0);   // next to the floor
   CHECK(row[at(1, 1)] >= 0);   // in a corner
   CHECK(row[at(4, 3)] == -1);  // inside, where ballistic nodes are at the edge of a support
-  CHECK(row[at(6, 3)] == -1);  // beside a wall that is dry
+  CHECK(row[at(6, 3)] == -1);  // at a wall that is dry
 }
 
 TEST_CASE("a row of the matrix knows its node", "[unit]") {

@@ -127,7 +127,7 @@ TEST_CASE("a body force may be an ode variable", "[unit]") {
   CHECK(worst.value() < 3e-14);
 }
 
-TEST_CASE("a body force in space may use ode variables", "[unit]") {
+TEST_CASE("a body force in 3-D may use ode variables", "[unit]") {
   SceneRun run(scene_run::with(accelerated, {R"(/body_force=["0*x", "-g"])"}));
   run.step(10);
   Largest worst;

@@ -75,7 +75,7 @@ TEMPLATE_TEST_CASE_SIG("the surface of a pool is flat and where its particles en
     lowest = smallest_of(lowest, off);
     highest = largest_of(highest, off);
   }
-  // In the plane points on a straight line are left out.
+  // In 2-D points on a straight line are left out.
   CHECK((Dim == 2 || on_top > 100));
   if (Dim == 3) CHECK(highest - lowest < 1e-3 * pool.spacing);
   if (on_top > 0) CHECK(farthest_off.value() < 0.1 * pool.spacing);  // 0.02 and 0.06 measured

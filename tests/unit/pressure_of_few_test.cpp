@@ -4,7 +4,7 @@
 
 using namespace minamo;
 
-TEST_CASE("a pressure beside a body continues those around, and not far beyond them", "[unit]") {
+TEST_CASE("a pressure near a body continues those around, and not far beyond them", "[unit]") {
   const Grid<2> grid{{0, 0}, {8, 8}, 1, {8, 8}};
   const Splines<2> splines = make_splines(grid, 2);
   // Two multipliers of a front and, the last row, one that a body cuts. The middles of their liquid lie 1.1 h and

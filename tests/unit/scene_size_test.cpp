@@ -43,7 +43,7 @@ TEST_CASE("a shape on many cells is counted by samples", "[unit]") {
   CHECK(size.particles == Approx(0.05 * size.places).epsilon(0.02));
 }
 
-TEST_CASE("a finer scene, one with UMFPACK and one in space need more memory", "[unit]") {
+TEST_CASE("a finer scene, one with UMFPACK and one in 3-D need more memory", "[unit]") {
   const std::string box = R"({"box": {"low": [0, 0], "high": [0.5, 0.25]}})";
   const auto memory = [](const Scene& scene) { return memory_of(scene, size_of(scene)); };
   CHECK(memory(with_shape(box, 80)) > memory(with_shape(box)));

@@ -84,8 +84,7 @@ TEST_CASE("sampled outlines are closed, turned outward, and have their points on
   CHECK(enclosed(of_cylinder) == Approx(pi * 0.09).epsilon(1e-2));
 }
 
-TEST_CASE("outlines of combinations in the plane have their corners, and only these where sides are straight",
-          "[unit]") {
+TEST_CASE("outlines of combinations in 2-D have their corners, and only these where sides are straight", "[unit]") {
   const auto along = shape_of_parts<2, shapes::Box<2>>(Vec<2>(-0.3, -0.03), Vec<2>(0.3, 0.03));
   const auto upright = shape_of_parts<2, shapes::Box<2>>(Vec<2>(-0.03, -0.3), Vec<2>(0.03, 0.3));
   const auto cross = outline_of<2>(shapes::Union<2>({along, upright}), box_of_one<2>(), 0.01);

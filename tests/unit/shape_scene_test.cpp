@@ -37,7 +37,7 @@ double measure(int dimension, const std::string& shape) {
 
 }  // namespace
 
-TEST_CASE("regions of every shape in the plane have its area", "[unit]") {
+TEST_CASE("regions of every shape in 2-D have its area", "[unit]") {
   using std::numbers::pi;
   const auto [shape, area] = GENERATE(table<std::string, double>({
       {R"({"box": {"low": [0.3, 0.4], "high": [0.8, 0.6], "angle": 30}})", 0.1},
@@ -62,7 +62,7 @@ TEST_CASE("regions of every shape in the plane have its area", "[unit]") {
   CHECK(measure(2, shape) == Approx(area).margin(0.006));  // of 6400 places some dozens at the edge are in or out
 }
 
-TEST_CASE("regions of every shape in space have its volume", "[unit]") {
+TEST_CASE("regions of every shape in 3-D have its volume", "[unit]") {
   using std::numbers::pi;
   const auto [shape, volume] = GENERATE(table<std::string, double>({
       {R"({"box": {"low": [0.3, 0.4, 0.2], "high": [0.8, 0.6, 0.8], "angle": 30, "axis": [1, 1, 1]}})", 0.06},
@@ -95,7 +95,7 @@ TEST_CASE("a turned shape stands as it should", "[unit]") {
   CHECK((high - Vec<3>(0.5875, 0.8875, 0.4875)).norm() < 1e-12);
 }
 
-TEST_CASE("the file of a mesh lies beside the scene, and the scene as run has its whole path", "[unit]") {
+TEST_CASE("the file of a mesh lies next to the scene, and the scene as run has its whole path", "[unit]") {
   const Folder folder;
   solids::write_obj(folder / "ball.obj", solids::ball(1));
   const Json scene = box(3, R"({"mesh": {"file": "./ball.obj", "scale": 0.3, "move": [0.5, 0.5, 0.5]}})");

@@ -140,9 +140,9 @@ TEST_CASE("the share of a spline below a plane is that of its integral", "[unit]
   check_shares<3, 3>(24, 2e-3);
 }
 
-TEST_CASE("the share of a spline keeps its digits beside a plane along the grid", "[unit]") {
-  // A symmetric spline: as much is below a plane as above its image. By differences of powers 5e-10 was lost in the
-  // plane, 2e-5 in space.
+TEST_CASE("the share of a spline keeps its digits next to a plane along the grid", "[unit]") {
+  // A symmetric spline: as much is below a plane as above its image. By differences of powers 5e-10 was lost in
+  // 2-D, 2e-5 in 3-D.
   const double off = GENERATE(1e-1, 1e-2, 5e-3, 1e-4);
   const int degree = GENERATE(2, 3);
   CAPTURE(off, degree);

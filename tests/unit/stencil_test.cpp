@@ -80,5 +80,5 @@ TEMPLATE_TEST_CASE_SIG("all of a stencil is what a plain loop finds", "[unit]", 
   }
   CHECK(wrong == 0);
   CHECK(found[0] > 0);
-  if (Dim == 2) CHECK(found[1] > 0);  // of 125 neighbours in space one is always missing
+  if (Dim == 2) CHECK(found[1] > 0);  // of 125 neighbours in 3-D one is always missing
 }

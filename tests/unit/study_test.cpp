@@ -200,7 +200,7 @@ TEST_CASE("by processor time frontier and rank are those of the other column", "
   CHECK(all[4].rank == 1);
 }
 
-TEST_CASE("beside a point of others stands the cheapest variant that is at least as accurate", "[unit]") {
+TEST_CASE("next to a point of others stands the cheapest variant that is at least as accurate", "[unit]") {
   const StudyTable ours = table();
   const auto pairs = at_equal_error(ours, {{"Abc", "fine", 20, 0.05}, {"Abc", "too fine", 20, 0.001}});
   REQUIRE(pairs.size() == 2);
@@ -231,9 +231,9 @@ TEST_CASE("the farthest particle is measured from the centre of mass", "[unit]")
 }
 
 // Particles of the coarsest grids are laid out; finer ones ask for more of the same.
-TEST_CASE("every study beside the scenes is valid", "[unit][long]") {
+TEST_CASE("every study next to the scenes is valid", "[unit][long]") {
   for (const auto& entry : std::filesystem::directory_iterator(studies)) {
-    if (entry.path().extension() != ".json") continue;  // results lie beside the studies
+    if (entry.path().extension() != ".json") continue;  // results lie next to the studies
     CAPTURE(entry.path().string());
     const Study study = read_study(entry.path().string());
     std::vector<Variant> variants;

@@ -77,7 +77,7 @@ void for_each_fine_point(const typename FreeSurface<Dim>::Element& element, cons
   }
 }
 
-/// Mean velocity of the surface around a site: the quadratic splines once more, for sites that are not beside walls.
+/// Mean velocity of the surface around a site: the quadratic splines once more, for sites that are not at walls.
 template <int Dim, class Velocity>
 Vec<Dim> mean_around(const std::vector<typename FreeSurface<Dim>::Element>& elements, const Grid<Dim>& grid,
                      const Index<Dim>& node, const Velocity& velocity) {

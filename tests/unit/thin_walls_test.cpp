@@ -71,7 +71,7 @@ void check_dry_side() {
     CHECK(shaded(thickness / 2 + beyond, -0.5) == Approx(-thickness - beyond));
   }
   CHECK(shaded(thickness / 2 - 0.001, -0.5) == Approx(-thickness + 0.001));
-  // Beside the end of the wall, which is 0.2 m above the liquid, the way around is as short as through it.
+  // Next to the end of the wall, which is 0.2 m above the liquid, the way around is as short as through it.
   CHECK(shaded(thickness / 2 + 0.05, -0.01) > 0);
   CHECK(shaded(thickness / 2 + 0.05, -0.3) < 0);
   CHECK_FALSE(walls->wet_on_both_sides(shape));

@@ -110,7 +110,7 @@ TEST_CASE("an accelerated disc has the added mass of potential flow", "[verifica
 }
 
 TEST_CASE("water in a tilted tank rests", "[verification]") {
-  // 1.1e-3 m/s of degree 2, what particles beside the walls tell of the surface there, and for as long as one computes
+  // 1.1e-3 m/s of degree 2, what particles at the walls tell of the surface there, and for as long as one computes
   // (rest_test); 4.6e-3 m/s with degree 3, whose forces are those of particles.
   const auto [degree, most] = GENERATE(table<int, double>({{2, 2e-3}, {3, 1e-2}}));
   CAPTURE(degree);
@@ -119,7 +119,7 @@ TEST_CASE("water in a tilted tank rests", "[verification]") {
   CHECK(fastest(run.world()) < most);
 }
 
-TEST_CASE("water rests in a tank that is tilted in space", "[verification]") {
+TEST_CASE("water rests in a tank that is tilted in 3-D", "[verification]") {
   SceneRun run(Json::parse(R"json({"dimension": 3,
     "grid": {"low": [-0.45, -0.45, -0.45], "high": [0.45, 0.45, 0.45], "cells": [18, 18, 18]},
     "fluid": {"density": 1000, "viscosity": 0}, "body_force": [0, 0, -9.81],
@@ -140,7 +140,7 @@ TEST_CASE("a wave in a tilted tank drives no whirls", "[verification][long]") {
   CHECK(fastest(run.world()) < 0.03);  // 0.01 to 0.02 m/s at any time; with whirls in its corners 0.1 after 4 s
 }
 
-TEST_CASE("the pressure beside walls across the grid is that of water at rest", "[verification]") {
+TEST_CASE("the pressure at walls across the grid is that of water at rest", "[verification]") {
   const auto [degree, measured_error] = GENERATE(table<int, double>({{2, 1.5e-3}, {3, 8.3e-3}}));
   CAPTURE(degree);
   Json scene = tilted_tank(40, degree);
@@ -203,7 +203,7 @@ TEST_CASE("a front that strikes a wall across the grid gains little energy", "[v
   CHECK(rise_of_energy(run, 300) < 8e-3);
 }
 
-TEST_CASE("beside bodies, too, velocities have no divergence", "[verification]") {
+TEST_CASE("near bodies, too, velocities have no divergence", "[verification]") {
   // Across the grid; one that moves as it is told; free ones; an inlet and an outlet.
   const std::string name = GENERATE("tilted_dam_break", "mixer", "sinking_discs", "mould", "jet_on_plate");
   CAPTURE(name);
@@ -217,7 +217,7 @@ TEST_CASE("beside bodies, too, velocities have no divergence", "[verification]")
   CHECK(divergence.value() < 1e-7 * fastest(run.world()) / run.world().resource<Grid<2>>().spacing);
 }
 
-TEST_CASE("beside a body the fill is that of the open volumes around, at a side, too", "[property]") {
+TEST_CASE("near a body the fill is that of the open volumes around, at a side, too", "[property]") {
   // A thin layer under a roof that meets the side of the box: below it no row of the grid is.
   Json scene = Json::parse(R"json({"dimension": 2,
     "grid": {"low": [0, 0], "high": [1, 1], "cells": [16, 16]}, "fluid": {"density": 1000, "viscosity": 0},
@@ -270,7 +270,7 @@ TEST_CASE("the liquid that is left has the volume that bodies leave", "[verifica
 }
 
 TEST_CASE("what bodies leave too little of for a particle counts as cut away", "[verification]") {
-  // A film of 0.15 of a particle's size over a step, and a pool beside it.
+  // A film of 0.15 of a particle's size over a step, and a pool next to it.
   SceneRun run(Json::parse(R"json({"dimension": 2,
     "grid": {"low": [0, 0], "high": [1, 1], "cells": [16, 16]}, "fluid": {"density": 1000, "viscosity": 0},
     "particles": [{"shape": {"box": {"low": [0, 0], "high": [0.25, 0.03125]}}, "per_cell": 2},

@@ -133,7 +133,7 @@ std::vector<double> scattered(std::size_t count, int seed) {
 
 }  // namespace
 
-TEST_CASE("friction beside bodies is symmetric, dissipates, and takes no momentum", "[property]") {
+TEST_CASE("friction near bodies is symmetric, dissipates, and takes no momentum", "[property]") {
   const int degree = GENERATE(2, 3);
   CAPTURE(degree);
   Json scene = couette(22);

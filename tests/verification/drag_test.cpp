@@ -67,7 +67,7 @@ TEST_CASE("drag is the same for a body that moves and one that stands, at any st
   const double step = GENERATE(0.04, 0.01);
   CAPTURE(body_moves, step);
   // Reynolds number 20. 3.60 with 24 cells across, 3.60 to 3.82 with 6: that is what the stream loses, test below. The
-  // force without (E126) was 3.62 to 3.77; 3.4 to 5.6 when faces beside the wall were set back in every step.
+  // force without (E126) was 3.62 to 3.77; 3.4 to 5.6 when faces at the wall were set back in every step.
   CHECK(drag(stream(square, "no_slip", 0.05, step, body_moves), 2, 3) == Approx(3.6).epsilon(0.065));
 }
 

@@ -73,7 +73,7 @@ TEST_CASE("the elliptical drop follows its exact solution", "[verification]") {
   CHECK(corrected < 0.8 * velocity_error(with(scene, {R"(/transfer/inertia="lumped")"}), 20));
 }
 
-TEST_CASE("the ball flattens to its exact ellipsoid in space", "[verification]") {
+TEST_CASE("the ball flattens to its exact ellipsoid in 3-D", "[verification]") {
   // Three cells to a radius. 0.9e-3 was measured, 1.1e-2 with lumped inertia, 1.2e-2 with the gradients of (E62) left
   // behind.
   const Json scene =

@@ -79,7 +79,7 @@ TEST_CASE("two liquids of unlike viscosity flow through a channel side by side",
   CHECK(error_of(scene, "error_velocity", 300) < 2e-2);  // 1.4e-2
 }
 
-TEST_CASE("a liquid with a law that is Newtonian flows beside another like a Newtonian one", "[verification]") {
+TEST_CASE("a liquid with a law that is Newtonian flows next to another like a Newtonian one", "[verification]") {
   Json scene = channel(16, 0.5);
   const double newtonian = error_of(scene, "error_velocity", 50);
   scene["fluids"]["thick"] = Json::parse(R"({"density": 1, "rheology": {"power_law": {"consistency": 1, "index": 1,

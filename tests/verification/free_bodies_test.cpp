@@ -130,8 +130,7 @@ TEST_CASE("a turned box floats as deep as Archimedes says, the better the finer 
   CHECK(error(80) < 0.6 * coarse);
 }
 
-TEST_CASE("a ball in space has the added mass of potential flow, the better the finer the grid",
-          "[verification][long]") {
+TEST_CASE("a ball in 3-D has the added mass of potential flow, the better the finer the grid", "[verification][long]") {
   Json scene = tank_with<3>(1, R"({"ball": {"center": [0.5, 0.5, 0.5], "radius": 0.16}})", "{}");
   scene["body_force"] = {0, 0, 0};
   scene["bodies"][0]["motion"] = {{"prescribed", {{"velocity", {"t", 0, 0}}}}};
@@ -164,7 +163,7 @@ TEST_CASE("a body on a spring swings with its period, and damped as its damper s
   }
 }
 
-TEST_CASE("a body that turns freely in space keeps its angular momentum and its energy", "[verification]") {
+TEST_CASE("a body that turns freely in 3-D keeps its angular momentum and its energy", "[verification]") {
   Json scene = tank_with<3>(0.2, R"({"box": {"low": [0.3, 0.5, 0.4], "high": [0.7, 0.8, 0.6]}})",
                             R"({"density": 500, "rotation": [1, 5, 0.2]})");
   scene["body_force"] = {0, 0, 0};

@@ -42,7 +42,7 @@ struct Errors {
   }
 };
 
-// Twenty steps with roundings of 1e-15 of coordinates and speeds of 3: 2e-15 and 2e-14 in space, a third in the plane.
+// Twenty steps with roundings of 1e-15 of coordinates and speeds of 3: 2e-15 and 2e-14 in 3-D, a third in 2-D.
 constexpr double rounding_of_position = 2e-14;
 constexpr double rounding_of_velocity = 2e-13;
 
@@ -67,7 +67,7 @@ TEST_CASE("a blob falls without changing its shape", "[verification]") {
   CHECK(error.velocity.value() < rounding_of_velocity);
 }
 
-TEST_CASE("a ball in space falls without changing its shape", "[verification][long]") {
+TEST_CASE("a ball in 3-D falls without changing its shape", "[verification][long]") {
   SceneRun run(any_method(
       falling(3, R"({"ball": {"center": [1.6, 1.6, 2.6], "radius": 0.4}})", "[1, 0, 0.5]", "[0.5, -1, -9.75]")));
   CAPTURE(run.scene().schemes);

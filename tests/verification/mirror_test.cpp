@@ -110,7 +110,7 @@ TEST_CASE("what openings prescribe is the same in the mirror", "[property]") {
   check_image<2>(scene, mirror, 8, 1e-10);
 }
 
-TEST_CASE("openings in space are the same in the mirror", "[property]") {
+TEST_CASE("openings in 3-D are the same in the mirror", "[property]") {
   const Json scene = Json::parse(R"json({
     "dimension": 3, "grid": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.3], "cells": [12, 8, 10]},
     "fluid": {"density": 1000, "viscosity": 2}, "body_force": [0, 0, -9.81],
@@ -174,8 +174,8 @@ TEST_CASE("the lattice of a shape is the same in the mirror where its surface pa
 }
 
 TEST_CASE("forces on exact integrals are the same in the mirror", "[property]") {
-  // Beside a surface at an angle, at rest and moving. 0.15 m/s off where the acceleration beside a face was that of one
-  // of its sides, and faces without liquid on the high side told whether it moves.
+  // Next to a surface at an angle, at rest and moving. 0.15 m/s off where the acceleration next to a face was that of
+  // one of its sides, and faces without liquid on the high side told whether it moves.
   const std::string degree = GENERATE("2", "3");
   const std::string velocity = GENERATE("[0, 0]", R"json(["0.02*sin(7*y)", "0.02*x"])json");
   const Mirror<2> mirror = GENERATE(in_x, in_y, exchanged);
@@ -221,7 +221,7 @@ TEST_CASE("walls of bodies are the same in the mirror, of two in a cell, too", "
   check_image<2>(scene, mirror, 3, 7e-9);
 }
 
-TEST_CASE("bodies in space are the same in the mirror", "[property]") {
+TEST_CASE("bodies in 3-D are the same in the mirror", "[property]") {
   // The viscosity is the largest that friction at the start of a step takes with this slip length.
   const std::string body =
       GENERATE(R"({"shape": {"ball": {"center": [0.05, 0.02, 0], "radius": 0.11}}, "wall": "no_slip"})",
@@ -242,7 +242,7 @@ TEST_CASE("bodies in space are the same in the mirror", "[property]") {
   check_image<3>(scene, mirror, 2, 1e-9);
 }
 
-TEST_CASE("drops in the plane are the same in the mirror", "[property]") {
+TEST_CASE("drops in 2-D are the same in the mirror", "[property]") {
   const std::string drop = GENERATE(R"({"ball": {"center": [0.03, 0.05], "radius": 0.16}})",
                                     R"({"ball": {"center": [0.1, 0.1], "radius": 0.17}})",  // in the middle of the box
                                     R"({"intersection": [{"ball": {"center": [0.03, -0.17], "radius": 0.2}},
@@ -258,7 +258,7 @@ TEST_CASE("drops in the plane are the same in the mirror", "[property]") {
   check_image<2>(scene, mirror, 5, 1e-10);
 }
 
-TEST_CASE("drops in space are the same in the mirror", "[property]") {
+TEST_CASE("drops in 3-D are the same in the mirror", "[property]") {
   const std::string drop = GENERATE(R"({"ball": {"center": [0.03, 0.01, 0.05], "radius": 0.16}})",
                                     R"({"intersection": [{"ball": {"center": [0.03, -0.02, -0.17], "radius": 0.19}},
                                                          {"box": {"low": [-0.3, -0.2, -0.2], "high": [0.3, 0.2, 0.3]}}]})");

@@ -1,5 +1,5 @@
 /// \file
-/// Bodies that move fast, close to others, or where there is no room: what particles beside them may not do.
+/// Bodies that move fast, close to others, or where there is no room: what particles next to them may not do.
 
 #include "support/energy.hpp"
 #include "support/extremes.hpp"

@@ -84,7 +84,7 @@ TEST_CASE("a uniform stream through the box keeps velocity and density at any an
   check_stream<2>(stream<2>(w, step, per_cell), w, 40);
 }
 
-TEST_CASE("a uniform stream through the sides of a box in space keeps velocity and density", "[verification]") {
+TEST_CASE("a uniform stream through the sides of a box in 3-D keeps velocity and density", "[verification]") {
   const double step = GENERATE(0.0137, 0.17);
   const Vec<3> w = GENERATE(Vec<3>(0.8, 0.5, -0.3), Vec<3>(-0.4, 0, 0.7));
   CAPTURE(step, w);
@@ -404,7 +404,7 @@ TEST_CASE("static pressures drive plane Poiseuille flow whatever its Reynolds nu
   CHECK(share_of_flow(scene, 40) < (viscosity > 1 ? 0.99 : 0.86));
 }
 
-TEST_CASE("static pressures drive plane Poiseuille flow in space", "[verification]") {
+TEST_CASE("static pressures drive plane Poiseuille flow in 3-D", "[verification]") {
   const Json scene = pressure_channel(3, 1);
   CHECK(share_of_flow(with_static_pressures(scene), 20) == Approx(1).epsilon(0.02));
 }

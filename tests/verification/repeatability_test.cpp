@@ -114,25 +114,25 @@ std::size_t lone_particles(World& world) {
 
 }  // namespace
 
-TEST_CASE("one thread and two give the same bits in the plane", "[verification][threads]") {
+TEST_CASE("one thread and two give the same bits in 2-D", "[verification][threads]") {
   const State one = after(splash_2d(), 50, 1, Execution::graph);
   const State two = after(splash_2d(), 50, 2, Execution::graph);
   CHECK(differences(one, two).empty());
 }
 
-TEST_CASE("the graph gives the bits of the list in the plane", "[verification][threads]") {
+TEST_CASE("the graph gives the bits of the list in 2-D", "[verification][threads]") {
   const State graph = after(splash_2d(), 50, 2, Execution::graph);
   const State list = after(splash_2d(), 50, 1, Execution::list);
   CHECK(differences(graph, list).empty());
 }
 
-TEST_CASE("one thread and two give the same bits in space", "[verification][threads]") {
+TEST_CASE("one thread and two give the same bits in 3-D", "[verification][threads]") {
   const State one = after(splash_3d(), 10, 1, Execution::graph);
   const State two = after(splash_3d(), 10, 2, Execution::graph);
   CHECK(differences(one, two).empty());
 }
 
-TEST_CASE("the graph gives the bits of the list in space", "[verification][threads]") {
+TEST_CASE("the graph gives the bits of the list in 3-D", "[verification][threads]") {
   const State graph = after(splash_3d(), 10, 2, Execution::graph);
   const State list = after(splash_3d(), 10, 1, Execution::list);
   CHECK(differences(graph, list).empty());

@@ -58,7 +58,7 @@ double late_unrest(const Json& scene) {
 
 }  // namespace
 
-TEST_CASE("water rests at any angle of gravity to the grid, in the plane", "[verification][long]") {
+TEST_CASE("water rests at any angle of gravity to the grid, in 2-D", "[verification][long]") {
   std::mt19937 random(20);
   std::uniform_real_distribution<double> share(0, 1);
   const double angle = std::numbers::pi * (0.02 + 0.21 * share(random));
@@ -76,7 +76,7 @@ TEST_CASE("water rests at any angle of gravity to the grid, in the plane", "[ver
   CHECK(late_unrest<2>(scene) < 0.015);
 }
 
-TEST_CASE("water rests at any angle of gravity to the grid, in space", "[verification]") {
+TEST_CASE("water rests at any angle of gravity to the grid, in 3-D", "[verification]") {
   const Vec<3> up = Vec<3>(-1, 5, -2).normalized();
   CHECK(late_unrest<3>(pool_at_angle<3>(up, {0.5, 0.52, 0.47}, 10, 2)) < 0.012);  // forces by particles: 0.16
 }
@@ -92,7 +92,7 @@ TEST_CASE("two liquids, one above the other, rest at an angle", "[verification]"
   CHECK(late_unrest<2>(scene) < 0.02);
 }
 
-TEST_CASE("water rests beside bodies, wherever they are in the grid", "[verification][long]") {
+TEST_CASE("water rests near bodies, wherever they are in the grid", "[verification][long]") {
   // On a beach, around a post, in a tank and in one that is turned; places and heights by chance. With "mixed" the
   // fastest particle has 0.22 m/s around the post and 0.27 m/s in the turned tank from 4 to 8 s; on the beach and in
   // the straight tank water rests here with both.

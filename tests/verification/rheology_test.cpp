@@ -151,7 +151,7 @@ TEST_CASE("grains flow down a slope with Bagnold's profile", "[verification][lon
   CHECK(error_on_slope(slope(16), "error_pressure", 100) < 6e-4);  // 3.7e-4
 }
 
-TEST_CASE("grains flow down a slope in space as in the plane", "[verification][long]") {
+TEST_CASE("grains flow down a slope in 3-D as in 2-D", "[verification][long]") {
   Json scene = slope(16);
   scene["dimension"] = 3;
   scene["grid"] = {{"low", {0, 0, 0}}, {"high", {0.025, 0.06, 0.025}}, {"cells", {5, 12, 5}}};

@@ -103,7 +103,7 @@ TEST_CASE("the volume correction does not hold liquid at a separating lid", "[ve
   CHECK(off_free_fall<2>(run, 20, 0.01) < 1e-10);
 }
 
-TEST_CASE("liquid under a separating lid falls freely in space", "[verification]") {
+TEST_CASE("liquid under a separating lid falls freely in 3-D", "[verification]") {
   SceneRun run(under_lid(3, "separating"));
   CHECK(off_free_fall<3>(run, 20, 0.01) < 1e-10);
 }
@@ -186,7 +186,7 @@ TEST_CASE("liquid under a separating body falls freely", "[verification]") {
   CHECK(falling("slip") > 0.1);
 }
 
-TEST_CASE("liquid under a separating body falls freely in space", "[verification]") {
+TEST_CASE("liquid under a separating body falls freely in 3-D", "[verification]") {
   Json scene = under_lid(3, "slip");
   scene["bodies"] = Json::parse(
       R"([{"name": "lid", "wall": "separating", "shape": {"box": {"low": [0.1, 0.1, 0.87], "high": [0.9, 0.9, 2]}}}])");
@@ -195,7 +195,7 @@ TEST_CASE("liquid under a separating body falls freely in space", "[verification
   CHECK(off_free_fall<3>(run, 20, 0.01) < 1e-10);
 }
 
-TEST_CASE("liquid that falls from a separating body goes on with the body beside", "[verification]") {
+TEST_CASE("liquid that falls from a separating body goes on with the adjacent body", "[verification]") {
   // Two lids side by side, across a cell; what is attached to the second.
   const auto attached = [](const std::string& first) {
     Json scene = under_lid(2, "slip");

@@ -1,5 +1,5 @@
 /// \file
-/// Iterations of thick liquids around bodies in the plane, (E119).
+/// Iterations of thick liquids around bodies in 2-D, (E119).
 
 #include "support/scene_run.hpp"
 

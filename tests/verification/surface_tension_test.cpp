@@ -61,7 +61,7 @@ TEST_CASE("the pressure in a drop at rest is that of its curvature", "[verificat
   CHECK(largest_speed<2>(run.world()) < 0.05);
 }
 
-TEST_CASE("the pressure in a drop in space is that of its curvature", "[verification][long]") {
+TEST_CASE("the pressure in a drop in 3-D is that of its curvature", "[verification][long]") {
   SceneRun run(drop_at_rest<3>(16, 2.5e-3));
   run.step(60);
   const double expected = 2 / radius_of<3>(run.world());

@@ -1,5 +1,5 @@
 /// \file
-/// (E136) Water beside walls thinner than a cell, at angles and offsets of no meaning to the grid.
+/// (E136) Water at walls thinner than a cell, at angles and offsets of no meaning to the grid.
 
 #include "support/extremes.hpp"
 #include "support/folder.hpp"

@@ -177,7 +177,7 @@ TEST_CASE("a paddle makes waves of the height of first-order theory", "[verifica
   CHECK(std::abs(both[1]) < 0.13 * std::abs(both[0]));
 }
 
-TEST_CASE("a paddle that moves by second-order theory makes half of the short waves that run beside its own",
+TEST_CASE("a paddle that moves by second-order theory makes half of the short waves that run next to its own",
           "[verification][long]") {
   constexpr double stroke = 0.04;
   const double k = wave_number_of(omega);

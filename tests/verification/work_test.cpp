@@ -27,7 +27,7 @@ double rise_after(const Json& scene, int steps) {
   return energy_rise(run.world());
 }
 
-/// Water in the lower half of a box of 1 m, 12 cells a side, in space 6.
+/// Water in the lower half of a box of 1 m, 12 cells a side, in 3-D 6.
 template <int Dim>
 Json half_full_box() {
   Json scene = Json::parse(R"({"fluid": {"density": 1000, "viscosity": 1e-3}, "transfer": {"scheme": "tpic"},
@@ -71,14 +71,14 @@ Json drop(int cells, double radius, double height, double angle) {
 
 }  // namespace
 
-TEST_CASE("a drop at rest gains no energy, however small beside its surface the energy of its currents",
+TEST_CASE("a drop at rest gains no energy, however small next to its surface the energy of its currents",
           "[verification]") {
   const auto [cells, radius] = GENERATE(table<int, double>({{16, 0.25}, {16, 0.3}, {32, 0.25}}));
   CAPTURE(cells, radius);
   CHECK(rise_after(drop<2>(cells, radius, 0.5, 90), 100) < told);
 }
 
-TEST_CASE("a drop at rest in space gains no energy", "[verification]") {
+TEST_CASE("a drop at rest in 3-D gains no energy", "[verification]") {
   CHECK(rise_after(drop<3>(16, 0.25, 0.5, 90), 20) < told);
 }
 

@@ -24,7 +24,7 @@ PEERS = {
     "80": {"interFoam": 23, "apic2d": 0.32, "MLS-MPM": 0.61},
 }
 PEERS_TEXT = """\
-CPU seconds per simulated second of conforming, beside three other codes with as many cells and particles: OpenFOAM's
+CPU seconds per simulated second of conforming, compared with three other codes with as many cells and particles: OpenFOAM's
 interFoam, apic2d (APIC, projection, CFL number 3, float) and an explicit, weakly compressible MLS-MPM (CFL number 0.7).
 Theirs were measured once, on one core of an AMD EPYC (Zen 4). A ratio above 1 means that theirs takes longer. More
 codes are in [scenes/COMPARISON.md](../../scenes/COMPARISON.md).
@@ -69,7 +69,7 @@ def ratios(rows: list[Row]) -> str:
               *(f"{equal[key] / conforming[key]:.1f}" for key in ("cpu_s", "step_s"))]
              for label, conforming, equal in pairs(rows)]
     head = ["run", "conforming: CPU per simulated second [s]", "equal order", "ratio", "ratio of a step"]
-    return ("Conforming beside equal order. The ratios are by how many times equal order takes longer: CPU time of the run with\n"
+    return ("Conforming compared with equal order. The ratios are by how many times equal order takes longer: CPU time of the run with\n"
             "start and output, wall time of a step.\n\n"
             + table(head, lines))
 

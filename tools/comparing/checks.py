@@ -26,7 +26,7 @@ def read_finished(folder: str) -> Run:
 
 
 def require_alike(runs: list[Run]) -> None:
-    """Runs in the plane are not compared with runs in space."""
+    """Runs in 2-D are not compared with runs in 3-D."""
     last = runs[-1]
     for run in runs[:-1]:
         if run.dimension != last.dimension:

@@ -1,4 +1,4 @@
-"""All that is told of some runs beside the last of them. Nothing is printed or drawn here."""
+"""All that is told of some runs compared with the last of them. Nothing is printed or drawn here."""
 
 from __future__ import annotations
 

@@ -76,7 +76,7 @@ def _range(run: Run, column: str, end: float) -> float:
 
 
 def _is_rounding(run: Run, column: str, end: float) -> bool:
-    """Whether a value never changes, or is a component of a vector that is zero beside the others."""
+    """Whether a value never changes, or is a component of a vector that is zero next to the others."""
     own = _range(run, column, end)
     values = samples(run, column, end)[1]
     stem, _, axis = column.rpartition("_")

@@ -50,7 +50,7 @@ def densities_of(run: Run) -> np.ndarray:
 
 
 def volumes(frame: Frame, density: np.ndarray) -> np.ndarray:
-    """Of the particles, at rest. [m^3; m^2 in the plane]"""
+    """Of the particles, at rest. [m^3; m^2 in 2-D]"""
     which = frame.column("fluid").astype(int) if len(density) > 1 else np.zeros(len(frame.position), int)
     return frame.column("mass") / density[which]
 

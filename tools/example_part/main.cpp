@@ -18,7 +18,7 @@ struct Wind {
   static constexpr ComponentInfo info{"wind", "w, k", "m/s, 1/s", Lifetime::constant};
 };
 
-/// b_f += (1 - phi_f) k (w - v_f), phi_f the fill fraction beside the face, so that only the surface feels it.
+/// b_f += (1 - phi_f) k (w - v_f), phi_f the fill fraction next to the face, so that only the surface feels it.
 template <int Dim>
 struct ApplyWind {
   static constexpr const char* doc = "b_f += (1 - phi_f) k (w - v_f), drag of the wind";

@@ -87,7 +87,7 @@ def arguments() -> argparse.Namespace:
                         help="a strip for each; the movie shows the first; default: speed,pressure, and fluid "
                              "before them where there are several liquids; what is no finite number is magenta")
     parser.add_argument("--slice", type=slice_, metavar="AXIS=PLACE",
-                        help="of a run in space: particles within half a cell of a plane [m], like z=0.1")
+                        help="of a run in 3-D: particles within half a cell of a plane [m], like z=0.1")
     parser.add_argument("--reference", type=Path, metavar="DIR",
                         help="draws the lines of DIR/NAME_tT.csv (segment,x,y) into the strips at time T")
     parser.add_argument("--corners", action="store_true",
@@ -96,7 +96,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--fps", type=positive, metavar="N", help="frames per second; default: a movie of 6 s")
     parser.add_argument("--no-movie", action="store_true", help="pictures only")
     parser.add_argument("--render", action="store_true",
-                        help="of the first run, in space: pictures of its surface by Blender, and nothing else; of "
+                        help="of the first run, in 3-D: pictures of its surface by Blender, and nothing else; of "
                              "every frame, or of those of --times")
     parser.add_argument("--size", type=pixels, default=(900, 600), metavar="WxH", help="of these; default: 900x600")
     parser.add_argument("--eye", type=angles, default=(-24.0, 16.0), metavar="A,E",
@@ -143,7 +143,7 @@ def figures(options: argparse.Namespace) -> None:
     references = read_references(options.reference) if options.reference else []
     for run in runs if references else []:
         if run.dimension == 3:
-            raise NoResults(f"{run.folder}: the lines of {options.reference} lie in the plane, this run in space")
+            raise NoResults(f"{run.folder}: the lines of {options.reference} lie in 2-D, this run in 3-D")
     longest = max(runs, key=lambda run: run.times[-1])
     times = options.times or telling_times(longest, 6 if len(runs) == 1 else 4)
     strips = [draw_strip(Strip(runs, times, field, references, options.corners, options.slice)) for field in fields]

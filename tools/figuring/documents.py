@@ -43,7 +43,7 @@ INTERFOAM_OBSTACLE = ROOT / "scenes/reference/obstacle_interfoam"
 
 @dataclass(frozen=True)
 class Pictures:
-    """Pictures that lie beside the scenes that they show."""
+    """Pictures that lie next to the scenes that they show."""
 
     about: str
     folder: Path

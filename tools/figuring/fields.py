@@ -15,7 +15,7 @@ from reporting.runs import NoResults, Run
 
 AXES = "xyz"
 SEQUENTIAL, SIGNED = "viridis", "coolwarm"  # perceptually uniform; told apart by all eyes
-UNITS = {"mass": ("kg/m", "kg"), "volume": ("m²", "m³")}  # in the plane, in space
+UNITS = {"mass": ("kg/m", "kg"), "volume": ("m²", "m³")}  # in 2-D, in 3-D
 NOT_FINITE = "#ff00ff"  # in none of the maps
 
 
@@ -72,7 +72,7 @@ def _part(column: str, unit: str, k: int, name: str) -> Field:
 
 
 def _vorticity(columns: dict[str, np.ndarray]) -> np.ndarray:
-    """dv/dx - du/dy; in space the magnitude of the curl. The gradient has dv_i/dx_j in row i, column j. [1/s]"""
+    """dv/dx - du/dy; in 3-D the magnitude of the curl. The gradient has dv_i/dx_j in row i, column j. [1/s]"""
     dimension = columns["position"].shape[1]
     gradient = columns["velocity_gradient"].reshape(-1, dimension, dimension)
     turning = gradient - gradient.transpose(0, 2, 1)

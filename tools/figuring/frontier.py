@@ -44,7 +44,7 @@ def _discretization(label: str, name: str, **look) -> Line:
 
 
 PANELS = (
-    Panel("Dam break", "dam_break", "water misplaced, beside interFoam 160 x 160",
+    Panel("Dam break", "dam_break", "water misplaced, compared with interFoam 160 x 160",
           {"MLS-MPM": "MLS-MPM, explicit", "apic2d": "apic2d, projection", "interFoam": "interFoam, volume of fluid"}, (
               _per_cell(3, 1, color=COLOURS[0], linewidth=2.6),
               _per_cell(4, 1, color=COLOURS[1]),

@@ -32,7 +32,7 @@ class Exhibit:
     field: str = "speed"
     across: int = 1  # panels in a row
     part: tuple[tuple[float, float], tuple[float, float]] | None = None  # low and high corner [m]; none: all
-    cut: Slice | None = None  # of a run in space
+    cut: Slice | None = None  # of a run in 3-D
     reference: str | None = None  # from scenes/reference; its lines are drawn over the particles
     settings: Settings = ()
 

@@ -1,4 +1,4 @@
-"""Panels in rows, a colour bar beside them, names around them, of which none is cut off or printed over another."""
+"""Panels in rows, a colour bar next to them, names around them, of which none is cut off or printed over another."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from figuring.views import View
 WIDTH = 7.2  # of a page with two columns [inch]
 LARGEST_PANEL = (3.6, 6.0)  # [inch]
 SMALLEST_PANEL = 0.3  # across; rather the page becomes wider [inch]
-TALL = 1.2  # panels of a row that have the name of the row beside them, however long it is [inch]
+TALL = 1.2  # panels of a row that have the name of the row next to them, however long it is [inch]
 GAP = 0.04  # between words, and to the edge of the page [inch]
 PASSES = 8  # of measuring; two or three do for most pictures
 
@@ -70,7 +70,7 @@ class Sheet:
         self._entries = entries
 
     def add_colour_bar(self, shown: Field, norm: Normalize, extend: str) -> None:
-        """Beside the panels, not longer than 3 inches."""
+        """Next to the panels, not longer than 3 inches."""
         self._bar = self.figure.add_axes((0, 0, 1, 1))
         bar = self.figure.colorbar(ScalarMappable(norm, shown.colour_map), cax=self._bar, extend=extend, extendfrac=0.03)
         if shown.classes:

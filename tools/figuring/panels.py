@@ -57,7 +57,7 @@ def draw_panel(panel, look: Look, run: Run, index: int | None, time: float, view
 
 
 def _draw_frame(panel, look: Look, run: Run, index: int) -> None:
-    """Particles and bodies; in space those particles first that are behind a body."""
+    """Particles and bodies; in 3-D those particles first that are behind a body."""
     columns = run.columns(index)
     places, which = place(run, columns["position"], look.cut)
     values = look.field.values(columns)[which]
@@ -109,7 +109,7 @@ def _draw_particles(panel, places: np.ndarray, diameter: float, values: np.ndarr
 
 
 def _draw_box(panel, run: Run, cut: Slice | None) -> None:
-    """The walls; in space the edges of the box, those behind the liquid lighter."""
+    """The walls; in 3-D the edges of the box, those behind the liquid lighter."""
     low, high = run.box
     plane = plane_of(run, cut)
     if plane is None:
@@ -146,7 +146,7 @@ def _draw_edges(panel, run: Run) -> None:
 
 
 def _name_edges(panel, corners: np.ndarray, places: np.ndarray, outline: list[tuple[int, int]]) -> None:
-    """Axis and length beside an edge of the outline for each axis: the lowest ones, of the upright ones the left."""
+    """Axis and length next to an edge of the outline for each axis: the lowest ones, of the upright ones the left."""
     middle = places.mean(axis=0)
     for axis in range(3):
         along = [pair for pair in outline if corners[pair[0]][axis] != corners[pair[1]][axis]]

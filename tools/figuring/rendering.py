@@ -1,4 +1,4 @@
-"""Pictures of runs in space as water in a tank, rendered by Blender from the surfaces of their frames."""
+"""Pictures of runs in 3-D as water in a tank, rendered by Blender from the surfaces of their frames."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Rendering:
 def render(run: Run, times: list[float] | None, how: Rendering, out: Path) -> list[Path]:
     """A picture per frame, or of those at some times."""
     if run.dimension != 3:
-        raise NoResults(f"{run.folder}: --render shows runs in space, this one is in the plane")
+        raise NoResults(f"{run.folder}: --render shows runs in 3-D, this one is in 2-D")
     frames = list(range(len(run.times))) if times is None else [_frame_at(run, time) for time in times]
     for frame in frames:
         surface_file(run, frame)

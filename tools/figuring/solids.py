@@ -1,4 +1,4 @@
-"""Bodies in a panel: filled in the plane and in slices, in space lit triangles between the particles."""
+"""Bodies in a panel: filled in 2-D and in slices, in 3-D lit triangles between the particles."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def has_bodies(run: Run) -> bool:
 
 
 def draw_flat_bodies(panel, run: Run, index: int, cut: Slice | None) -> None:
-    """In the plane: filled below the particles, their lines above. In a slice: what it cuts."""
+    """In 2-D: filled below the particles, their lines above. In a slice: what it cuts."""
     low, high = (end[list(plane_of(run, cut))] for end in run.box)
     box = Rectangle(low, *(high - low), transform=panel.transData)
     for body in _bodies_of(run):
@@ -49,7 +49,7 @@ def _loops(run: Run, body: Body, index: int, cut: Slice | None) -> list[np.ndarr
 
 
 def draw_solid_bodies(panel, run: Run, index: int) -> None:
-    """In space: triangles towards the eye, the farthest first, lit from the front."""
+    """In 3-D: triangles towards the eye, the farthest first, lit from the front."""
     places, distance, light = _seen(run, index)
     if len(places) == 0:
         return
@@ -60,7 +60,7 @@ def draw_solid_bodies(panel, run: Run, index: int) -> None:
 
 
 def hidden_by_bodies(run: Run, index: int, places: np.ndarray, distance: np.ndarray) -> np.ndarray:
-    """Which points of a picture in space lie behind a body."""
+    """Which points of a picture in 3-D lie behind a body."""
     corners, depth, _ = _seen(run, index)
     if len(corners) == 0:
         return np.zeros(len(places), bool)

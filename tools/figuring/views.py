@@ -29,7 +29,7 @@ class View:
 
 @dataclass(frozen=True)
 class Slice:
-    """A plane across a box in space; of the particles those are shown that are within half a cell of it."""
+    """A plane across a box in 3-D; of the particles those are shown that are within half a cell of it."""
 
     axis: int
     at: float  # [m]
@@ -53,7 +53,7 @@ def check_slice(run: Run, cut: Slice) -> None:
     low, high = run.box
     axis = AXES[cut.axis]
     if run.dimension == 2:
-        raise NoResults(f"{run.folder}: a run in the plane cannot be cut at {cut.name}")
+        raise NoResults(f"{run.folder}: a run in 2-D cannot be cut at {cut.name}")
     if not low[cut.axis] <= cut.at <= high[cut.axis]:
         raise NoResults(f"{run.folder}: the slice {cut.name} misses the box; expected: {axis} between "
                         f"{low[cut.axis]:g} and {high[cut.axis]:g} m")

@@ -27,7 +27,7 @@ REASONS = [
            "they stay on one line: nothing pushes them to the left or to the right, and a volume correction has no "
            "direction either.",
            lambda case, check, method: case.name == "sheet_upright" and check.name == "volume"),
-    Reason("*Faces without mass.* Of the conforming discretization a face beside a lone particle weighs at least 1e-8 of a "
+    Reason("*Faces without mass.* Of the conforming discretization a face next to a lone particle weighs at least 1e-8 of a "
            "full one, (E78). Where a particle meets a node, some faces around it have no mass and thus no velocity, and they "
            "take 1e-8 of its speed.",
            lambda case, check, method: method.discretization == "conforming" and check.name == "flight"),

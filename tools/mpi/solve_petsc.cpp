@@ -16,7 +16,7 @@ void check(PetscErrorCode code) {
   if (code != 0) throw std::runtime_error(fmt::format("petsc: error {}", code));
 }
 
-/// Options of hypre's multigrid with which iterations grow least with size in space (systems/ranks/README.md). A weak
+/// Options of hypre's multigrid with which iterations grow least with size in 3-D (systems/ranks/README.md). A weak
 /// threshold, for all entries are alike but at the surface; smoothing by Jacobi, which does not know where ranks end,
 /// damped, for a chessboard it would only turn around. Who gives PETSc an option of that name has that.
 constexpr std::array<std::array<const char*, 2>, 6> of_multigrid{{{"coarsen_type", "HMIS"},

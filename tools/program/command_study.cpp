@@ -30,7 +30,7 @@ fs::path output_folder(const StudyOptions& options) {
 
 constexpr std::array<const char*, 3> results{"study.csv", "study.png", "others.csv"};
 
-/// Makes the folder, without what an earlier study left in it beside the folders of its variants.
+/// Makes the folder, without what an earlier study left in it in addition to the folders of its variants.
 /// \param inputs  that must stay
 FolderClaim open_output(const fs::path& folder, const std::vector<fs::path>& inputs) {
   make_output_folder(folder);
@@ -58,7 +58,7 @@ void require_others(const Study& study) {
   read_others(study.others);
 }
 
-/// The files of a study beside those that its scene refers to.
+/// The files of a study in addition to those that its scene refers to.
 std::vector<fs::path> inputs_of(const Study& study) {
   std::vector<fs::path> inputs{study.file, study.scene};
   if (!study.others.empty()) inputs.emplace_back(study.others);

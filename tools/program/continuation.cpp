@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* checkpoint_name = "checkpoint.h5";
 
-/// What the checkpoint holds beside the state: scene, version, where the files of frames end.
+/// What the checkpoint holds in addition to the state: scene, version, where the files of frames end.
 namespace dataset {
 constexpr const char* scene = "/scene";
 constexpr const char* version = "/version";

@@ -12,9 +12,9 @@ namespace minamo {
 /// Address space that OpenBLAS works in, 128 MiB, and what goes with it. [byte]
 constexpr std::size_t blas_work_space = 160 << 20;
 
-/// One thread in BLAS, since a second pool of threads beside ours only costs; and the work space that OpenBLAS takes at
-/// its first call, now: where it does not get it, it tries again for ever, and no signal ends that.
-/// \return whether it got it; what it took is no longer in available_memory().
+/// One thread in BLAS, since a second pool of threads next to ours only costs; and the work space that OpenBLAS
+/// takes at its first call, now: where it does not get it, it tries again for ever, and no signal ends that. \return
+/// whether it got it; what it took is no longer in available_memory().
 bool prepare_blas();
 
 /// Settles the number of threads of the program (0: one per processor) and keeps the allocator from working against it:

@@ -157,7 +157,7 @@ void close_history(const fs::path& folder, World& world) {
   }
 }
 
-/// A system after the history, or beside it, has rejected the step.
+/// A system after the history, or next to it, has rejected the step.
 void take_back_rejected_row(World& world) {
   HistoryFile& history = world.resource<HistoryFile>();
   history.extra.reset();

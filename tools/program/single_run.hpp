@@ -25,7 +25,7 @@ enum class Replaced {
 struct RunPlan {
   std::string scene;                               ///< the scene file, as the messages and summary.json call it
   std::filesystem::path folder;                    ///< for the results
-  std::vector<std::filesystem::path> inputs = {};  ///< files beside the scene and those that it refers to
+  std::vector<std::filesystem::path> inputs = {};  ///< files apart from the scene and those that it refers to
   int threads = 1;                                 ///< that the caller has set, for summary.json
   std::optional<std::int64_t> steps;               ///< of the whole run
   Beginning beginning = Beginning::start;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points of others beside those of a study: their error and cost, measured elsewhere, and what our variants cost at
+/// Points of others next to those of a study: their error and cost, measured elsewhere, and what our variants cost at
 /// the same error.
 
 #include "tools/program/study_table.hpp"

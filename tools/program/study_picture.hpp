@@ -16,7 +16,7 @@ struct PictureLabels {
   std::string others;  ///< file of points of others; may be empty
 };
 
-/// Draws study.png beside `csv`.
+/// Draws study.png next to `csv`.
 /// \return whether it is drawn; if not, a line on stderr says what is missing.
 bool draw_study(const std::filesystem::path& csv, const PictureLabels& labels);
 

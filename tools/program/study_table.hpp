@@ -30,7 +30,7 @@ struct Standing {
   bool on_frontier = false;     ///< no other row is both cheaper and more accurate
 };
 
-/// What variants are compared by beside the error.
+/// What variants are compared by in addition to the error.
 enum class Cost { wall, cpu };
 
 struct StudyTable {

@@ -49,7 +49,7 @@ Json system_rows(const Profiler& profiler, double wall_seconds) {
   return rows;
 }
 
-/// In the plane momentum has two components and angular momentum one.
+/// In 2-D momentum has two components and angular momentum one.
 Json conserved(const RunTotals::Values& values, bool in_plane) {
   const std::span momentum = std::span(values.momentum).first(in_plane ? 2 : 3);
   const std::span angular = std::span(values.angular_momentum).first(in_plane ? 1 : 3);

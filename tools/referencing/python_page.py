@@ -16,7 +16,7 @@ SECTIONS = {
     "Simulations, runs, scenes": ("simulation.py", None),
     "Results": ("results.py", None),
     "Systems, columns, parts": ("systems.py", None),
-    "What a system gets beside columns": ("_minamo.pyi", ("Clock", "HistoryColumns")),
+    "What a system gets in addition to columns": ("_minamo.pyi", ("Clock", "HistoryColumns")),
     "Errors": ("errors.py", None),
 }
 #: How a variable of a class is called in its members.

@@ -29,12 +29,12 @@ class Body:
 
     @property
     def loops(self) -> list[np.ndarray]:
-        """In the plane: rows of `points` around each loop."""
+        """In 2-D: rows of `points` around each loop."""
         ends = np.flatnonzero(self.elements[1:, 0] != self.elements[:-1, 1]) + 1
         return np.split(self.elements[:, 0], ends)
 
     def triangles_at(self, frame: int) -> np.ndarray:
-        """In space: triangles x 3 corners x 3. [m]"""
+        """In 3-D: triangles x 3 corners x 3. [m]"""
         return self.points_at(frame)[self.elements]
 
 
@@ -61,7 +61,7 @@ def _read(file, name: str, frames: int) -> Body:
 
 def section(triangles: np.ndarray, axis: int, at: float) -> np.ndarray:
     """Where triangles cross the plane x[axis] = at: segments x 2 ends x 3, the body to the left seen along the axis."""
-    # A corner in the plane would be on both sides of it.
+    # A corner in 2-D would be on both sides of it.
     height = triangles[:, :, axis] - at
     height = np.where(height == 0, 1e-12 * (np.ptp(triangles[:, :, axis]) + 1e-300), height)
     crossing = (height.min(axis=1) < 0) & (height.max(axis=1) > 0)

@@ -111,7 +111,7 @@ def short(value: Any) -> str:
 
 
 def facts_list(run: Run) -> str:
-    """The facts on one run, to stand beside its picture."""
+    """The facts on one run, to stand next to its picture."""
     rows = "".join(f"<div><b>{name}</b><span>{escape(value)}</span></div>" for name, value in facts(run).items())
     return f"<div class=\"facts\">{rows}</div>"
 

@@ -28,7 +28,7 @@ class Drawing:
 
 
 def find_program(given: Path | None) -> Path | None:
-    """What was given; else build/minamo, then build/test/minamo, beside tools/; else minamo of the PATH."""
+    """What was given; else build/minamo, then build/test/minamo, next to tools/; else minamo of the PATH."""
     if given:
         return given
     built = [ROOT / folder / "minamo" for folder in FOLDERS]

@@ -36,7 +36,7 @@ def plots(runs: list[Run]) -> list[Plot]:
 
 
 def _known_plots(per_metre: bool) -> list[Plot]:
-    """Columns of every run; in the plane, quantities per metre of depth."""
+    """Columns of every run; in 2-D, quantities per metre of depth."""
     energy, momentum, angular = ("J/m", "N s/m", "J s/m") if per_metre else ("J", "N s", "J s")
     turning = {"angular_momentum": ""} | {f"angular_momentum_{axis}": axis for axis in AXES}
     return [

@@ -64,7 +64,7 @@ def walls(given: Any, dimension: int) -> list[list[str]]:
 
 
 def corner_paths(run: Run) -> dict[str, Any] | None:
-    """Exact paths x + t v + t^2 b / 2 of the corners of boxes of liquid in the plane: {start, velocity, acceleration}.
+    """Exact paths x + t v + t^2 b / 2 of the corners of boxes of liquid in 2-D: {start, velocity, acceleration}.
 
     At a corner two free surfaces meet, the pressure gradient vanishes, and the liquid goes on as in free flight. For a
     square of side L that rotates at the rate w: (L/2) (1 - wt, 1 + wt) and its turned copies. None unless every region

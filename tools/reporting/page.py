@@ -105,7 +105,7 @@ def _views(runs: list[Run], particles: list[Particles | None]) -> list[list[list
 
 
 def _view(run: Run, reaches: list[tuple[np.ndarray, np.ndarray]]) -> list[list[float]]:
-    """The box, or, in the plane, without bodies and far from all walls, the reach of the liquid."""
+    """The box, or, in 2-D, without bodies and far from all walls, the reach of the liquid."""
     low, high = run.box
     if reaches and run.dimension == 2 and not run.scene.get("bodies"):
         least = np.min([reach[0] for reach in reaches], axis=0)

@@ -8,7 +8,7 @@ from reporting.runs import Run
 
 
 def project(run: Run, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Parallel projection of points in space, seen from the front, a little from the right and above.
+    """Parallel projection of points in 3-D, seen from the front, a little from the right and above.
 
     Returns the place in the picture and the distance from the eye.
     """

@@ -49,7 +49,7 @@ def corners_at(run: Run, time: float) -> np.ndarray:
     """
     boxes = [region["shape"]["box"] for region in run.scene["particles"] if "box" in region["shape"]]
     if not boxes or run.dimension != 2:
-        raise NoResults(f"{run.folder}: no box of liquid in the plane, so no corners to mark")
+        raise NoResults(f"{run.folder}: no box of liquid in 2-D, so no corners to mark")
     start = run.frame(0)
     basis = np.column_stack([np.ones(len(start.position)), start.position])
     fit = np.linalg.lstsq(basis, start.velocity, rcond=None)[0]  # v at the start is linear in x

@@ -220,7 +220,7 @@ class Run:
 
 
 def as_computed(values: np.ndarray, dimension: int) -> np.ndarray:
-    """A column in double precision, and in the plane without what is zero there: the third component of a vector, the
+    """A column in double precision, and in 2-D without what is zero there: the third component of a vector, the
     third row and column of a tensor."""
     if values.dtype.kind == "f":
         values = values.astype(float)

@@ -1,4 +1,4 @@
-"""Still pictures of surfaces in space, lit from the left above."""
+"""Still pictures of surfaces in 3-D, lit from the left above."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ INCHES, DOTS = 3.6, 110
 
 
 def surface_section(run: Run, times: list[float]) -> str:
-    """Pictures of the surface of a run in space at output times, as a part of a page; empty if it has none. [s]"""
+    """Pictures of the surface of a run in 3-D at output times, as a part of a page; empty if it has none. [s]"""
     frames = [int(np.abs(run.times - time).argmin()) for time in times] if run.dimension == 3 and len(run.times) else []
     frames = [frame for frame in dict.fromkeys(frames) if has_surface(run, frame)]
     if not frames:

@@ -15,7 +15,7 @@ from reporting.runs import NoResults, Run
 
 @dataclass(frozen=True)
 class Surface:
-    """Closed lines in the plane, closed triangle meshes in space; elements are turned outward."""
+    """Closed lines in 2-D, closed triangle meshes in 3-D; elements are turned outward."""
 
     points: np.ndarray  # [m], points x dimension
     elements: np.ndarray  # numbers of points, elements x dimension
@@ -48,7 +48,7 @@ def surface_of(run: Run, index: int) -> Surface:
 
 
 def loops_of(surface: Surface) -> list[np.ndarray]:
-    """In the plane: numbers of points around each loop."""
+    """In 2-D: numbers of points around each loop."""
     after = dict(surface.elements.tolist())
     loops = []
     while after:
@@ -61,7 +61,7 @@ def loops_of(surface: Surface) -> list[np.ndarray]:
 
 
 def packed_surfaces(run: Run, add: Any) -> dict[str, Any] | None:
-    """The loops of all frames of a run in the plane, as the page knows them; None if it has no surface.
+    """The loops of all frames of a run in 2-D, as the page knows them; None if it has no surface.
     `add(text)` keeps a packed column and gives the key to find it by."""
     frames = range(len(run.times))
     if run.dimension != 2 or not any(has_surface(run, frame) for frame in frames):

@@ -61,7 +61,7 @@ class Case:
     # What a picture calls a resolution, and what it sets in the scene.
     resolutions: tuple[tuple[str, dict[str, Any]], ...]
     scene: str = ""  # whose file it is; that of its own name unless given
-    # Computations of others, by what a picture calls them: files beside the page with a column per curve.
+    # Computations of others, by what a picture calls them: files next to the page with a column per curve.
     beside: tuple[tuple[str, str], ...] = ()
 
 

@@ -67,8 +67,8 @@ CASES = (
         "dam_break_pressure", "Pressure of a dam break at the far wall",
         f"B. Buchner, PhD thesis, TU Delft (2002), and {LOBOVSKY}",
         "The same tank in two sizes: water of height H, 2H wide, in a tank 5.366 H long. Buchner's plate is 90 mm across "
-        "(ours is the mean of four points), H = 0.6 m; Lobovsky's sensors are 4 mm, at 3, 30 and 80 mm, H = 0.3 m. In the "
-        "plane and without air: where the front has turned over, from 5.5 on, it encloses none. The water reaches no lid. "
+        "(ours is the mean of four points), H = 0.6 m; Lobovsky's sensors are 4 mm, at 3, 30 and 80 mm, H = 0.3 m. In 2-D "
+        "and without air: where the front has turned over, from 5.5 on, it encloses none. The water reaches no lid. "
         "Our water slips along the walls; therefore P1 and P3 lie above and P4 below what was measured: "
         "[interFoam](../reference/dam_break_pressure_interfoam/README.md) has the same pressures with slip, and the measured ones "
         "with walls that hold the water. The layer that the floor holds comes to rest before the wall, and an eddy fills the corner.",
@@ -86,7 +86,7 @@ CASES = (
         beside=(("interFoam, slip, H/30", "../reference/dam_break_pressure_interfoam/slip_30.csv"),
                 ("interFoam, no slip, H/30", "../reference/dam_break_pressure_interfoam/no_slip_30.csv"))),
     Case(
-        "dam_break_pressure_3d", "The same in space",
+        "dam_break_pressure_3d", "The same in 3-D",
         LOBOVSKY,
         "Lobovsky's tank in its width of 0.15 m, between slip walls. The first peak lasts for 10 ms, as long as a step with H/15. "
         "With H/60 (1 728 000 particles) it is 8 % too high, in a single step; without that step 12 % too low.",
@@ -151,7 +151,7 @@ CASES = (
         "H. Akyildiz, N. E. Unal, Ocean Eng. 33 (2006) 2135",
         "Water 0.465 m deep in a tank of 0.92 x 0.62 m that pitches by 4 degrees with 2 rad/s about the middle of its floor, "
         "far below the first natural frequency, 5.6 rad/s. P2 is 0.17 m above the floor at one end, P8 0.45 m at the other, where "
-        "the wall falls dry. Seen from the tank, without Coriolis's force: in the plane that is a pressure of 1 mm of water. "
+        "the wall falls dry. Seen from the tank, without Coriolis's force: in 2-D that is a pressure of 1 mm of water. "
         "Measured curves are periodic from their first point; ours are those after two periods, in which the motion grows. "
         "P8 reads 0.245 kPa at a dry wall: that is added to ours at both gauges. Without it P2's mean is 10 % too low.",
         "t [s]",

@@ -23,7 +23,7 @@ def front(axis: int = 0) -> Gauge:
 def height(at: float, width: float, across: float = 1) -> Gauge:
     """Depth of the liquid around x = at, as a wire measures: its volume over its floor, the less the farther away. [m]
 
-    `width` is from one end to the other [m], within the tank; `across` the extent of the tank along y, in space [m].
+    `width` is from one end to the other [m], within the tank; `across` the extent of the tank along y, in 3-D [m].
     """
 
     def measure(sim: Any) -> float:

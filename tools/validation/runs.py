@@ -23,7 +23,7 @@ def scene_file(case: Case) -> str:
 
 
 def scene_of(case: Case, changes: dict[str, Any]) -> dict[str, Any]:
-    """The scene with what a resolution sets; files that it names are looked for beside it."""
+    """The scene with what a resolution sets; files that it names are looked for next to it."""
     path = SCENES / scene_file(case)
     scene = json.loads(path.read_text())
     for pointer, value in changes.items():

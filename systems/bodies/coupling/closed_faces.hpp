@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E126) Momentum that particles take from faces beside bodies and that no pressure has given: the body has.
+/// (E126) Momentum that particles take from faces near bodies and that no pressure has given: the body has.
 
 #include "components/body.hpp"
 #include "components/grid.hpp"
@@ -14,12 +14,12 @@
 
 namespace minamo {
 
-/// (E126)  Force, torque and work of the momentum that particles get by the faces beside a body, less that of the
+/// (E126)  Force, torque and work of the momentum that particles get by the faces near a body, less that of the
 /// balances and of the liquid that is attached. Not of free bodies, nor of separating ones, at which liquid that leaves
 /// would pull.
 template <int Dim>
 struct CountClosedFaces {
-  static constexpr std::string_view doc = "(E126) what faces beside bodies give to particles, no pressure to the faces";
+  static constexpr std::string_view doc = "(E126) what faces near bodies give to particles, no pressure to the faces";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                   Read<FaceExtension<Dim>> extension, Read<VelocityOfParticles> of_particles, Read<BodySet<Dim>> set,
                   Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Mass<Dim>> m_f,

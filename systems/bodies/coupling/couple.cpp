@@ -46,7 +46,7 @@ class MotionColumns {
 /// U = B C: what a unit of every motion adds to the divergence around an unknown.
 struct Fluxes {
   MotionColumns columns;
-  std::vector<std::size_t> touched;  ///< unknowns beside free bodies
+  std::vector<std::size_t> touched;  ///< unknowns near free bodies
 
   /// U^T x, with x by unknown.
   template <class At>
@@ -101,7 +101,7 @@ struct Enclosures {
   Eigen::MatrixXd N;                   ///< n^T U of these components [1/m, 1]
 
   bool any() const { return N.rows() > 0; }
-  /// N^T s with an s that is large beside a matrix of the motions.
+  /// N^T s with an s that is large compared with a matrix of the motions.
   Eigen::MatrixXd stiffness(const Eigen::MatrixXd& G) const {
     constexpr double large = 1e8;
     Eigen::MatrixXd stiff = N.transpose();

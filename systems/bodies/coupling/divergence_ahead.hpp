@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E120) The divergence that a velocity without divergence at the start of a step has at its middle, beside bodies.
+/// (E120) The divergence that a velocity without divergence at the start of a step has at its middle, near bodies.
 ///
 /// Inside the liquid the velocities of the start, over the places of the middle, have the divergence -dt/2 tr(grad v
 /// grad v), the second term of (E63). Along a curved wall, and in front of one, they also lead through the wall, since
@@ -22,7 +22,7 @@ namespace minamo {
 /// gradient.
 template <int Dim>
 struct FindDivergenceAhead {
-  static constexpr std::string_view doc = "(E120) divergence of the middle beside bodies";
+  static constexpr std::string_view doc = "(E120) divergence of the middle near bodies";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
                   Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells,

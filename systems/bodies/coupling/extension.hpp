@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// (E87) Velocities of closed faces, on which particles beside a body have weight: linear functions through those of
+/// (E87) Velocities of closed faces, on which particles near a body have weight: linear functions through those of
 /// the open faces around, by least squares. So a liquid that moves along a plane wall or rests stays exact, and the
 /// wall acts through the balance of mass alone. An open face counts as much as it has particles around: slopes to those
 /// of next to none, beyond a surface, would throw the edge of a layer along the wall ahead. Where the open faces lie on
-/// one side only and their velocities differ by much, as beside a fast body, such a function leads far away: a value
+/// one side only and their velocities differ by much, as next to a fast body, such a function leads far away: a value
 /// stays near those that it is made of.
 ///
-/// (E110) Beside a body that the liquid sticks to the function has the velocity of the body at the nearest point of its
+/// (E110) Near a body that the liquid sticks to the function has the velocity of the body at the nearest point of its
 /// surface, and faces close to it count as closed. With surface tension an open face counts as much as it has liquid:
 /// where there is next to none its force makes a face fast.
 

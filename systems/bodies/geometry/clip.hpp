@@ -105,7 +105,7 @@ bool passes_through(const Vec<Dim>& low, const Vec<Dim>& high, double at_low, do
          passes_through<Dim>(middle, high, at_middle, at_high, more_halvings - 1, distance, last);
 }
 
-/// Share of a face of direction d that lies where `distance` is positive: a segment in the plane, a rectangle in space.
+/// Share of a face of direction d that lies where `distance` is positive: a segment in 2-D, a rectangle in 3-D.
 /// \param low, high  opposite corners, the same along d [m]
 template <int Dim, class Distance>
 double open_share(const Vec<Dim>& low, const Vec<Dim>& high, int d, const Distance& distance) {

@@ -177,8 +177,8 @@ bool is_parted(const SitePlaces<Dim>& places, const Index<Dim>& site, std::size_
 }
 
 /// Closes faces of gaps between a moving body and a wall, or another body: what flows through one that is thinner than
-/// a fraction of a cell is so fast, and weighs so little, that particles beside the gap would gain energy from it.
-/// Gaps beside bodies at rest stay.
+/// a fraction of a cell is so fast, and weighs so little, that particles next to the gap would gain energy from it.
+/// Gaps near bodies at rest stay.
 template <int Dim>
 void close_gaps(const SiteCuts<Dim>& cuts, std::span<const Index<Dim>> site,
                 std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour, std::span<Vec<Dim>> open) {

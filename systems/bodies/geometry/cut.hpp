@@ -15,7 +15,7 @@ namespace minamo {
 /// Faces less open than this are closed.
 inline constexpr double least_open = 1e-3;
 /// Less open ones are slivers: what flows through them weighs little and may be fast. Particles do not see them (E87),
-/// and gaps beside moving bodies made of nothing else are closed. Rounding says nothing of one that is 0.2 open.
+/// and gaps near moving bodies made of nothing else are closed. Rounding says nothing of one that is 0.2 open.
 inline constexpr double sliver = 0.2 - 1e-9;
 
 /// Place of an index among `count` per direction, x fastest, and the index at a place.

@@ -16,7 +16,7 @@ namespace {
 /// Rounding says nothing of one that is 0.4.
 constexpr double telling_from = 0.4 - 1e-9;
 constexpr double least_open_liquid = 1e-2;
-/// Open share around a face from which on its own particles tell its mass. With those of faces beside it a thin layer
+/// Open share around a face from which on its own particles tell its mass. With those of faces next to it a thin layer
 /// along a wall is too light, and a front runs ahead: the energy of a dam break between walls of a body along faces of
 /// the grid rises by 1.5 of 61 J, with this by 0.15 J.
 constexpr double enough_open = 0.3;

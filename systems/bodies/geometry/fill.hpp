@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E86) How full the grid is beside bodies.
+/// (E86) How full the grid is near bodies.
 
 #include "components/body.hpp"
 #include "components/fluids.hpp"
@@ -11,11 +11,11 @@
 
 namespace minamo {
 
-/// (E86)  Beside a body phi_l is that of the multiplier and its neighbours together, for few particles in a small open
+/// (E86)  Near a body phi_l is that of the multiplier and its neighbours together, for few particles in a small open
 /// volume tell little; inside a body nothing is missing, phi_l = 1.
 template <int Dim>
 struct FillBesideBodies {
-  static constexpr std::string_view doc = "(E86) fill fraction beside bodies";
+  static constexpr std::string_view doc = "(E86) fill fraction near bodies";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                   Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
@@ -26,7 +26,7 @@ struct FillBesideBodies {
 };
 
 /// (E86)  m_f over what bodies leave open of the liquid around a face; where that is little, with that of the faces
-/// beside it. No less than m_f over what they leave open of the volume. (E123) near the free surface.
+/// next to it. No less than m_f over what they leave open of the volume. (E123) near the free surface.
 template <int Dim>
 struct FindUncutMass {
   static constexpr std::string_view doc = "(E86) mass of faces, were nothing cut away";

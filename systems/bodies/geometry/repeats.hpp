@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Bodies beside the ends of periodic axes. A body is where it is and has no images: at both ends it must look the
+/// Bodies next to the ends of periodic axes. A body is where it is and has no images: at both ends it must look the
 /// same.
 
 #include "components/body.hpp"

@@ -19,7 +19,7 @@ namespace minamo {
 template <int Dim>
 struct SurfacePiece {
   Vec<Dim> middle;
-  double area;  ///< length in the plane [m^(d-1)]
+  double area;  ///< length in 2-D [m^(d-1)]
 };
 
 /// A small box.

@@ -14,7 +14,7 @@ struct Solid {
   Mat<rotations<Dim>> inertia = Mat<rotations<Dim>>::Zero();  ///< about the centre [m^5; m^4 in 2-D]
 };
 
-/// By samples in the bounds of the shape, 400 per direction in the plane and 100 in space; a sample that the surface
+/// By samples in the bounds of the shape, 400 per direction in 2-D and 100 in 3-D; a sample that the surface
 /// crosses counts in part. A disc and a ball: to 1e-5 and 1e-4.
 /// \pre the bounds are finite
 template <int Dim>

@@ -23,7 +23,7 @@ struct RestingParts {
   static constexpr ComponentInfo info{"solid_parts.at_rest", "C_s", "1", Lifetime::cache};
 };
 
-/// (E74)  C_s, what bodies fill of the parts of the cells beside them, smoothed as particles are: near a plane wall it
+/// (E74)  C_s, what bodies fill of the parts of the cells next to them, smoothed as particles are: near a plane wall it
 /// is the integral of a quadratic B-spline of spacing d up to the distance.
 template <int Dim>
 struct FindSolidParts {

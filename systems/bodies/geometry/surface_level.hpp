@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E123) Mass of faces beside bodies near the free surface. Water rests only if faces on the same level of its surface
+/// (E123) Mass of faces at bodies near the free surface. Water rests only if faces on the same level of its surface
 /// are equally full, or gravity drives a whirl in the corner of surface and wall. Particles in what a body leaves of a
 /// face tell how full it is to some hundredths, whole faces nearby tell it exactly.
 

@@ -89,7 +89,7 @@ class ThinWalls {
   Index<Dim> blocks_{};              ///< of the size of a cell, along every axis
   std::vector<std::int32_t> first_;  ///< small cell of every block, or none
   std::vector<std::uint32_t> kept_;  ///< the blocks that have any
-  std::vector<std::array<std::int32_t, 2 * static_cast<std::size_t>(Dim)>> beside_;  ///< first_ of blocks beside them
+  std::vector<std::array<std::int32_t, 2 * static_cast<std::size_t>(Dim)>> beside_;  ///< first_ of blocks next to them
   std::vector<std::uint8_t> flags_;
   std::vector<float> thickness_;       ///< of the wall next to a small cell, 0 without any [m]
   std::vector<std::uint8_t> is_lit_;   ///< since the last find_dry()

@@ -16,7 +16,7 @@ std::vector<std::string> names_of_motions() {
   return {"x", "y", "z", "rotation_x", "rotation_y", "rotation_z"};
 }
 
-/// "rotation" stands for all three in space, too.
+/// "rotation" stands for all three in 3-D, too.
 template <int Dim>
 void read_locked(Input& input, Free<Dim>& free) {
   auto names = names_of_motions<Dim>();
@@ -76,7 +76,7 @@ void read_mass(Input& input, const Solid<Dim>& solid, Free<Dim>& free) {
   const auto given = input.optional_numbers(
       "inertia", rotations<Dim>,
       {.unit = is_2d ? "kg m" : "kg m^2",
-       .doc = "about the centre of mass, in space about x, y and z; else that of a homogeneous body",
+       .doc = "about the centre of mass, in 3-D about x, y and z; else that of a homogeneous body",
        .above = 0});
   if (given) free.inertia = vec_of<rotations<Dim>>(*given).asDiagonal();
 }

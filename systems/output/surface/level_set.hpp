@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The free surface in space as an OpenVDB level set, for renderers and sculptors. Only in a build with OpenVDB, the
+/// The free surface in 3-D as an OpenVDB level set, for renderers and sculptors. Only in a build with OpenVDB, the
 /// option MINAMO_OPENVDB.
 
 #include "systems/output/surface/particle_surface.hpp"

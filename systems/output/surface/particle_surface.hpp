@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// (E111) The free surface, found between particles: closed lines in the plane, closed triangle meshes in space. It is
+/// (E111) The free surface, found between particles: closed lines in 2-D, closed triangle meshes in 3-D. It is
 /// written, not computed with.
 
 #include "components/grid.hpp"

@@ -14,9 +14,9 @@ enum class SurfaceFormat { vtp, ply, vdb };
 std::string name_of(SurfaceFormat format);
 SurfaceFormat surface_format_of(const std::string& name);
 
-/// Points, their velocities, and lines or triangles. In the plane z is zero. Numbers have 4 bytes. The file appears
+/// Points, their velocities, and lines or triangles. In 2-D z is zero. Numbers have 4 bytes. The file appears
 /// when it is complete.
-/// \param voxel  of level sets, which are in space alone [m]
+/// \param voxel  of level sets, which are in 3-D alone [m]
 /// \throws std::runtime_error if it cannot be written
 template <int Dim>
 void write_surface(const ParticleSurface<Dim>& surface, SurfaceFormat format, double voxel, const std::string& path);

@@ -115,7 +115,7 @@ def moving() -> list[Case]:
         case("gate_opens", "a dam break behind a gate that is pulled up",
              tank([body("gate", slab([0.3, -0.1], [0.4, 1.2]), moved(y="2*min(t/0.1, 1)"))],
                   [box([0, 0], [0.3, 0.5])], end=0.8)),
-        case("mixer_in_space", "a bar that turns in a tank in space",
+        case("mixer_in_space", "a bar that turns in a tank in 3-D",
              scene([12, 12, 12], 1 / 12, [box([0, 0, 0], [1, 1, 0.5])], 0.4, 8e-3, body_force=down(3), bodies=[
                  body("bar", {"box": {"low": [0.15, 0.4, 0.2], "high": [0.85, 0.6, 0.35]}},
                       {"prescribed": {"rotation": {"center": [0.5, 0.5, 0.27], "axis": [0, 0, 1],

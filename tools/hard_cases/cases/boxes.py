@@ -39,7 +39,7 @@ def cases() -> list[Case]:
         case("far_from_the_origin", "a dam break in a box at 1e6 m",
              dam_break(grid={"low": [2.0**20, 2.0**20], "high": [2.0**20 + 1, 2.0**20 + 1], "cells": [16, 16]},
                        particles=[box([2.0**20, 2.0**20], [2.0**20 + 0.25, 2.0**20 + 0.5])])),
-        case("full_in_space", "a full box in space under gravity",
+        case("full_in_space", "a full box in 3-D under gravity",
              scene([6, 6, 6], 1 / 6, [box([0, 0, 0], [1, 1, 1])], 0.1, 4e-3, body_force=down(3))),
         case("one_wet_cell_in_space", "one cell of water in the corner of a box, under gravity",
              scene([8, 8, 8], 1 / 8, [box([0, 0, 0], [1 / 8, 1 / 8, 1 / 8])], 0.4, 4e-3, body_force=down(3))),

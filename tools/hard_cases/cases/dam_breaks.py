@@ -20,6 +20,6 @@ def cases() -> list[Case]:
         made.append(Case(f"dam_break_cfl_{cfl}", "dam_breaks", f"CFL number {cfl}", [with_cfl(paper(1.0, 1e-2), cfl)],
                          checks))
     for cfl in (1, 4):
-        made.append(Case(f"dam_break_in_space_cfl_{cfl}", "dam_breaks", f"in space, 12 x 6 x 12 cells, CFL number {cfl}",
+        made.append(Case(f"dam_break_in_space_cfl_{cfl}", "dam_breaks", f"in 3-D, 12 x 6 x 12 cells, CFL number {cfl}",
                          [with_cfl(dam_break_in_space(), cfl)], checks))
     return made

@@ -34,7 +34,7 @@ def cases() -> list[Case]:
              [sky([box([1.5, 2.5], [1.75, 2.625], 2, V)])]),
         case("pair_meeting", "two particles that fly into each other",
              [sky([particle([5, 10], H, 1, [2.0, 0.5]), particle([7, 10], H, 1, [-2.0, 0.5])])], exact=False),
-        case("pair_of_unequal_mass", "a particle of a cell and one of 1/256 beside it, same velocity",
+        case("pair_of_unequal_mass", "a particle of a cell and one of 1/256 next to it, same velocity",
              [sky([particle([6, 10], H, 1, V), particle([7, 10], H, 16, V)])]),
         case("dust_beside_a_drop", "a drop, and a particle so light that its nodes are not active",
              [sky([ball([2.0, 2.75], 0.5, 2, V), particle([11, 11], H, 16, V)])]),

@@ -28,7 +28,7 @@ def cases() -> list[Case]:
     made.append(Case("nu_1e+03_no_slip", "liquids", "dam break with walls that hold it, 1000 m^2/s",
                      [dam_break(fluid=liquid(1000, 1e3), walls="no_slip")], checks))
     for nu in (0, 1e3):
-        made.append(Case(f"nu_{nu:.0e}_in_space", "liquids", f"dam break in space, kinematic viscosity {nu:g} m^2/s",
+        made.append(Case(f"nu_{nu:.0e}_in_space", "liquids", f"dam break in 3-D, kinematic viscosity {nu:g} m^2/s",
                          [dam_break_in_space(fluid=liquid(1000, nu))], checks))
     return made + drops() + several()
 

@@ -30,7 +30,7 @@ def cases() -> list[Case]:
         case("fine_on_coarse", "a pool of 1 per cell, a drop of 64 per cell that falls into it",
              scene([16, 16], 1 / 16, [box([0, 0], [1, 0.25], 1), ball([0.5, 0.625], 0.125, 8)], 0.8, 4e-3,
                    body_force=down(2))),
-        case("cloud_in_space", "dam break in space, 8 per cell at random places",
+        case("cloud_in_space", "dam break in 3-D, 8 per cell at random places",
              scene([12, 6, 12], 1 / 12, [box([0, 0, 0], [0.25, 0.25, 0.5], 2, arrangement="jittered", seed=7)], 0.5,
                    8e-3, body_force=down(3))),
     ]

@@ -44,7 +44,7 @@ def cases() -> list[Case]:
         case("all_large", "1.6e4 m, 1e6 s, 1e6 kg/m^3", water, macro, slow, 2.0**10),
         case("oil_small", "a viscous liquid, 1e-6 m, 1e-9 s", oil, micro, brief, 2.0**-10),
         case("oil_large", "a viscous liquid, 1.6e4 m, 1e6 s", oil, macro, slow, 2.0**10),
-        case("in_space_small", "in space, 1e-6 m, 1e-9 s", space, micro, brief),
+        case("in_space_small", "in 3-D, 1e-6 m, 1e-9 s", space, micro, brief),
         case("millionth", "a factor of 1e-6 in length, 1e-9 in time", water, 1e-6, 1e-9),
         case("ten_thousand", "a factor of 1e4 in length, 1e6 in time", water, 1e4, 1e6),
     ]

@@ -104,7 +104,7 @@ class App {
   }
 }
 
-/** Too wide to leave room beside it. */
+/** Too wide to leave room next to it. */
 function isWide(run) {
   const [across, up] = extentOf(run);
   return across > 1.7 * up;
@@ -117,7 +117,7 @@ function timesOf(runs) {
   return all.filter((time, k) => k === 0 || time - all[k - 1] > near);
 }
 
-/** In space: which slab is shown. */
+/** In 3-D: which slab is shown. */
 function offerSlices(app) {
   const holder = document.getElementById("slice-controls");
   holder.hidden = !app.shownRuns().some((run) => run.dimension === 3);

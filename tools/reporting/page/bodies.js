@@ -1,4 +1,4 @@
-// Rigid bodies: surfaces that are where the run has them, filled in the plane and in slices, in space lit triangles.
+// Rigid bodies: surfaces that are where the run has them, filled in 2-D and in slices, in 3-D lit triangles.
 "use strict";
 
 /** The columns of a packed table, each of `count` numbers. */
@@ -39,7 +39,7 @@ class Body {
     );
   }
 
-  /** In space: about the axis of the turn from one frame to the next. */
+  /** In 3-D: about the axis of the turn from one frame to the next. */
   turnedTo(frame, part) {
     const here = this.rotationOf(frame);
     if (part === 0) return here;
@@ -87,7 +87,7 @@ function rotationAbout(turn) {
   ];
 }
 
-/** Loops of places in the plane, or where a body is cut across an axis. */
+/** Loops of places in 2-D, or where a body is cut across an axis. */
 function loopsOf(body, places, slice) {
   const next = new Map(),
     place = new Map();
@@ -130,7 +130,7 @@ function cutTriangle(corners, places, slice, link) {
   if (ends.from) link(ends.from[0], ends.to[0], [ends.from, ends.to]);
 }
 
-/** The loops of all bodies that lie in the picture, as paths; in space without a slice there are none. */
+/** The loops of all bodies that lie in the picture, as paths; in 3-D without a slice there are none. */
 function bodyPaths(bodies, projection, moment, slice, dimension) {
   if (dimension === 3 && !slice) return [];
   return bodies.map((body) => {
@@ -143,7 +143,7 @@ function bodyPaths(bodies, projection, moment, slice, dimension) {
   });
 }
 
-/** Draws into what of the picture is box; in space everywhere. */
+/** Draws into what of the picture is box; in 3-D everywhere. */
 function inTheBox(context, run, projection, draw) {
   context.save();
   if (run.dimension === 2) {

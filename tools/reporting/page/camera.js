@@ -3,7 +3,7 @@
 
 const degrees = Math.PI / 180;
 
-/** Turned, tilted, zoomed and moved. In the plane it only zooms and moves. */
+/** Turned, tilted, zoomed and moved. In 2-D it only zooms and moves. */
 class Camera {
   constructor() {
     this.reset();

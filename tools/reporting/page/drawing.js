@@ -94,7 +94,7 @@ function sliceOf(run, slice) {
   return { axis: slice.axis, low: middle - half, high: middle + half };
 }
 
-/** The sides of the box in the plane, its edges in space; those behind the liquid are drawn first. */
+/** The sides of the box in 2-D, its edges in 3-D; those behind the liquid are drawn first. */
 function boxEdges(run, projection) {
   const { low, high } = run.box;
   const count = 2 ** run.dimension;
@@ -137,7 +137,7 @@ function line(context, points) {
   context.stroke();
 }
 
-/** The reference nearest to a time, and how plainly it is seen: fully at its own time, fading beside it. */
+/** The reference nearest to a time, and how plainly it is seen: fully at its own time, fading next to it. */
 function referenceAt(run, time) {
   const times = run.references.map((curves) => curves.time);
   if (times.length === 0) return null;

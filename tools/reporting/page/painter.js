@@ -1,4 +1,4 @@
-// Particles as discs, in space as balls, written pixel by pixel: 30 000 of them take a few milliseconds on any machine,
+// Particles as discs, in 3-D as balls, written pixel by pixel: 30 000 of them take a few milliseconds on any machine,
 // with or without a graphics card, and look the same everywhere.
 "use strict";
 

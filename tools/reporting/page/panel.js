@@ -147,7 +147,7 @@ class Panel {
     this.tip.style.top = `${Math.min(at[1] + 14, this.height - this.tip.offsetHeight - 4)}px`;
   }
 
-  /** The particle drawn nearest to a pixel, within a few pixels; in space the one in front. */
+  /** The particle drawn nearest to a pixel, within a few pixels; in 3-D the one in front. */
   particleAt([x, y], frame) {
     const slice = sliceOf(this.run, this.app.slice);
     const radius = Math.max(5, 0.6 * this.run.particle_size * this.projection.scale);

@@ -166,7 +166,7 @@ function decades(_, values) {
   return values.some(isPower) ? values.map((value) => (isPower(value) ? value : null)) : values;
 }
 
-/** Of the numbers beside an axis, in pixels. */
+/** Of the numbers next to an axis, in pixels. */
 function widthOfLabels(plot, values) {
   const longest = (values ?? []).reduce((most, text) => Math.max(most, text.length), 0);
   return 14 + 6.3 * longest;

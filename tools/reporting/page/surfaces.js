@@ -1,4 +1,4 @@
-// The free surface of runs in the plane that have written it: closed lines over the particles.
+// The free surface of runs in 2-D that have written it: closed lines over the particles.
 "use strict";
 
 class Surfaces {

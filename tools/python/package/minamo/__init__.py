@@ -5,7 +5,7 @@
     sim.run(until=0.2)
     print(sim["particle.velocity"].shape)   # -> (1800, 2)
 
-All quantities are in SI units, in the plane per metre of depth. In shapes, `d` is the dimension: 2 or 3.
+All quantities are in SI units, in 2-D per metre of depth. In shapes, `d` is the dimension: 2 or 3.
 """
 
 from ._minamo import __version__

@@ -57,7 +57,7 @@ class Run:
 
     @property
     def units(self) -> dict[str, str]:
-        """The units of the columns of the history, "1" without one; in the plane those per metre of depth."""
+        """The units of the columns of the history, "1" without one; in 2-D those per metre of depth."""
         path = self.folder / "history.units.json"
         return json.loads(path.read_text()) if path.is_file() else {}
 
@@ -86,7 +86,7 @@ class Run:
 
     def particles(self, k: int = -1) -> dict[str, np.ndarray]:
         """Frame `k`, counted from the end where it is negative, as fields.h5 has it: `position` `(particles, d)` [m],
-        `velocity` `(particles, 3)` [m/s], its third component zero in the plane, `pressure` `(particles,)` [Pa], `id`, and
+        `velocity` `(particles, 3)` [m/s], its third component zero in 2-D, `pressure` `(particles,)` [Pa], `id`, and
         what the scheme carries, in single precision unless the scene says otherwise; what `/output/fields` leaves out is
         not there. Particles change places from frame to frame; `id` tells who is who.
 

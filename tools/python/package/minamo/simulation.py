@@ -202,7 +202,7 @@ class Simulation:
         return self._core.grid
 
     def show(self, color: str = "speed", ax=None):
-        """The particles as a picture of matplotlib; a scene in space is seen along y. Returns the axes.
+        """The particles as a picture of matplotlib; a scene in 3-D is seen along y. Returns the axes.
 
             ax = sim.show("particle.pressure")   # ax.figure.savefig("pressure.png") keeps it
             print(ax.get_title())                # -> t = 0.1 s

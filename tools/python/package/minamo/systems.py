@@ -99,7 +99,7 @@ def system(*, slot: str, reads: Iterable[Component] = (), writes: Iterable[Compo
     :param name: by default that of the function
     :param standing: whether it also runs in the standing step, which gives the first pressure
 
-    Beside columns there are `clock`, which is read and has `time`, `step`, `end_of_step` [s] and `index`, and
+    Next to columns there are `clock`, which is read and has `time`, `step`, `end_of_step` [s] and `index`, and
     `measure.columns`, which is updated: `columns["name"] = value` in slot `measure` is a column of the history.
 
     The arrays are those of the simulation, for this call only: who keeps one gets an error. Systems in python run one at
