@@ -2,6 +2,8 @@
 
 #include "engine/run/step_control.hpp"
 
+#include <algorithm>
+
 namespace minamo {
 
 namespace {
@@ -64,6 +66,9 @@ System detail::make_loop(std::string name, std::vector<System> body, int most_pa
     for (const System& system : body) less.push_back(system.without ? system.without(absent) : system);
     return detail::make_loop(name, std::move(less), most_passes, control, control_of);
   };
+  const bool is_fit = std::none_of(body.begin(), body.end(),
+                                   [](const System& system) { return system.on_ranks == OnRanks::one_process; });
+  if (is_fit) loop.on_ranks = OnRanks::exchanges;
   loop.body = std::move(body);
   return loop;
 }

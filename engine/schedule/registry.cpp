@@ -4,7 +4,9 @@ namespace minamo {
 
 System SystemRegistry::Entry::make(int dimension, Input* options) const {
   const Kernel& kernel = dimension == 2 ? plane : space;
-  return detail::make_system(name, *kernel.system, kernel.make ? kernel.make(options) : nullptr);
+  System system = detail::make_system(name, *kernel.system, kernel.make ? kernel.make(options) : nullptr);
+  system.on_ranks = on_ranks;
+  return system;
 }
 
 System SystemRegistry::make(std::string_view name, int dimension, Input* options) const {
@@ -23,11 +25,9 @@ std::vector<std::string> SystemRegistry::names() const {
   return names;
 }
 
-void SystemRegistry::insert(std::string_view name, std::string_view doc, const Entry::Kernel& plane,
-                            const Entry::Kernel& space) {
-  const bool is_new =
-      entries_.try_emplace(std::string(name), Entry{std::string(name), std::string(doc), plane, space}).second;
-  if (!is_new) throw std::logic_error("system \"" + std::string(name) + "\" is registered twice");
+void SystemRegistry::insert(Entry entry) {
+  const auto [position, is_new] = entries_.try_emplace(entry.name, entry);
+  if (!is_new) throw std::logic_error("system \"" + position->first + "\" is registered twice");
 }
 
 }  // namespace minamo

@@ -30,19 +30,21 @@ class SystemRegistry {
       const detail::Erased* system;                         ///< its declaration, and how it is called
       std::shared_ptr<const void> (*make)(Input* options);  ///< null if it has neither members nor options
     };
-    Kernel plane;  ///< `Kernel<2>`
-    Kernel space;  ///< `Kernel<3>`
+    Kernel plane;                             ///< `Kernel<2>`
+    Kernel space;                             ///< `Kernel<3>`
+    OnRanks on_ranks = OnRanks::one_process;  ///< what it does where a run is spread over ranks
     /// \param options  may be null: no options given
     System make(int dimension, Input* options) const;
   };
 
   /// Registers `Kernel<2>` and `Kernel<3>`. A kernel with a constructor from `Input&` reads its options there.
+  /// \param on_ranks  runs on several ranks are refused what is not made for them
   /// \throws std::logic_error if the name is taken.
   template <template <int> class Kernel>
-  void add(std::string_view name) {
+  void add(std::string_view name, OnRanks on_ranks = OnRanks::one_process) {
     std::string_view doc;
     if constexpr (requires { Kernel<2>::doc; }) doc = Kernel<2>::doc;
-    insert(name, doc, erased<Kernel<2>>(), erased<Kernel<3>>());
+    insert({std::string(name), std::string(doc), erased<Kernel<2>>(), erased<Kernel<3>>(), on_ranks});
   }
 
   /// Adds something that is chosen by its member `name`, like a transfer scheme.
@@ -110,7 +112,7 @@ class SystemRegistry {
     (void)options;
     return detail::owned(new Kernel());
   }
-  void insert(std::string_view name, std::string_view doc, const Entry::Kernel& plane, const Entry::Kernel& space);
+  void insert(Entry entry);
 
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::type_index, std::any> choices_;  ///< Registered<Choice> per type

@@ -20,6 +20,24 @@ std::string_view name_of(Lifetime lifetime) {
   return {};
 }
 
+std::string_view name_of(OnRanks on_ranks) {
+  switch (on_ranks) {
+  case OnRanks::one_process:
+    return "one process only";
+  case OnRanks::own:
+    return "own";
+  case OnRanks::adds_up:
+    return "adds up";
+  case OnRanks::exchanges:
+    return "exchanges";
+  case OnRanks::alike_on_all:
+    return "alike on all";
+  case OnRanks::first_rank_writes:
+    return "first rank writes";
+  }
+  return {};
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -192,6 +192,18 @@ class Resize {
   World* world_;
 };
 
+/// What a system does where a run is spread over ranks. Said where it is registered, since it has to be made for it.
+enum class OnRanks {
+  one_process,        ///< knows nothing of other ranks, and needs what they have
+  own,                ///< looks at what its rank has alone
+  adds_up,            ///< sums over what ranks share, or over all
+  exchanges,          ///< sends what it needs
+  alike_on_all,       ///< every rank does the same
+  first_rank_writes,  ///< files
+};
+/// As lists of systems show it.
+std::string_view name_of(OnRanks on_ranks);
+
 /// What the schedule runs.
 struct System {
   std::string name;                                   ///< of its row in the profile
@@ -201,6 +213,7 @@ struct System {
   std::function<System(const Absent&)> without = {};  ///< the same where optional components are absent
   std::vector<System> body = {};                      ///< of a loop (loop.hpp)
   std::function<bool(World&, int pass)> again = {};  ///< of a loop: whether its body is to run for this pass, 0, 1, ...
+  OnRanks on_ranks = OnRanks::one_process;           ///< that of its registration; a loop is fit if all of its body is
 };
 
 namespace detail {

@@ -94,11 +94,11 @@ std::string recommended_quadrature(const Input& input, const Scene& scene) {
 void add_quadrature(SystemRegistry& registry) {
   registry.add<FindFilledNodes>("find_filled_nodes");
   registry.add<GatherMoments>("moments");
-  registry.add<FindLiquidSurface>("find_liquid_surface");
-  registry.add<FindExactVolume>("find_exact_volume");
-  registry.add<FindPressureAcceleration>("find_pressure_acceleration");
-  registry.add<FindExactShare>("find_exact_share");
-  registry.add<AddExactPressure>("add_exact_pressure");
+  registry.add<FindLiquidSurface>("find_liquid_surface", OnRanks::adds_up);
+  registry.add<FindExactVolume>("find_exact_volume", OnRanks::adds_up);
+  registry.add<FindPressureAcceleration>("find_pressure_acceleration", OnRanks::adds_up);
+  registry.add<FindExactShare>("find_exact_share", OnRanks::adds_up);
+  registry.add<AddExactPressure>("add_exact_pressure", OnRanks::own);
   registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
   registry.add(
       Quadrature{{"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals",

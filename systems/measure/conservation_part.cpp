@@ -45,18 +45,18 @@ VolumeAdvice advice_for(const Scene& scene) {
 }  // namespace
 
 void add_conservation(SystemRegistry& registry) {
-  registry.add<MeasureEnergy>("measure_energy");
-  registry.add<MeasureEnergyBalance>("measure_energy_balance");
-  registry.add<BeginEnergyGiven>("begin_energy_given");
+  registry.add<MeasureEnergy>("measure_energy", OnRanks::adds_up);
+  registry.add<MeasureEnergyBalance>("measure_energy_balance", OnRanks::alike_on_all);
+  registry.add<BeginEnergyGiven>("begin_energy_given", OnRanks::alike_on_all);
   registry.add<CountForceWork>("count_force_work");
-  registry.add<CountFaceForceWork>("count_face_force_work");
-  registry.add<MeasureMomentum>("measure_momentum");
-  registry.add<MeasureMaxSpeed>("measure_max_speed");
+  registry.add<CountFaceForceWork>("count_face_force_work", OnRanks::adds_up);
+  registry.add<MeasureMomentum>("measure_momentum", OnRanks::adds_up);
+  registry.add<MeasureMaxSpeed>("measure_max_speed", OnRanks::adds_up);
   registry.add<MeasureDivergence>("measure_divergence");
   registry.add<MeasureOverlap>("measure_overlap");
-  registry.add<WatchMove>("watch_move");
+  registry.add<WatchMove>("watch_move", OnRanks::own);
   registry.add<WatchLid>("watch_lid");
-  registry.add<WatchVolume>("watch_volume");
+  registry.add<WatchVolume>("watch_volume", OnRanks::adds_up);
   registry.add(
       Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
              return [](const Scene& of, Recipe& recipe) {

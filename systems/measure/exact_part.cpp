@@ -87,8 +87,8 @@ Contribution read_exact(Input& input, Scene& scene) {
 }  // namespace
 
 void add_exact(SystemRegistry& registry) {
-  registry.add<MeasureErrorVelocity>("measure_error_velocity");
-  registry.add<MeasureErrorPressure>("measure_error_pressure");
+  registry.add<MeasureErrorVelocity>("measure_error_velocity", OnRanks::adds_up);
+  registry.add<MeasureErrorPressure>("measure_error_pressure", OnRanks::adds_up);
   registry.add(Part{"exact", "the exact solution, to measure errors", read_exact});
 }
 

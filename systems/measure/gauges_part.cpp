@@ -62,7 +62,7 @@ Contribution read_gauges(Input& input, Scene& scene) {
 }  // namespace
 
 void add_gauges(SystemRegistry& registry) {
-  registry.add<MeasureGauges>("measure_gauges");
+  registry.add<MeasureGauges>("measure_gauges", OnRanks::adds_up);
   registry.add(
       Part{"gauges", "lines along which the height of the liquid's surface goes into the history", read_gauges});
 }

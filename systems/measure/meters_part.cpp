@@ -93,9 +93,9 @@ Contribution read_meters(Input& input, Scene& scene) {
 }  // namespace
 
 void add_meters(SystemRegistry& registry) {
-  registry.add<KeepFormerPositions>("keep_former_positions");
-  registry.add<PassMeters>("pass_meters");
-  registry.add<MeasureMeters>("measure_meters");
+  registry.add<KeepFormerPositions>("keep_former_positions", OnRanks::own);
+  registry.add<PassMeters>("pass_meters", OnRanks::adds_up);
+  registry.add<MeasureMeters>("measure_meters", OnRanks::alike_on_all);
   registry.add(Part{"meters", "planes whose flow rate goes into the history", read_meters});
 }
 

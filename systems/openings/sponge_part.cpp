@@ -42,8 +42,8 @@ Contribution read_sponges(Input& input, Scene& scene) {
 }  // namespace
 
 void add_sponge(SystemRegistry& registry) {
-  registry.add<SoakVelocity>("soak_velocity");
-  registry.add<SoakGradient>("soak_gradient");
+  registry.add<SoakVelocity>("soak_velocity", OnRanks::own);
+  registry.add<SoakGradient>("soak_gradient", OnRanks::own);
   registry.add(Part{"sponge", "regions that draw the liquid towards a velocity", read_sponges});
 }
 

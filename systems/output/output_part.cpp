@@ -82,15 +82,15 @@ Contribution read_output(Input& input, Scene& scene) {
 
 void add_output(SystemRegistry& registry) {
   registry.add<AcceptStep>("accept_step");
-  registry.add<AcceptStepOnFaces>("accept_step_on_faces");
-  registry.add<NoteStep>("note_step");
-  registry.add<WriteHistory>("write_history");
-  registry.add<FlushHistory>("flush_history");
+  registry.add<AcceptStepOnFaces>("accept_step_on_faces", OnRanks::adds_up);
+  registry.add<NoteStep>("note_step", OnRanks::own);
+  registry.add<WriteHistory>("write_history", OnRanks::first_rank_writes);
+  registry.add<FlushHistory>("flush_history", OnRanks::first_rank_writes);
   registry.add<SamplePressure>("sample_pressure");
-  registry.add<WriteFrame>("write_frame");
+  registry.add<WriteFrame>("write_frame", OnRanks::first_rank_writes);
   registry.add<WriteBodies>("write_bodies");
-  registry.add<WriteSurfaces>("write_surfaces");
-  registry.add<WriteXdmf>("write_xdmf");
+  registry.add<WriteSurfaces>("write_surfaces", OnRanks::first_rank_writes);
+  registry.add<WriteXdmf>("write_xdmf", OnRanks::first_rank_writes);
   registry.add(Part{"output", "what is written when", read_output});
 }
 

@@ -22,11 +22,11 @@ Contribution read_ranks(Input&, Scene&) {
 }  // namespace
 
 void add_ranks(SystemRegistry& registry) {
-  registry.add<MigrateParticles>("migrate_particles");
-  registry.add<FindGhostCells>("find_ghost_cells");
-  registry.add<PlanSiteExchange>("plan_site_exchange");
-  registry.add<KeepFormerRows>("keep_former_rows");
-  registry.add<AskForFormerRows>("ask_for_former_rows");
+  registry.add<MigrateParticles>("migrate_particles", OnRanks::exchanges);
+  registry.add<FindGhostCells>("find_ghost_cells", OnRanks::exchanges);
+  registry.add<PlanSiteExchange>("plan_site_exchange", OnRanks::exchanges);
+  registry.add<KeepFormerRows>("keep_former_rows", OnRanks::exchanges);
+  registry.add<AskForFormerRows>("ask_for_former_rows", OnRanks::exchanges);
   registry.add(Part{"ranks", "a run on several machines; no key", read_ranks});
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Which systems may run on several ranks. A system that only looks at particles and sites of its own may, and one that
-/// adds up what ranks share; each has been made for it, so the list says which.
+/// Refuses a run on several ranks that has systems which were not made for it, as OnRanks at their registration says.
 
 #include "systems/step/pipeline.hpp"
 

@@ -187,14 +187,14 @@ Contribution read_fluid(Input& input, Scene& scene) {
 void add_fluid(SystemRegistry& registry) {
   registry.add<SetMaterial>("set_material");
   registry.add<FillRightHandSide>("right_hand_side");
-  registry.add<ShearParticles>("shear_particles");
-  registry.add<ShearParticlesAgain>("shear_particles_again");
-  registry.add<FindCellViscosityByParticles>("find_cell_viscosity_by_particles");
-  registry.add<KeepPressure>("keep_pressure");
-  registry.add<KeepBalanceVelocity>("keep_balance_velocity");
-  registry.add<CompareBalanceVelocity>("compare_balance_velocity");
-  registry.add<FindFaceDensity>("find_face_density");
-  registry.add<FindCellViscosityOfFluids>("find_cell_viscosity_of_fluids");
+  registry.add<ShearParticles>("shear_particles", OnRanks::own);
+  registry.add<ShearParticlesAgain>("shear_particles_again", OnRanks::own);
+  registry.add<FindCellViscosityByParticles>("find_cell_viscosity_by_particles", OnRanks::own);
+  registry.add<KeepPressure>("keep_pressure", OnRanks::own);
+  registry.add<KeepBalanceVelocity>("keep_balance_velocity", OnRanks::own);
+  registry.add<CompareBalanceVelocity>("compare_balance_velocity", OnRanks::adds_up);
+  registry.add<FindFaceDensity>("find_face_density", OnRanks::adds_up);
+  registry.add<FindCellViscosityOfFluids>("find_cell_viscosity_of_fluids", OnRanks::own);
   registry.add(Part{"fluid", "density and viscosity of the liquid", read_fluid});
 }
 

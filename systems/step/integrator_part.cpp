@@ -55,10 +55,10 @@ Contribution read_newmark(Input& input, Scene& scene) {
 }  // namespace
 
 void add_integrator(SystemRegistry& registry) {
-  registry.add<PlaceQuadratureAtStart>("place_quadrature_at_start");
-  registry.add<PlaceQuadratureAtMiddle>("place_quadrature_at_middle");
-  registry.add<PlaceQuadratureStepBefore>("place_quadrature_step_before");
-  registry.add<PlaceQuadratureStepAhead>("place_quadrature_step_ahead");
+  registry.add<PlaceQuadratureAtStart>("place_quadrature_at_start", OnRanks::own);
+  registry.add<PlaceQuadratureAtMiddle>("place_quadrature_at_middle", OnRanks::own);
+  registry.add<PlaceQuadratureStepBefore>("place_quadrature_step_before", OnRanks::own);
+  registry.add<PlaceQuadratureStepAhead>("place_quadrature_step_ahead", OnRanks::own);
   registry.add<ApplyWallConditionAcceleration>("apply_wall_condition_acceleration");
   registry.add<PredictNewmark>("predict_newmark");
   registry.add<PredictMidpoint>("predict_midpoint");

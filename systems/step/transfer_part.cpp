@@ -103,7 +103,7 @@ void add_transfer(SystemRegistry& registry) {
   registry.add<FindLiquidCells>("find_liquid_cells");
   registry.add<CarryGradient>("carry_gradient_to_middle");
   registry.add<CarryGradient>("carry_gradient_to_end");
-  registry.add<CarryGradientByFaces>("carry_gradient_by_faces");
+  registry.add<CarryGradientByFaces>("carry_gradient_by_faces", OnRanks::own);
   registry.add<AddInertiaCorrection>("add_inertia_correction");
   registry.add<G2PForceGradient>("g2p_force_gradient");
   registry.add<Advect>("advect");

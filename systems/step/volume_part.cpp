@@ -65,7 +65,7 @@ void add_volume(SystemRegistry& registry) {
   registry.add<FindVolumeExcess>("find_volume_excess");
   registry.add<FillVolumeSource>("volume_source");
   registry.add<UnpackShift>("unpack_shift");
-  registry.add<StoreKineticEnergy>("store_kinetic_energy");
+  registry.add<StoreKineticEnergy>("store_kinetic_energy", OnRanks::own);
   registry.add<LimitShift>("limit_shift");
   registry.add<ShiftParticles>("shift_particles");
   registry.add<ShiftByDelta>("shift_by_delta");

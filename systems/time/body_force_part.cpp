@@ -43,7 +43,7 @@ Contribution read_body_force(Input& input, Scene& scene) {
 
 void add_body_force(SystemRegistry& registry) {
   registry.add<UniformBodyForce>("uniform_body_force");
-  registry.add<SampleBodyForce>("sample_body_force");
+  registry.add<SampleBodyForce>("sample_body_force", OnRanks::own);
   registry.add<P2GBodyForce>("p2g_body_force");
   registry.add<MoveBallisticNodes>("move_ballistic_nodes");
   registry.add(Part{"body_force", "force per unit mass, uniform or in space and time", read_body_force});

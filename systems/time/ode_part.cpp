@@ -78,8 +78,8 @@ Contribution read_ode(Input& input, Scene& scene) {
 }  // namespace
 
 void add_ode(SystemRegistry& registry) {
-  registry.add<IntegrateOde>("integrate_ode");
-  registry.add<HoldOde>("hold_ode");
+  registry.add<IntegrateOde>("integrate_ode", OnRanks::alike_on_all);
+  registry.add<HoldOde>("hold_ode", OnRanks::alike_on_all);
   registry.add(Part{"ode", "variables that are integrated along with the flow", read_ode});
 }
 

@@ -237,7 +237,7 @@ std::unique_ptr<MultiplierMatrix<Dim>> new_petsc_matrix() {
 }  // namespace
 
 void add_petsc(SystemRegistry& registry) {
-  registry.add<SolveMultipliersPetsc>("solve_multipliers_petsc");
+  registry.add<SolveMultipliersPetsc>("solve_multipliers_petsc", OnRanks::exchanges);
   set_multipliers_of_ranks<2>(new_petsc_matrix<2>);
   set_multipliers_of_ranks<3>(new_petsc_matrix<3>);
 }

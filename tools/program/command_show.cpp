@@ -83,11 +83,11 @@ std::string cell(std::string_view text) {
 }
 
 void list_systems(const SystemRegistry& registry) {
-  std::cout << "| system | does | reads | writes |\n|---|---|---|---|\n";
+  std::cout << "| system | does | reads | writes | on ranks |\n|---|---|---|---|---|\n";
   for (const auto& [name, entry] : registry.entries()) {
     const System system = entry.make(2, nullptr);
-    std::cout << fmt::format("| {} | {} | {} | {} |\n", name, entry.doc, accesses(system, false),
-                             accesses(system, true));
+    std::cout << fmt::format("| {} | {} | {} | {} | {} |\n", name, entry.doc, accesses(system, false),
+                             accesses(system, true), name_of(entry.on_ranks));
   }
 }
 
