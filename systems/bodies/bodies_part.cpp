@@ -255,34 +255,11 @@ bool seed_dry_sides(const BodiesOfScene& bodies, const Scene& scene, Recipe& rec
   return true;
 }
 
-void add_systems_of_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
+void seed_with_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
   const bool rubs = finds_friction(bodies, scene);
-  recipe.add("configure", "place_bodies", When::step);
-  const auto& periodic = scene.grid.periodic;
-  const bool any_moves = bodies.in_plane.any_moves() || bodies.in_space.any_moves();
-  if (any_moves && std::find(periodic.begin(), periodic.end(), true) != periodic.end())
-    recipe.add("configure", "require_repeats", When::step);
-  recipe.add("sort", "place_bodies", When::standing);
   const bool any_is_thin =
       with_dimension(scene.dimension, [&](auto dim) { return seed_dry_sides<dim()>(bodies, scene, recipe); });
   if (any_is_thin) recipe.add("sort", "find_dry_sides");
-  recipe.add("sort", "cut_faces");
-  recipe.add("sort", "find_face_extension");
-  if (rubs) recipe.add("sort", "find_cut_friction");
-  if (scene.schemes.at("volume") == "projection") recipe.add("volume", "find_solid_parts", When::step);
-  recipe.add("boundaries", "extend_old_velocity");
-  recipe.add("material", "fill_beside_bodies");
-  recipe.add("material", "find_divergence_ahead");
-  recipe.add("material", "find_uncut_mass");
-  recipe.add("material", "find_attached_mass");
-  recipe.add("correct", "push_bodies", When::step);
-  recipe.add("advect", "count_closed_faces", When::step);
-  recipe.add("advect", "move_bodies", When::step);
-  recipe.add("accept", "keep_out_of_bodies", When::step);
-  recipe.add("accept", "count_stops", When::step);
-  recipe.add("measure", "measure_bodies", When::step);
-  recipe.add("measure", "measure_bodies_at_start", When::standing);
-  recipe.add("measure", "watch_bodies", When::step);
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
     BodySet<Dim> set = bodies.of<Dim>();
@@ -325,29 +302,11 @@ Contribution read_bodies(Input& input, Scene& scene) {
   }
   scene.facts.set(bodies);
   set_wall_friction(bodies, scene);
-  if (bodies.in_plane.any_is_free() || bodies.in_space.any_is_free())
-    scene.facts.set(CompletesMultipliers{{"couple_free_bodies"}});
   if (bodies.in_plane.any_separates() || bodies.in_space.any_separates()) {
     const auto* sides = scene.facts.find<RepeatsBalances>();
     scene.facts.set(RepeatsBalances{.at_sides = sides != nullptr && sides->at_sides, .at_bodies = true});
   }
-  return [bodies](const Scene& of, Recipe& recipe) { add_systems_of_bodies(bodies, of, recipe); };
-}
-
-/// What comes behind the systems of other parts in a slot. Velocities are extended in standing steps, too: particles
-/// take a force gradient from them.
-Contribution read_nothing(Input&, Scene&) {
-  return [](const Scene& scene, Recipe& recipe) {
-    recipe.add("measure", "measure_energy_balance");
-    const auto* bodies = scene.facts.find<BodiesOfScene>();
-    if (!bodies) return;
-    recipe.add("configure", "stop_at_plates", When::step);
-    recipe.add("solve", "require_room", When::step);
-    if (bodies->in_plane.any_is_free() || bodies->in_space.any_is_free())
-      recipe.add("solve", "renew_wall_flux", When::step);
-    recipe.add("solve", "measure_face_divergence");
-    recipe.add("solve", "extend_balance_velocity");
-  };
+  return [bodies](const Scene& of, Recipe& recipe) { seed_with_bodies(bodies, of, recipe); };
 }
 
 }  // namespace
@@ -381,15 +340,11 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<MeasureBodies>("measure_bodies");
   registry.add<MeasureBodiesAtStart>("measure_bodies_at_start");
   registry.add<WatchBodies>("watch_bodies");
-  registry.add(Part{"bodies", "solids in the liquid", read_bodies});
-}
-
-void add_behind_bodies(SystemRegistry& registry) {
   registry.add<StopAtPlates>("stop_at_plates");
   registry.add<RequireRoom>("require_room");
   registry.add<RenewWallFlux>("renew_wall_flux");
   registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
-  registry.add(Part{"behind_bodies", "velocities of faces that bodies close, balance of energy; no key", read_nothing});
+  registry.add(Part{"bodies", "solids in the liquid", read_bodies});
 }
 
 }  // namespace minamo

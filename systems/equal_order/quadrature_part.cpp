@@ -1,5 +1,4 @@
 #include "components/surface_tension.hpp"
-#include "systems/bodies/bodies_part.hpp"
 #include "systems/equal_order/moments.hpp"
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/grid/lattice.hpp"
@@ -21,21 +20,13 @@ LatticePlaces places_of(const Discretization& conforming) {
   return conforming.degree == 2 ? LatticePlaces::middle_of_parts : LatticePlaces::exact_for_splines;
 }
 
-/// Pressure on exact integrals over the liquid.
-void add_exact_pressure(bool has_bodies, Recipe& recipe) {
-  for (const char* system : {"find_pressure_acceleration", "find_exact_share", "find_liquid_surface"})
-    recipe.add("assemble", system);
-  if (has_bodies) recipe.add("assemble", "continue_liquid");
-  for (const char* system : {"find_exact_volume", "add_exact_pressure"}) recipe.add("assemble", system);
-}
-
 void set_places(Scene& scene, LatticePlaces of_equal_order) {
   scene.facts.set(is_conforming(scene) ? places_of(scene.facts.get<Discretization>()) : of_equal_order);
 }
 
 Contribution read_mixed(Input&, Scene& scene) {
   set_places(scene, LatticePlaces::nearer_to_walls);
-  return adds_systems("assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
+  return {};
 }
 
 /// What has masses of faces or forces at the surface of its own.
@@ -49,16 +40,14 @@ void check_exact_at_surface(const Scene& scene, SeedProblems& problems) {
 
 Contribution read_exact_at_surface(Input&, Scene& scene) {
   set_places(scene, LatticePlaces::nearer_to_walls);
-  return [](const Scene& of, Recipe& recipe) {
+  return [](const Scene&, Recipe& recipe) {
     recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_exact_at_surface(seeded, problems); });
-    add_systems(of, recipe, "assemble", {{"find_filled_nodes", "moments"}, {"find_mobility_mixed"}});
-    if (is_conforming(of)) add_exact_pressure(of.facts.find<BodiesOfScene>() != nullptr, recipe);
   };
 }
 
 Contribution read_particles(Input&, Scene& scene) {
   set_places(scene, LatticePlaces::middle_of_parts);
-  return adds_systems("assemble", {{"moments"}, {"find_mobility"}});
+  return {};
 }
 
 /// Whether objects of the scene have one of some keys.

@@ -12,30 +12,6 @@ namespace minamo {
 
 namespace {
 
-/// T_IJ comes along with the friction, or alone where there is none.
-void add_friction(bool viscous, Recipe& recipe) {
-  recipe.add("assemble", viscous ? "viscosity_matrix" : "laplacian_matrix");
-}
-
-bool is_viscous(const Scene& scene) { return scene.facts.get<Fluid>().viscosity > 0; }
-
-Contribution read_pspg(Input&, Scene&) {
-  return [](const Scene& scene, Recipe& recipe) {
-    recipe.add("material", "find_tau");
-    recipe.add("assemble", "divergence_matrix");
-    add_friction(is_viscous(scene), recipe);
-  };
-}
-
-/// A bulk viscosity even of an inviscid liquid.
-Contribution read_vms(Input&, Scene&) {
-  return [](const Scene&, Recipe& recipe) {
-    recipe.add("material", "find_tau_vms");
-    recipe.add("assemble", "divergence_matrix");
-    add_friction(true, recipe);
-  };
-}
-
 /// Where a run starts from: the pressure gradient of a liquid at rest.
 template <int Dim>
 void seed_pressure_gradient(const Scene& scene, World& world) {
@@ -49,12 +25,7 @@ void seed_pressure_gradient(const Scene& scene, World& world) {
 }
 
 Contribution read_oss(Input&, Scene&) {
-  return [](const Scene& scene, Recipe& recipe) {
-    recipe.add("material", "find_tau");
-    recipe.add("assemble", "p2g_pressure_gradient");
-    recipe.add("assemble", "divergence_matrix_oss");
-    add_friction(is_viscous(scene), recipe);
-    recipe.add("solve", "g2p_pressure_gradient");
+  return [](const Scene&, Recipe& recipe) {
     recipe.seed([](const Scene& of, World& world, SeedProblems&) {
       with_dimension(of.dimension, [&](auto dim) { seed_pressure_gradient<dim()>(of, world); });
     });
@@ -63,7 +34,8 @@ Contribution read_oss(Input&, Scene&) {
 
 /// Only equal order needs one.
 Contribution read_stabilization(const Stabilization& stabilization, Input& input, Scene& scene) {
-  return is_conforming(scene) && !input.describing() ? Contribution{} : stabilization.read(input, scene);
+  const bool is_read = stabilization.read && (!is_conforming(scene) || input.describing());
+  return is_read ? stabilization.read(input, scene) : Contribution{};
 }
 
 /// Whoever names one for a discretization without pressure modes to stabilize is told.
@@ -88,8 +60,8 @@ void add_stabilization(SystemRegistry& registry) {
   registry.add<G2PPressureGradient>("g2p_pressure_gradient");
   registry.add<P2GPressureGradient>("p2g_pressure_gradient");
   registry.add(Stabilization{{"oss", "orthogonal subscales: what the projected pressure gradient leaves", read_oss}});
-  registry.add(Stabilization{{"pspg", "residual of the momentum balance, one parameter tau", read_pspg}});
-  registry.add(Stabilization{{"vms", "variational multiscale, parameters per cell, with a bulk viscosity", read_vms}});
+  registry.add(Stabilization{{"pspg", "residual of the momentum balance, one parameter tau", {}}});
+  registry.add(Stabilization{{"vms", "variational multiscale, parameters per cell, with a bulk viscosity", {}}});
   Part part = choice<Stabilization>("stabilization", "pressure stabilization", always("pspg"), read_stabilization);
   part.read = [inner = part](Input& input, Scene& scene) { return read_key(inner, input, scene); };
   registry.add(part);

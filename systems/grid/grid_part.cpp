@@ -1,5 +1,4 @@
 #include "components/grid.hpp"
-#include "engine/run/communicator.hpp"
 #include "systems/grid/activate.hpp"
 #include "systems/grid/bin.hpp"
 #include "systems/grid/capacity.hpp"
@@ -25,25 +24,12 @@ void read_box(Input& in, std::size_t dimension, GridScene& grid) {
   if (in.sound("low") && in.sound("high") && in.sound("cells")) check_grid(in, grid);
 }
 
-std::vector<std::string> sort_on_faces(const Scene& scene) {
-  if (all_ranks() == nullptr) return {"bin_by_cell", "number_sites"};
-  std::vector<std::string> systems{"migrate_particles", "bin_by_cell", "find_ghost_cells", "number_sites",
-                                   "plan_site_exchange"};
-  if (is_conforming(scene) && scene.schemes.at("quadrature") == "exact") {
-    systems.insert(systems.begin(), "keep_former_rows");
-    systems.emplace_back("ask_for_former_rows");
-  }
-  return systems;
-}
-
 Contribution read_grid(Input& input, Scene& scene) {
   const auto dimension = static_cast<std::size_t>(scene.dimension);
   scene.grid.periodic.assign(dimension, false);
   input.object("grid", "the box and its cells", Input::Presence::required,
                [&](Input& in) { read_box(in, dimension, scene.grid); });
   return [](const Scene& of, Recipe& recipe) {
-    add_systems(of, recipe, "sort", {{"bin", "number_nodes", "find_capacity"}, sort_on_faces(of)});
-    add_systems(of, recipe, "boundaries", {{"activate", "find_neighbours"}, {}});
     with_dimension(of.dimension, [&](auto dim) {
       const auto grid = grid_of<dim()>(of.grid);
       recipe.constant(grid);

@@ -178,7 +178,6 @@ Contribution read_walls(Input& input, Scene& scene) {
   const bool separates = any_separates(sides, words);
   if (separates) scene.facts.set(RepeatsBalances{.at_sides = true});
   return [sides, separates](const Scene& of, Recipe& recipe) {
-    add_systems(of, recipe, "boundaries", {{"apply_wall_condition"}, {"hold_faces"}});
     with_dimension(of.dimension, [&](auto dim) {
       recipe.constant(make_walls<dim()>(sides, recipe.registry()));
       if (separates) recipe.constant(separating_of<dim()>(sides, recipe.registry()));

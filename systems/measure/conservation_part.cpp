@@ -60,18 +60,7 @@ void add_conservation(SystemRegistry& registry) {
   registry.add(
       Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {
              return [](const Scene& of, Recipe& recipe) {
-               add_systems(of, recipe, "accept",
-                           {{"gather_node_volume", "find_advected_capacity", "measure_overlap"},
-                            {"measure_multiplier_overlap"}});
-               for (const char* system : {"measure_energy", "measure_momentum", "measure_max_speed"}) {
-                 recipe.add("measure", system);
-               }
-               if (of.time.step) recipe.add("measure", "watch_move", When::step);
                watch_lid(of, recipe);
-               // Near bodies it is measured in the slot of the solve, before velocities are extended to closed faces.
-               if (!of.facts.find<BodiesOfScene>())
-                 add_systems(of, recipe, "measure", {{"measure_divergence"}, {"measure_face_divergence"}});
-               recipe.add("measure", "watch_volume");
                recipe.constant(advice_for(of));
              };
            }});

@@ -70,14 +70,7 @@ Contribution read_exact(Input& input, Scene& scene) {
   input.object("exact", "the exact solution, to measure errors", Input::Presence::only_if_present,
                [&](Input& in) { exact = read_fields(in, scene); });
   scene.facts.set(exact);
-  return [exact](const Scene& here, Recipe& recipe) {
-    if (!exact.velocity.empty()) recipe.add("measure", "measure_error_velocity");
-    if (exact.pressure) {
-      for (const When when : {When::step, When::standing}) {
-        add_systems(here, recipe, "measure", {{"sample_pressure"}, {"recover_pressure"}}, when);
-      }
-      recipe.add("measure", "measure_error_pressure");
-    }
+  return [exact](const Scene&, Recipe& recipe) {
     recipe.seed([exact](const Scene& of, World& world, SeedProblems& problems) {
       with_dimension(of.dimension, [&](auto dim) { seed<dim()>(exact, of, world, problems); });
     });

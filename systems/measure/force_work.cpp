@@ -55,14 +55,14 @@ void note_work(const SumOfForces<Dim>& of, bool is_newmark, const std::optional<
 
 }  // namespace
 
-ForceWork force_work_of(const Scene& scene) {
+ForceWork force_work_of(const Scene& scene, std::span<const System> systems) {
   ForceWork needed;
   needed.is_by_force = !has_potential(scene.facts.get<BodyForce>(), scene.grid.periodic);
   const auto look_at = [&](const System& system) {
     needed.is_by_force = needed.is_by_force || changes_force(system);
     needed.is_given = needed.is_given || gives_energy(system);
   };
-  for (const Recipe::Placed& placed : scene.recipe.placed()) look_at(placed.system);
+  for (const System& system : systems) look_at(system);
   for (const ExtraSystem& extra : scene.systems) look_at(extra.system);
   needed.is_given = needed.is_given || needed.is_by_force;
   return needed;

@@ -26,7 +26,8 @@ struct ForceWork {
 };
 /// Any body force that is not constant, or along a periodic axis, and any system of a step that changes the force per
 /// unit mass on the grid, also one from outside.
-ForceWork force_work_of(const Scene& scene);
+/// \param systems  of the slots of steps and standing steps
+ForceWork force_work_of(const Scene& scene, std::span<const System> systems);
 
 /// Before the first step.
 template <int Dim>

@@ -49,10 +49,7 @@ Contribution read_gauges_in(Input& input, Scene& scene) {
   input.list("gauges", "lines along which the height of the liquid's surface goes into the history", 0,
              [&](Input& in, std::size_t) { read_gauge<Dim>(in, scene, gauges); });
   if (gauges.gauges.empty()) return {};
-  return [gauges](const Scene&, Recipe& recipe) {
-    recipe.constant(gauges);
-    recipe.add("measure", "measure_gauges");
-  };
+  return [gauges](const Scene&, Recipe& recipe) { recipe.constant(gauges); };
 }
 
 Contribution read_gauges(Input& input, Scene& scene) {

@@ -80,9 +80,6 @@ Contribution read_meters_in(Input& input, Scene& scene) {
     recipe.constant(meters);
     recipe.seed(
         [count = meters.meters.size()](const Scene&, World& world, SeedProblems&) { seed_meters(world, count); });
-    recipe.add("p2g", "keep_former_positions", When::step);
-    recipe.add("accept", "pass_meters", When::step);
-    recipe.add("measure", "measure_meters");
   };
 }
 

@@ -72,8 +72,6 @@ Contribution read_patches_in(Input& input, Scene& scene) {
   return [patches](const Scene&, Recipe& recipe) {
     recipe.seed(
         [patches](const Scene&, World& world, SeedProblems& problems) { seed_patches<Dim>(patches, world, problems); });
-    recipe.add("measure", "recover_pressure");
-    recipe.add("measure", "measure_patches");
   };
 }
 

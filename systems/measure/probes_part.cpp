@@ -40,11 +40,6 @@ Contribution read_probes(Input& input, Scene& scene) {
   scene.facts.set(probes);
   if (probes.empty()) return {};
   return [probes](const Scene& of, Recipe& recipe) {
-    add_systems(of, recipe, "measure", {{"measure_probes"}, {"recover_pressure", "measure_probes_on_faces"}},
-                When::step);
-    add_systems(of, recipe, "measure",
-                {{"measure_probes_at_start"}, {"recover_pressure", "measure_probes_on_faces_at_start"}},
-                When::standing);
     with_dimension(of.dimension, [&](auto dim) { recipe.constant(make_probes<dim()>(probes)); });
   };
 }

@@ -301,13 +301,8 @@ void number_on(const Scene&, World& world, SeedProblems&) {
   world.resource<opening::NextId>().value = static_cast<std::int64_t>(world.rows<Particles>());
 }
 
-void add_systems_of_openings(const OpeningsOfScene& openings, const std::vector<std::optional<Expression>>& where,
-                             const Scene& scene, Recipe& recipe) {
-  recipe.add("configure", "let_in", When::step);
-  if (scene.facts.get<TransferScheme>().carries_gradient) recipe.add("configure", "give_gradient", When::step);
-  recipe.add("boundaries", "fill_at_openings");
-  if (scene.facts.find<BodiesOfScene>()) recipe.add("boundaries", "pass_inflow");
-  recipe.add("forces", "prescribe_inflow");
+void seed_with_openings(const OpeningsOfScene& openings, const std::vector<std::optional<Expression>>& where,
+                        const Scene& scene, Recipe& recipe) {
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
     recipe.seed([set = openings.of<Dim>(), where](const Scene& of, World& world, SeedProblems& problems) {
@@ -334,52 +329,22 @@ Contribution read_openings(Input& input, Scene& scene) {
   }
   openings.in_plane.vertical = openings.in_space.vertical = rules.vertical;
   scene.facts.set(openings);
-  return [openings, where](const Scene& of, Recipe& recipe) { add_systems_of_openings(openings, where, of, recipe); };
-}
-
-/// What comes before the bodies: they extend velocities to faces that nothing holds.
-Contribution opening_faces(Input&, Scene&) {
-  return [](const Scene& scene, Recipe& recipe) {
-    if (!scene.facts.find<OpeningsOfScene>()) return;
-    recipe.add("sort", "open_faces");
-    recipe.add("boundaries", "hold_inflow");
-  };
-}
-
-/// What comes behind the systems of other parts in a slot.
-Contribution behind_openings(Input&, Scene&) {
-  return [](const Scene& scene, Recipe& recipe) {
-    if (!scene.facts.find<OpeningsOfScene>()) return;
+  return [openings, where](const Scene& of, Recipe& recipe) {
+    seed_with_openings(openings, where, of, recipe);
     recipe.seed(number_on);
-    recipe.add("assemble", "push_at_openings");
-    // With bodies, require_room adds up what both do.
-    if (!scene.facts.find<BodiesOfScene>()) recipe.add("solve", "require_outlet", When::step);
-    recipe.add("correct", "take_opening_velocities", When::step);
-    recipe.add("accept", "move_columns", When::step);
-    recipe.add("accept", "let_out", When::step);
-    recipe.add("measure", "measure_openings", When::step);
-    recipe.add("measure", "measure_openings_at_start", When::standing);
   };
 }
 
 }  // namespace
 
-void add_opening_faces(SystemRegistry& registry) {
+void add_openings(SystemRegistry& registry) {
   registry.add<OpenFaces>("open_faces");
   registry.add<HoldInflow>("hold_inflow");
-  registry.add(Part{"opening_faces", "faces that openings hold, or leave open; no key", opening_faces});
-}
-
-void add_openings(SystemRegistry& registry) {
   registry.add<LetIn>("let_in");
   registry.add<GiveGradient>("give_gradient");
   registry.add<FillAtOpenings>("fill_at_openings");
   registry.add<PassInflow>("pass_inflow");
   registry.add<PrescribeInflow>("prescribe_inflow");
-  registry.add(Part{"openings", "where liquid comes in through sides of the box, or leaves", read_openings});
-}
-
-void add_behind_openings(SystemRegistry& registry) {
   registry.add<PushAtOpenings>("push_at_openings");
   registry.add<RequireOutlet>("require_outlet");
   registry.add<TakeOpeningVelocities>("take_opening_velocities");
@@ -387,7 +352,7 @@ void add_behind_openings(SystemRegistry& registry) {
   registry.add<LetOut>("let_out");
   registry.add<MeasureOpenings>("measure_openings");
   registry.add<MeasureOpeningsAtStart>("measure_openings_at_start");
-  registry.add(Part{"behind_openings", "pressure outside openings, what leaves, balances; no key", behind_openings});
+  registry.add(Part{"openings", "where liquid comes in through sides of the box, or leaves", read_openings});
 }
 
 }  // namespace minamo

@@ -32,11 +32,7 @@ Contribution read_sponges(Input& input, Scene& scene) {
   if (!is_conforming(scene)) {
     input.problem("sponge", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
   }
-  return [sponges](const Scene& of, Recipe& recipe) {
-    recipe.constant(sponges);
-    recipe.add("g2p", "soak_velocity", When::step);
-    if (of.facts.get<TransferScheme>().carries_gradient) recipe.add("g2p", "soak_gradient", When::step);
-  };
+  return [sponges](const Scene&, Recipe& recipe) { recipe.constant(sponges); };
 }
 
 }  // namespace

@@ -53,7 +53,6 @@ OutputScene read_times(Input& input, int dimension, double end) {
 void add_surfaces(const Scene& scene, Recipe& recipe) {
   if (scene.output.surface == "none") return;
   recipe.constant(SurfaceOutput{surface_format_of(scene.output.surface), scene.grid.spacing / fewest_per_cell(scene)});
-  recipe.add_output("write_surfaces");
 }
 
 Contribution read_output(Input& input, Scene& scene) {
@@ -65,16 +64,8 @@ Contribution read_output(Input& input, Scene& scene) {
   });
   return [fields](const Scene& of, Recipe& recipe) {
     recipe.constant(fields);
-    add_systems(of, recipe, "accept", {{"accept_step"}, {"accept_step_on_faces"}}, When::step);
-    recipe.add("accept", "note_step");
-    recipe.add("record", "write_history");
     recipe.constant(HistoryInterval{of.output.history});
-    recipe.add_output("flush_history");
-    recipe.add_output(is_conforming(of) ? "recover_pressure" : "sample_pressure");
-    recipe.add_output("write_frame");
-    if (of.facts.find<BodiesOfScene>()) recipe.add_output("write_bodies");
     add_surfaces(of, recipe);
-    recipe.add_output("write_xdmf");
   };
 }
 

@@ -41,6 +41,12 @@ void Recipe::add(std::string_view slot, System system, When when) {
 
 void Recipe::add(std::string_view slot, const std::string& system, When when) { add(slot, make(system), when); }
 
+void Recipe::fill(const std::string& row, const std::vector<std::string>& systems) {
+  std::vector<System> made;
+  for (const std::string& system : systems) made.push_back(make(system));
+  fill(row, std::move(made));
+}
+
 void Recipe::add_standing_step(const std::string& configure, std::vector<System> after) {
   standing_.push_back({make(configure), std::move(after)});
 }

@@ -8,6 +8,7 @@
 #include "engine/schedule/registry.hpp"
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,7 +63,21 @@ class Recipe {
   /// \param dimension  2 or 3
   Recipe(const SystemRegistry& registry, int dimension) : registry_(&registry), dimension_(dimension) {}
 
-  /// Adds a registered system at the end of a slot, unless the slot has it already: parts may need the same one.
+  /// Makes the systems of a row of the step's table, `<p2g>`; of a row with a loop it is given what the loop repeats.
+  using Maker = std::function<std::vector<System>(std::vector<System> body)>;
+  /// Says what a row of the table is whose systems only this part can make.
+  void fill(const std::string& row, Maker make) { makers_.insert_or_assign(row, std::move(make)); }
+  /// The same for systems that are known.
+  void fill(const std::string& row, std::vector<System> systems) {
+    fill(row, [systems = std::move(systems)](const std::vector<System>&) { return systems; });
+  }
+  /// The same for registered systems without options.
+  void fill(const std::string& row, const std::vector<std::string>& systems);
+  /// What fill() has filled.
+  const std::map<std::string, Maker>& makers() const { return makers_; }
+
+  /// Adds a registered system to a slot, unless the slot has it already: in its row of the step's table if it has one
+  /// there, else behind the rows.
   /// \throws std::logic_error for an unknown slot, std::out_of_range for an unknown system.
   void add(std::string_view slot, const std::string& system, When when = When::always);
   /// The same for a system with options.
@@ -101,6 +116,7 @@ class Recipe {
  private:
   const SystemRegistry* registry_ = nullptr;
   int dimension_ = 2;
+  std::map<std::string, Maker> makers_;
   std::vector<Placed> placed_;
   std::vector<System> first_;
   std::vector<StandingStep> standing_;

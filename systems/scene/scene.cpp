@@ -44,6 +44,9 @@ Scene read_scene(Input& input, const SystemRegistry& registry, std::optional<int
   input.use_constants(scene.constants);
   scene.scope = scene_scope(scene.constants);
   std::vector<Contribution> contributions;
+  for (const Part& part : registry.in_order<Part>()) {
+    if (input.has(part.name) && input.elements(part.name).value_or(1) > 0) scene.keys.insert(part.name);
+  }
   for (const Part& part : registry.in_order<Part>()) contributions.push_back(part.read(input, scene));
   read_systems(input, registry, scene);
   if (input.describing() || !input.sound("")) return scene;

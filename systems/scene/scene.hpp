@@ -11,6 +11,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -71,9 +72,10 @@ struct Scene {
   std::string title;                        ///< its title; may be empty
   int dimension = 2;                        ///< 2 or 3
   std::map<std::string, double> constants;  ///< that its expressions may use
-  ExpressionScope scope;  ///< x, y, z, t, the ode variables and the constants, as its expressions see them
-  Instant start;          ///< t = 0 and the start values of the ode variables
-  GridScene grid;         ///< box and cells
+  ExpressionScope scope;       ///< x, y, z, t, the ode variables and the constants, as its expressions see them
+  Instant start;               ///< t = 0 and the start values of the ode variables
+  GridScene grid;              ///< box and cells
+  std::set<std::string> keys;  ///< of parts that the scene has; not those of empty lists
   std::vector<ParticleScene> particles;        ///< regions, in the order of the scene
   TimeScene time;                              ///< end and step
   OutputScene output;                          ///< files

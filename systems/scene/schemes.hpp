@@ -52,21 +52,10 @@ struct LinearSolver {
   std::string leaner = {};  ///< name of a solver that needs less memory
 };
 
-/// Systems of other parts that complete the multipliers before velocities are made of them.
-struct CompletesMultipliers {
-  std::vector<std::string> systems;  ///< in their order
-};
-
 /// Walls that the liquid may leave: the balances are solved again until contact fits, by another part than the solver.
 struct RepeatsBalances {
   bool at_sides = false;   ///< of the box
   bool at_bodies = false;  ///< solids in it
-};
-
-/// A part that solves again with friction in the balances, until the viscosity fits. `add` adds what comes behind the
-/// first solve, of which it is given the systems.
-struct RepeatsFriction {
-  std::function<void(Recipe&, const std::vector<std::string>& solve)> add;  ///< called when the recipe is made
 };
 
 /// What an integrator asks of the start and of the transfer.

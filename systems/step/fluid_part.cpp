@@ -36,28 +36,15 @@ std::string cell_viscosity_of(const Scene& scene) {
 }
 
 void add_friction(const Scene& scene, Recipe& recipe) {
-  const Friction friction = friction_of(scene);
-  if (friction == Friction::none) return;
-  const auto* rheology = scene.facts.find<Rheology>();
-  if (rheology != nullptr) recipe.add("material", "shear_particles");
-  recipe.add("assemble", cell_viscosity_of(scene));  // behind fill_beside_bodies
-  if (rheology != nullptr && depends_on_pressure(rheology->laws)) {
-    recipe.add("accept", "recover_pressure");
-    recipe.add("accept", "keep_pressure");
+  if (friction_of(scene) == Friction::none) return;
+  recipe.fill("<cell_viscosity>", std::vector{cell_viscosity_of(scene)});
+  // Solves again with the viscosity of the velocities that the solve before has given.
+  if (const auto* rheology = scene.facts.find<Rheology>()) {
+    recipe.fill("<find_viscosity>", [iterations = rheology->iterations](std::vector<System> body) {
+      return std::vector{make_loop<ViscosityLoop>("find_viscosity", std::move(body), iterations)};
+    });
   }
-  if (friction == Friction::at_start) recipe.add("assemble", "rub_faces");
   recipe.seed(scene.dimension == 2 ? Seed(seed_friction<2>) : Seed(seed_friction<3>));
-}
-
-/// Solves again with the viscosity of the velocities that the solve before has given.
-RepeatsFriction repeat_friction(int iterations, const std::string& cell_viscosity) {
-  return {[iterations, cell_viscosity](Recipe& recipe, const std::vector<std::string>& solve) {
-    std::vector<System> body{recipe.make("shear_particles_again"), recipe.make(cell_viscosity)};
-    for (const std::string& system : solve) body.push_back(recipe.make(system));
-    body.push_back(recipe.make("compare_balance_velocity"));
-    recipe.add("solve", "keep_balance_velocity");
-    recipe.add("solve", make_loop<ViscosityLoop>("find_viscosity", std::move(body), iterations));
-  }};
 }
 
 /// What a scene says of a liquid.
@@ -97,16 +84,10 @@ Liquid read_liquid(Input& in, const Scene& scene) {
   return liquid;
 }
 
-void set_rheology(Rheology rheology, Scene& scene) {
-  const int iterations = rheology.iterations;
-  scene.facts.set(std::move(rheology));
-  if (iterations > 1) scene.facts.set(repeat_friction(iterations, cell_viscosity_of(scene)));
-}
-
 void read_one(Input& input, Scene& scene) {
   Liquid liquid;
   input.object("fluid", "the liquid", Input::Presence::required, [&](Input& in) { liquid = read_liquid(in, scene); });
-  if (liquid.rheology) set_rheology(*liquid.rheology, scene);
+  if (liquid.rheology) scene.facts.set(*liquid.rheology);
   scene.facts.set(liquid.fluid);
 }
 
@@ -141,12 +122,7 @@ void read_several(Input& input, Scene& scene) {
   }
   scene.facts.set(together);
   scene.facts.set(fluids);
-  if (has_law) set_rheology(rheology, scene);
-}
-
-bool have_one_density(const Fluids& fluids) {
-  return std::all_of(fluids.of.begin(), fluids.of.end(),
-                     [&](const Fluid& fluid) { return fluid.density == fluids.of.front().density; });
+  if (has_law) scene.facts.set(rheology);
 }
 
 /// What knows of one density alone.
@@ -168,16 +144,11 @@ Contribution read_fluid(Input& input, Scene& scene) {
   if (!input.describing() && input.has("fluids") && !scene.facts.find<Fluids>()) scene.facts.set(Fluids{});
   return [](const Scene& of, Recipe& recipe) {
     if (const auto* rheology = of.facts.find<Rheology>()) recipe.constant(*rheology);
-    add_systems(of, recipe, "p2g", {{}, {"p2g_multipliers"}});
-    add_systems(of, recipe, "material", {{"set_material"}, {"find_fill"}});
-    add_systems(of, recipe, "assemble", {{}, {"assemble_multipliers"}});
-    add_systems(of, recipe, "right_hand_side", {{"right_hand_side"}, {"face_source"}});
     add_friction(of, recipe);
     recipe.constant(of.facts.get<Fluid>());
     if (const auto* fluids = of.facts.find<Fluids>()) {
       recipe.constant(*fluids);
       recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_several(seeded, problems); });
-      if (!have_one_density(*fluids)) recipe.add("p2g", "find_face_density");
     }
   };
 }

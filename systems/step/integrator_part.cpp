@@ -13,17 +13,9 @@ namespace minamo {
 
 namespace {
 
-const SystemsOf standing_prediction{{"predict_backward_euler"}, {"predict_faces_backward_euler"}};
-
 Contribution read_midpoint(Input&, Scene& scene) {
   scene.facts.set(IntegratorNeeds{.configure_beside = "place_quadrature_step_ahead", .gradients_move = true});
-  return [](const Scene& of, Recipe& recipe) {
-    recipe.add("configure", "place_quadrature_at_middle", When::step);
-    add_systems(of, recipe, "predict", {{"predict_midpoint"}, {"predict_faces_midpoint"}}, When::step);
-    add_systems(of, recipe, "predict", standing_prediction, When::standing);
-    add_systems(of, recipe, "right_hand_side", {{"damp_divergence"}, {"damp_face_divergence"}}, When::step);
-    add_systems(of, recipe, "correct", {{"correct_midpoint"}, {"correct_faces_midpoint"}}, When::step);
-  };
+  return {};
 }
 
 Contribution read_newmark(Input& input, Scene& scene) {
@@ -33,23 +25,7 @@ Contribution read_newmark(Input& input, Scene& scene) {
   parameters.beta = input.number("beta", {.doc = "Newmark's beta", .fallback = 0.25, .at_most = 0.5, .above = 0});
   parameters.gamma = input.number("gamma", {.doc = "Newmark's gamma", .fallback = 0.5, .at_least = 0.5, .at_most = 1});
   scene.facts.set(parameters);
-  return [parameters](const Scene& of, Recipe& recipe) {
-    const auto& acceleration = of.facts.get<AccelerationTransfer>();
-    recipe.add("configure", "place_quadrature_at_start", When::step);
-    for (const System& system : acceleration.p2g) recipe.add("p2g", system, When::step);
-    add_systems(of, recipe, "boundaries", {{"apply_wall_condition_acceleration"}, {"hold_face_accelerations"}},
-                When::step);
-    add_systems(of, recipe, "predict", {{"predict_newmark"}, {"predict_faces_newmark"}}, When::step);
-    add_systems(of, recipe, "predict", standing_prediction, When::standing);
-    add_systems(of, recipe, "correct",
-                {{"correct_newmark", "watch_turns"}, {"correct_faces_newmark", "watch_turns_of_faces"}}, When::step);
-    for (const System& system : acceleration.g2p) recipe.add("g2p", system, When::step);
-    std::vector<System> after{
-        recipe.make(is_conforming(of) ? "correct_faces_backward_euler" : "correct_backward_euler")};
-    after.insert(after.end(), acceleration.g2p.begin(), acceleration.g2p.end());
-    recipe.add_standing_step("place_quadrature_step_before", after);
-    recipe.constant(parameters);
-  };
+  return [parameters](const Scene&, Recipe& recipe) { recipe.constant(parameters); };
 }
 
 }  // namespace

@@ -11,7 +11,6 @@ void register_parts(SystemRegistry& registry) {
   add_walls(registry);
   add_quadrature(registry);
   add_fluid(registry);
-  add_opening_faces(registry);
   add_bodies(registry);
   add_particles(registry);
   add_body_force(registry);
@@ -26,14 +25,12 @@ void register_parts(SystemRegistry& registry) {
   add_conservation(registry);
   add_surface_tension(registry);
   add_separating(registry);
-  add_behind_bodies(registry);
   add_probes(registry);
   add_gauges(registry);
   add_meters(registry);
   add_patches(registry);
   add_exact(registry);
   add_output(registry);
-  add_behind_openings(registry);
   add_ranks(registry);
 }
 

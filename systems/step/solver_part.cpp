@@ -48,10 +48,6 @@ Contribution read_tolerance(Input& input, Scene&) {
   return [tolerance](const Scene&, Recipe& recipe) { recipe.constant(tolerance); };
 }
 
-void add_all(Recipe& recipe, const std::vector<std::string>& systems) {
-  for (const std::string& system : systems) recipe.add("solve", system);
-}
-
 Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene) {
   scene.facts.set(solver);
   if (all_ranks() != nullptr && solver.project_on_faces.empty()) {
@@ -60,20 +56,16 @@ Contribution read_solver(const LinearSolver& solver, Input& input, Scene& scene)
   }
   const Contribution options = solver.read ? solver.read(input, scene) : Contribution{};
   return [solver, options](const Scene& of, Recipe& recipe) {
-    if (is_conforming(of) && of.facts.find<RepeatsBalances>() == nullptr) {
-      add_all(recipe,
-              all_ranks() == nullptr ? solver.solve_on_faces : std::vector<std::string>{"solve_multipliers_petsc"});
-      if (const auto* completes = of.facts.find<CompletesMultipliers>()) add_all(recipe, completes->systems);
-      add_all(recipe, solver.project_on_faces);
-      if (friction_of(of) == Friction::in_balances) {
-        add_all(recipe, solver.solve_friction_on_faces);
-        if (const auto* repeats = of.facts.find<RepeatsFriction>())
-          repeats->add(recipe, solver.solve_friction_on_faces);
-      }
-    } else if (!is_conforming(of)) {
-      add_all(recipe, solver.prepare);
-      add_all(recipe, solver.solve);
-      recipe.add("solve", "unpack_solution");
+    if (is_conforming(of)) {
+      recipe.fill("<solve>",
+                  all_ranks() == nullptr ? solver.solve_on_faces : std::vector<std::string>{"solve_multipliers_petsc"});
+      recipe.fill("<project>", solver.project_on_faces);
+      recipe.fill("<solve_viscosity>", solver.solve_friction_on_faces);
+    } else {
+      std::vector<std::string> systems = solver.prepare;
+      systems.insert(systems.end(), solver.solve.begin(), solver.solve.end());
+      recipe.fill("<solve>", systems);
+      recipe.fill("<solve_volume>", solver.solve_volume);
     }
     recipe.constant(SolverTolerance{});
     if (options) options(of, recipe);

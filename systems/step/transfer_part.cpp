@@ -19,24 +19,6 @@ namespace minamo {
 
 namespace {
 
-/// (E53), and where gradients move (E62).
-void correct_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
-  if (integrator.gradients_move) recipe.add("advect", "carry_gradient_to_end", When::step);
-  recipe.add("advect", "g2p_force_gradient", When::step);
-  recipe.add("right_hand_side", "add_inertia_correction");
-  recipe.add_standing_step(integrator.configure_beside,
-                           {recipe.make("correct_backward_euler_velocity"), recipe.make("g2p_force_gradient")});
-}
-
-/// The same on faces.
-void correct_face_inertia(const IntegratorNeeds& integrator, Recipe& recipe) {
-  recipe.add("assemble", "add_face_inertia");
-  if (integrator.gradients_move) recipe.add("advect", "carry_gradient_by_faces", When::step);
-  recipe.add("advect", "g2p_face_force_gradient", When::step);
-  recipe.add_standing_step(integrator.configure_beside,
-                           {recipe.make("correct_faces_backward_euler"), recipe.make("g2p_face_force_gradient")});
-}
-
 Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scene) {
   const auto make = [&](const std::vector<std::string>& names) {
     std::vector<System> systems;
@@ -50,29 +32,20 @@ Contribution read_scheme(const TransferScheme& scheme, Input& input, Scene& scen
   }
   const auto p2g = make(conforming ? scheme.p2g_faces : scheme.p2g_velocity);
   const auto g2p = make(conforming ? scheme.g2p_faces : scheme.g2p_velocity);
-  scene.facts.set(AccelerationTransfer{make(conforming ? scheme.p2g_face_acceleration : scheme.p2g_acceleration),
-                                       make(conforming ? scheme.g2p_face_acceleration : scheme.g2p_acceleration)});
+  const auto p2g_acceleration = make(conforming ? scheme.p2g_face_acceleration : scheme.p2g_acceleration);
+  const auto g2p_acceleration = make(conforming ? scheme.g2p_face_acceleration : scheme.g2p_acceleration);
   scene.facts.set(scheme);
   const bool corrected =
       scheme.carries_gradient &&
       input.choice("inertia", std::vector<std::string>{"corrected", "lumped"},
                    "lumped mass, with or without what it leaves out: (E53), (E62)", "corrected") == "corrected";
-  return [scheme, p2g, g2p, corrected](const Scene& of, Recipe& recipe) {
-    const auto& integrator = of.facts.get<IntegratorNeeds>();
+  scene.facts.set(InertiaOfParticles{corrected});
+  return [=](const Scene&, Recipe& recipe) {
     recipe.constant(VelocityOfParticles{.is_kept = scheme.adds_changes});
-    const bool needs_liquid = corrected || scheme.reads_liquid_indicator;
-    if (is_conforming(of)) {
-      if (needs_liquid || scheme.carries_gradient) recipe.add("material", "find_liquid_cells_by_multipliers");
-    } else {
-      recipe.add("p2g", "p2g_mass");
-      if (needs_liquid) recipe.add("p2g", "find_liquid_cells");
-      if (corrected && integrator.gradients_move) recipe.add("p2g", "carry_gradient_to_middle", When::step);
-    }
-    for (const System& system : p2g) recipe.add("p2g", system);
-    for (const System& system : g2p) recipe.add("g2p", system, When::step);
-    if (scheme.carries_gradient) add_systems(of, recipe, "g2p", {{}, {"limit_gradient"}}, When::step);
-    if (corrected) is_conforming(of) ? correct_face_inertia(integrator, recipe) : correct_inertia(integrator, recipe);
-    add_systems(of, recipe, "advect", {{"advect"}, {"advect_by_faces"}}, When::step);
+    recipe.fill("<p2g_velocity>", p2g);
+    recipe.fill("<g2p_velocity>", g2p);
+    recipe.fill("<p2g_acceleration>", p2g_acceleration);
+    recipe.fill("<g2p_acceleration>", g2p_acceleration);
   };
 }
 

@@ -13,17 +13,6 @@ namespace minamo {
 
 namespace {
 
-void project_faces(const Scene& scene, Recipe& recipe) {
-  recipe.add("configure", "store_kinetic_energy", When::step);
-  recipe.add("right_hand_side", "face_volume_source", When::step);
-  for (const char* system : {"fill_parts", "stir_particles", "gather_face_shift"}) {
-    recipe.add("volume", system, When::step);
-  }
-  if (!scene.facts.get<BodyForce>().is_zero()) recipe.add("volume", "limit_particle_shift", When::step);
-  recipe.add("volume", "apply_particle_shift", When::step);
-  recipe.constant(StirGrid{fewest_per_cell(scene)});
-}
-
 Contribution read_projection(Input& input, Scene&) {
   const VolumeRate rate{input.number("rate", {.doc = "share of the excess that is corrected in a step",
                                               .fallback = VolumeRate{}.rate,
@@ -31,19 +20,7 @@ Contribution read_projection(Input& input, Scene&) {
                                               .above = 0})};
   return [rate](const Scene& scene, Recipe& recipe) {
     recipe.constant(rate);
-    if (is_conforming(scene)) return project_faces(scene, recipe);
-    // Without a body force nothing is lifted.
-    const bool limited = !scene.facts.get<BodyForce>().is_zero();
-    if (limited) recipe.add("configure", "store_kinetic_energy", When::step);
-    recipe.add("volume", "gather_node_volume", When::step);
-    recipe.add("volume", "find_advected_capacity", When::step);
-    recipe.add("volume", "find_volume_excess", When::step);
-    recipe.add("volume", "volume_source", When::step);
-    for (const std::string& system : scene.facts.get<LinearSolver>().solve_volume)
-      recipe.add("volume", system, When::step);
-    recipe.add("volume", "unpack_shift", When::step);
-    if (limited) recipe.add("volume", "limit_shift", When::step);
-    recipe.add("volume", "shift_particles", When::step);
+    if (is_conforming(scene)) recipe.constant(StirGrid{fewest_per_cell(scene)});
   };
 }
 
@@ -51,11 +28,7 @@ Contribution read_delta(Input& input, Scene& scene) {
   if (is_conforming(scene)) {
     input.problem("scheme", "not with the conforming discretization", R"(one of ["none", "projection"])", R"("delta")");
   }
-  return [](const Scene&, Recipe& recipe) {
-    recipe.add("volume", "gather_node_volume", When::step);
-    recipe.add("volume", "find_advected_capacity", When::step);
-    recipe.add("volume", "shift_by_delta", When::step);
-  };
+  return {};
 }
 
 }  // namespace

@@ -68,8 +68,7 @@ void check_bodies(Input& input, const Scene& scene, bool has_tension) {
   });
 }
 
-void add_systems_beside_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
-  recipe.add("material", "extend_surface_distance");
+void seed_solids(const BodiesOfScene& bodies, const Scene& scene, Recipe& recipe) {
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
     recipe.seed([set = bodies.of<Dim>()](const Scene&, World& world, SeedProblems&) {
@@ -89,14 +88,7 @@ Contribution read_surface_tension(Input& input, Scene& scene) {
   scene.facts.set(*tension);
   return [tension](const Scene& of, Recipe& recipe) {
     recipe.constant(*tension);
-    recipe.add("material", "find_surface_distance");
-    if (const auto* bodies = of.facts.find<BodiesOfScene>()) add_systems_beside_bodies(*bodies, of, recipe);
-    recipe.add("material", "find_free_surface");
-    recipe.add("material", "measure_surface_around");
-    recipe.add("material", "find_surface_traction");
-    recipe.add("assemble", "add_surface_tension");
-    recipe.add("measure", "measure_surface_energy", When::step);
-    recipe.add("measure", "measure_surface_energy_at_start", When::standing);
+    if (const auto* bodies = of.facts.find<BodiesOfScene>()) seed_solids(*bodies, of, recipe);
   };
 }
 

@@ -24,14 +24,7 @@ Contribution read_body_force(Input& input, Scene& scene) {
   const BodyForce force{
       read_vector(input, "body_force", scene, {.unit = "m/s^2", .doc = "force per unit mass", .fallback = 0})};
   scene.facts.set(force);
-  return [force](const Scene& here, Recipe& recipe) {
-    if (force.is_uniform()) {
-      add_systems(here, recipe, "forces", {{"uniform_body_force"}, {"uniform_face_force"}});
-    } else {
-      add_systems(here, recipe, "forces",
-                  {{"sample_body_force", "p2g_body_force"}, {"sample_body_force", "p2g_face_force"}});
-    }
-    add_systems(here, recipe, "ballistic", {{"move_ballistic_nodes"}, {}});
+  return [force](const Scene&, Recipe& recipe) {
     recipe.constant(force);
     recipe.seed([force](const Scene& of, World& world, SeedProblems& problems) {
       with_dimension(of.dimension, [&](auto dim) { check<dim()>(force, of, world, problems); });

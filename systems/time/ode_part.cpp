@@ -68,11 +68,7 @@ Contribution read_ode(Input& input, Scene& scene) {
         add_variable(scene, equations, name, start({}), rate);
       });
   if (equations.name.empty()) return {};
-  return [equations](const Scene&, Recipe& recipe) {
-    recipe.begin_with("hold_ode");
-    recipe.add("forces", "integrate_ode", When::step);
-    recipe.seed(seed_ode(equations));
-  };
+  return [equations](const Scene&, Recipe& recipe) { recipe.seed(seed_ode(equations)); };
 }
 
 }  // namespace

@@ -29,10 +29,9 @@ struct TransferScheme {
   bool reads_liquid_indicator = false;  ///< liquid or spray, (E61)
 };
 
-/// The systems of the chosen scheme for accelerations, for integrators that carry them.
-struct AccelerationTransfer {
-  std::vector<System> p2g;  ///< particles to grid
-  std::vector<System> g2p;  ///< grid to particles
+/// What lumped mass leaves out, (E53), (E62).
+struct InertiaOfParticles {
+  bool is_corrected = false;  ///< whether it is put back
 };
 
 /// PIC, FLIP, APIC, TPIC, TPIC2, XPIC and FMPM.

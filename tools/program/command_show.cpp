@@ -1,6 +1,7 @@
 #include "tools/program/commands.hpp"
 
 #include "engine/schedule/schedule.hpp"
+#include "systems/step/step_table.hpp"
 #include "tools/program/scene_file.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -91,6 +92,40 @@ void list_systems(const SystemRegistry& registry) {
   }
 }
 
+std::string words_of(const std::vector<Condition>& all) {
+  std::string words;
+  for (const Condition& one : all) words.append(words.empty() ? "" : ", ").append(one.words);
+  return words;
+}
+
+std::string_view name_of(When when) {
+  switch (when) {
+  case When::always:
+    return "both";
+  case When::step:
+    return "step";
+  case When::standing:
+    return "start";
+  }
+  return {};
+}
+
+/// The tables of the step of both methods.
+void list_step(const SystemRegistry& registry) {
+  for (const auto& [method, table] :
+       {std::pair{"conforming", &table_of_faces()}, std::pair{"equal_order", &table_of_equal_order()}}) {
+    std::cout << fmt::format("\n{}\n\n| slot | system | in | if | on ranks |\n|---|---|---|---|---|\n", method);
+    std::string_view slot;
+    for (const Row& row : table->rows) {
+      const auto entry = registry.entries().find(row.system);
+      std::cout << fmt::format("| {} | `{}` | {} | {} | {} |\n", row.slot == slot ? "" : row.slot, row.system,
+                               name_of(row.when), words_of(row.all),
+                               entry == registry.entries().end() ? "" : name_of(entry->second.on_ranks));
+      slot = row.slot;
+    }
+  }
+}
+
 void list_components(const SystemRegistry& registry) {
   std::map<std::string_view, const ComponentInfo*> components;
   for (const auto& [name, entry] : registry.entries()) {
@@ -129,6 +164,8 @@ void list_schemes(const SystemRegistry& registry, std::string_view of_part) {
 int list(const std::string& what, const SystemRegistry& registry) {
   if (what == "systems") {
     list_systems(registry);
+  } else if (what == "step") {
+    list_step(registry);
   } else if (what == "components") {
     list_components(registry);
   } else if (what == "parts") {

@@ -166,10 +166,12 @@ void add_showing(CLI::App& app, ShowOptions& options) {
   CLI::App* graph = app.add_subcommand("graph", "show the systems that a scene needs, their data and edges");
   graph->add_option("SCENE", options.scene, "scene file")->required();
   graph->add_option("--format", options.format, "dot or json")->check(CLI::IsMember({"dot", "json"}));
-  CLI::App* listing = app.add_subcommand("list", "list parts, schemes, solvers, systems or components");
-  listing->add_option("WHAT", options.what, "parts, schemes, solvers, systems or components")
+  CLI::App* listing =
+      app.add_subcommand("list", "list parts, schemes, solvers, systems, components or step: the tables of the step");
+  listing
+      ->add_option("WHAT", options.what, "parts, schemes, solvers, systems, components or step: the tables of the step")
       ->required()
-      ->check(CLI::IsMember({"parts", "schemes", "solvers", "systems", "components"}));
+      ->check(CLI::IsMember({"parts", "schemes", "solvers", "systems", "components", "step"}));
   CLI::App* schema = app.add_subcommand("schema", "print the JSON Schema of a scene");
   schema->add_flag("--table", options.as_table, "print the keys as a Markdown table instead");
 }
