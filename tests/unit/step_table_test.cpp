@@ -40,7 +40,7 @@ TEST_CASE("the rows of the step are in the order of the slots, and name systems 
 }
 
 TEST_CASE("what the built-in parts ask for has a row, so that their order is not the order of the step", "[unit]") {
-  const Scene scene = read(scene_of_file(GENERATE("dam_break", "dam_break_3d")));
+  const Scene scene = read(scene_of_file(GENERATE("dam_break.json", "dam_break_3d.json")));
   for (const Recipe::Placed& placed : scene.recipe.placed()) {
     CAPTURE(placed.slot, placed.system.name);
     const auto& rows = table_of(scene).rows;
@@ -50,7 +50,7 @@ TEST_CASE("what the built-in parts ask for has a row, so that their order is not
 }
 
 TEST_CASE("what a part from outside adds comes behind the rows of its slot", "[unit]") {
-  Scene scene = read(scene_of_file("dam_break"));
+  Scene scene = read(scene_of_file("dam_break.json"));
   std::vector<std::string> expected = names_in(scene, "advect");
   scene.recipe.add("advect", "measure_gauges", When::step);
   expected.emplace_back("measure_gauges");
@@ -58,7 +58,7 @@ TEST_CASE("what a part from outside adds comes behind the rows of its slot", "[u
 }
 
 TEST_CASE("a system that has a row stands there when a part adds it", "[unit]") {
-  Scene scene = read(scene_of_file("dam_break"));
+  Scene scene = read(scene_of_file("dam_break.json"));
   scene.recipe.add("measure", "measure_gauges");
   const std::vector<std::string> names = names_in(scene, "measure");
   CHECK(std::find(names.begin(), names.end(), "measure_gauges") != names.end());
@@ -69,7 +69,7 @@ TEST_CASE("a system that has a row stands there when a part adds it", "[unit]") 
 }
 
 TEST_CASE("a part that fills a row that no table has is told", "[unit]") {
-  Scene scene = read(scene_of_file("dam_break"));
+  Scene scene = read(scene_of_file("dam_break.json"));
   scene.recipe.fill("<p2g_velocty>", std::vector<std::string>{"p2g_faces_pic"});
   CHECK_THROWS_WITH(make_pipeline(scene), "no table of the step has the row <p2g_velocty>");
 }
