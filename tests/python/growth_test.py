@@ -7,7 +7,7 @@ import minamo
 import numpy as np
 
 H = 0.05  # m
-CELLS = 8
+CELLS = [4, 8]  # twice as wide there are twice as many disturbances, and those that grow are there as well
 GRAVITY = 9.81
 CHANGE = 1e-7  # in the units of each column
 
@@ -16,7 +16,7 @@ def pool(level, quadrature, **changes):
     """Water in a box up to a level in cells, 2 x 2 particles a cell on their lattice."""
     return {
         "dimension": 2,
-        "grid": {"low": [0, 0], "high": [CELLS * H, CELLS * H], "cells": [CELLS, CELLS]},
+        "grid": {"low": [0, 0], "high": [cells * H for cells in CELLS], "cells": CELLS},
         "fluid": {"density": 1000, "viscosity": 0},
         "body_force": [0, -GRAVITY],
         "particles": [{"shape": {"half_space": {"point": [0, level * H], "normal": [0, 1]}}, "per_cell": 2}],
