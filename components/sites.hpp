@@ -60,10 +60,10 @@ class SiteRows {
   template <class Body>
   void for_each(const Body& body) const;
 
-  /// Which row every row was before, from the sites of the rows before; none for one that is new.
+  /// Which row every row was before, from the sites of the rows before, of several the first; none for one that is new.
   void find_former_rows(std::span<const Index<Dim>> sites, std::vector<std::optional<std::uint32_t>>& from) const {
     std::fill(from.begin(), from.end(), std::nullopt);
-    for (std::size_t i = 0; i < sites.size(); ++i) {
+    for (std::size_t i = sites.size(); i-- > 0;) {
       if (const auto row = find(sites[i])) from[*row] = static_cast<std::uint32_t>(i);
     }
   }

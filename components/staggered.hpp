@@ -7,6 +7,9 @@
 
 #include "components/sites.hpp"
 
+#include <algorithm>
+#include <compare>
+
 namespace minamo {
 
 /// The table of sites: a row per site, with its faces, one per direction, and its multiplier.
@@ -27,6 +30,42 @@ struct CellSites {
   /// The first of the rows of a cell.
   const std::uint32_t* of(std::size_t cell) const { return rows.data() + cell * per_cell; }
   static constexpr ComponentInfo info{"cells.sites", "", "1", Lifetime::scratch};
+};
+
+/// (E136) The sites that thin walls hide from the particles of a cell. A cell that a wall parts stands among the
+/// occupied cells once for the particles of each side. To these a hidden site is closed: in its place they have a row
+/// of their own, behind those of StaggeredIndex, with neither a multiplier nor an open face.
+struct HiddenSites {
+  std::vector<std::uint64_t> of_cell;  ///< by occupied cell: bit k is set if its k-th site is hidden
+  std::uint32_t first_row = 0;         ///< of those that stand for hidden sites
+  /// Of a face, or of the multiplier of a hidden site: a multiplier that particles with weight there see.
+  struct Sight {
+    std::size_t from;                                ///< as face() or multiplier()
+    std::uint32_t row;                               ///< of the multiplier
+    auto operator<=>(const Sight&) const = default;  ///< by `from`, then by `row`
+  };
+  std::vector<Sight> seen;  ///< rising; of rows of cells that walls part
+  static constexpr ComponentInfo info{"staggered.hidden", "", "1", Lifetime::scratch};
+
+  /// The number of a face of a row.
+  static std::size_t face(std::size_t row, std::size_t d) { return 4 * row + d; }
+  /// That of the multiplier of a row.
+  static std::size_t multiplier(std::size_t row) { return 4 * row + 3; }
+  /// Whether a row stands for a hidden site.
+  bool is_hidden(std::size_t row) const { return row >= first_row; }
+  /// Whether any of so many rows does.
+  bool any(std::size_t rows) const { return first_row < rows; }
+  /// Whether the row of a hidden site has but outermost faces of cells: in the mirror it would not be there.
+  bool has_faces_alone(std::size_t row) const { return is_hidden(row) && seen_from(multiplier(row)).empty(); }
+  /// What is seen from a face or multiplier by its number.
+  std::span<const Sight> seen_from(std::size_t from) const {
+    const auto first = std::lower_bound(seen.begin(), seen.end(), Sight{from, 0});
+    return {first, std::find_if(first, seen.end(), [&](const Sight& of) { return of.from != from; })};
+  }
+  /// Whether that of a row is.
+  bool sees(std::size_t from, std::uint32_t row) const {
+    return std::binary_search(seen.begin(), seen.end(), Sight{from, row});
+  }
 };
 
 namespace staggered {

@@ -13,6 +13,7 @@
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/bodies/geometry/dry_sides.hpp"
 #include "systems/bodies/geometry/fill.hpp"
+#include "systems/bodies/geometry/hidden_sites.hpp"
 #include "systems/bodies/geometry/outlines.hpp"
 #include "systems/bodies/geometry/repeats.hpp"
 #include "systems/bodies/geometry/sides_around.hpp"
@@ -259,7 +260,9 @@ void seed_with_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& r
   const bool rubs = finds_friction(bodies, scene);
   const bool any_is_thin =
       with_dimension(scene.dimension, [&](auto dim) { return seed_dry_sides<dim()>(bodies, scene, recipe); });
-  if (any_is_thin) recipe.add("sort", "find_dry_sides");
+  if (any_is_thin) {
+    for (const char* system : {"find_dry_sides", "split_cells", "number_hidden_sites"}) recipe.add("sort", system);
+  }
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
     BodySet<Dim> set = bodies.of<Dim>();
@@ -321,6 +324,8 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<PlaceBodies>("place_bodies");
   registry.add<RequireRepeats>("require_repeats");
   registry.add<FindDrySides>("find_dry_sides");
+  registry.add<SplitCells>("split_cells");
+  registry.add<NumberHiddenSites>("number_hidden_sites");
   registry.add<CutFaces>("cut_faces");
   registry.add<FindFaceExtension>("find_face_extension");
   registry.add<FindCutFriction>("find_cut_friction");

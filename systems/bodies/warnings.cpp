@@ -226,10 +226,14 @@ class BodyWarnings {
 /// Less of the liquid than this is rounding.
 constexpr double least_cut = 1e-9;
 
-/// Of thin walls that part liquid from liquid at the start. \param dry  which the run has for itself
+/// Thinner than so many cells a wall between waters is not seen where it meets another one: of pools on different
+/// levels, at nine angles and offsets, three leak at 0.1 h or less, none at 0.15 h. [h]
+constexpr double thinnest_between_waters = 0.15;
+
+/// Of the thinnest walls that part liquid from liquid at the start. \param dry  which the run has for itself
 template <int Dim>
-std::vector<std::string> warnings_of_thin_walls(const BodySet<Dim>& set, const Grid<Dim>& grid, int degree,
-                                                DrySides<Dim> dry, std::span<const Vec<Dim>> x_p) {
+std::vector<std::string> warnings_of_thin_walls(const BodySet<Dim>& set, const Grid<Dim>& grid, DrySides<Dim> dry,
+                                                std::span<const Vec<Dim>> x_p) {
   std::vector<std::string> found;
   for (std::size_t b = 0; b < set.bodies.size(); ++b) {
     auto& walls = dry.of_body[b];
@@ -237,13 +241,13 @@ std::vector<std::string> warnings_of_thin_walls(const BodySet<Dim>& set, const G
     if (!walls) continue;
     for (const Vec<Dim>& x : x_p) walls->light(shape, x);
     walls->find_dry();
-    const auto wet = walls->wet_on_both_sides(shape);
+    const auto wet = walls->wet_on_both_sides(shape, thinnest_between_waters * grid.spacing);
     if (!wet) continue;
-    found.push_back(fmt::format(
-        "body \"{}\" is thinner than {} cells and wet on both sides at {}: what moves on one side reaches the "
-        "other, and below one cell liquid on different levels may get through; thicker than {:.3g} m, or cells of "
-        "{:.3g} m",
-        set.bodies[b].name, degree, place_text<Dim>(wet->middle), degree * grid.spacing, wet->thickness / degree));
+    found.push_back(
+        fmt::format("body \"{}\" is {:.2g} cells thick and wet on both sides at {}: liquid on different levels may get "
+                    "through where it meets another wall; thicker than {:.3g} m, or cells of {:.3g} m",
+                    set.bodies[b].name, wet->thickness / grid.spacing, place_text<Dim>(wet->middle),
+                    thinnest_between_waters * grid.spacing, wet->thickness / thinnest_between_waters));
   }
   return found;
 }
@@ -266,9 +270,9 @@ std::vector<std::string> warnings_of_bodies(const Scene& scene, World& world) {
     const auto of_cut = warning_of_cut(world.resource<LiquidCut>(), Dim);
     found.insert(found.end(), of_cut.begin(), of_cut.end());
     if (!world.has<DrySides<Dim>>()) return found;
-    const auto of_thin = warnings_of_thin_walls<Dim>(
-        world.resource<BodySet<Dim>>(), world.resource<Grid<Dim>>(), world.resource<Splines<Dim>>().degree,
-        world.resource<DrySides<Dim>>(), world.template column<particle::Position<Dim>>());
+    const auto of_thin =
+        warnings_of_thin_walls<Dim>(world.resource<BodySet<Dim>>(), world.resource<Grid<Dim>>(),
+                                    world.resource<DrySides<Dim>>(), world.template column<particle::Position<Dim>>());
     found.insert(found.end(), of_thin.begin(), of_thin.end());
     return found;
   });

@@ -17,7 +17,7 @@ constexpr double near_from = 0.8;
 constexpr double near_to = 0.95;
 constexpr int liquid_reach = 2;
 /// Open share of a multiplier from which on its particles tell whether there is liquid.
-constexpr double least_open = 0.05;
+constexpr double least_open_share = 0.05;
 /// Largest rho V^_f/m_f: a face that no particle is near has next to no inertia.
 constexpr double largest_ratio = 10;
 /// Froude number of a cell, h |grad v|/sqrt(h |q|), up to which forces are those of a liquid at rest, and from which on
@@ -53,14 +53,16 @@ std::optional<std::size_t> row_at_corner(const RowsOfSites<Dim>& of, std::size_t
   auto row = static_cast<std::int32_t>(i);
   if ((corner & 1U) != 0) row = of.neighbour[i][2 * d];
   if ((corner & 2U) != 0 && row != staggered::none) row = of.neighbour[static_cast<std::size_t>(row)][2 * e + 1];
-  if (row != staggered::none) return static_cast<std::size_t>(row);
-  if (corner != 3) return {};
+  const bool by_site = of.is_near_thin_wall(i);
+  if (row != staggered::none && !by_site) return static_cast<std::size_t>(row);
+  if (corner != 3 && !by_site) return {};
   // The one in between may have no row.
   Index<Dim> steps{};
-  steps[d] = -1;
-  steps[e] = 1;
+  if ((corner & 1U) != 0) steps[d] = -1;
+  if ((corner & 2U) != 0) steps[e] = 1;
   const auto at = of.splines.site_at(of.site[i], steps);
-  return at ? of.rows.find(*at) : std::nullopt;
+  const auto found = at ? of.rows.find(*at) : std::nullopt;
+  return found && of.parts_faces(i, d, *found, e) ? std::nullopt : found;
 }
 
 /// |q| at a face of a direction: its own component, and the means of the others over the faces around that have mass.
@@ -91,8 +93,8 @@ void FindPressureAcceleration<Dim>::operator()(
     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
     Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
     Read<face::Mass<Dim>> m_f, Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Open<Dim>>> open,
-    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
-    Write<face::PressureAcceleration<Dim>> q_f) const {
+    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
+    Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   // What particles have left still has rows on the high side of the liquid.
@@ -107,9 +109,10 @@ void FindPressureAcceleration<Dim>::operator()(
       sums[i][Dim + d] = is_held ? 0 : rho.at(i, axis) * volume[i][axis];
     }
   });
-  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span()};
+  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span(), hiding(dry)};
   // What goes over rows axis by axis would depend on the order of the axes where a site has none.
-  const auto is_at_edge = near_any<Dim, 1>(of, [&](std::size_t i) { return of.lacks_one_beside(i); });
+  const auto is_at_edge =
+      near_any<Dim, 1>(of, [&](std::size_t i) { return of.lacks_one_beside(i) || of.is_near_thin_wall(i); });
   using Sums = typename face::PressureSums<Dim>::value_type;
   const std::vector<Sums> of_face(sums.begin(), sums.end());
   // Axis by axis over the faces next to a face, ...
@@ -136,7 +139,9 @@ void FindPressureAcceleration<Dim>::operator()(
     if (is_at_edge[i] == 0) return;
     sums[i].fill(0);
     for_each_row_around<Dim, 1>(*splines, *rows, site[i], [&](std::uint32_t j, const auto&, const auto&) {
-      for (std::size_t k = 0; k < 2 * Dim; ++k) sums[i][k] += of_face[j][k];
+      for (std::size_t k = 0; k < 2 * Dim; ++k) {
+        if (!of.parts_faces(i, k % Dim, j, k % Dim)) sums[i][k] += of_face[j][k];
+      }
     });
   });
   const double least = least_mass * fluid->density * std::pow(grid->spacing, Dim);
@@ -154,12 +159,12 @@ void FindExactShare<Dim>::operator()(
     Read<multiplier::Capacity> capacity, Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility,
     Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Open<Dim>>> open_face,
     Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
-    Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
-    Write<face::ExactShare<Dim>> share) const {
+    Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
+    Write<multiplier::NearExact> buffer, Write<face::ExactShare<Dim>> share) const {
   for_each_row(near.size(), [&](std::size_t i) {
-    near[i] = capacity[i] == 0 || (open && open[i] < least_open) ? 0 : v_l[i] / capacity[i];
+    near[i] = capacity[i] == 0 || (open && open[i] < least_open_share) ? 0 : v_l[i] / capacity[i];
   });
-  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span()};
+  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span(), hiding(dry)};
   spread_largest<Dim, liquid_reach>(of, near.span(), buffer.span(),
                                     [&](std::size_t i) { return v_l[i] > 0 && near[i] < near_to; });
   if (shared) shared->copy_from_owner(near.span());

@@ -10,6 +10,7 @@
 #include "components/staggered.hpp"
 #include "components/step.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
@@ -23,8 +24,9 @@ struct FindPressureAcceleration {
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
                   Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
                   Read<face::Mass<Dim>> m_f, Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Open<Dim>>> open,
-                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
-                  Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const;
+                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry,
+                  Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
+                  Write<face::PressureAcceleration<Dim>> q_f) const;
 };
 
 /// (E133)  w_f: 1 where the liquid is nearly at rest, 0 where it moves, and in spray.
@@ -37,8 +39,9 @@ struct FindExactShare {
                   Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
                   Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Open<Dim>>> open_face,
                   Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
-                  Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
-                  Write<multiplier::NearExact> buffer, Write<face::ExactShare<Dim>> share) const;
+                  Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
+                  Write<face::ExactShare<Dim>> share) const;
 };
 
 /// (E134)  v*_f += tau (rho_f V^_f/m_f - 1) q_f.

@@ -140,8 +140,8 @@ template <int Dim>
 void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                         Read<multiplier::FillFraction> phi, Optional<Read<multiplier::OpenShare>> open,
-                                        Read<face::ExactShare<Dim>> share, Optional<Read<SiteExchange>> shared,
-                                        Write<multiplier::SurfaceDistance> psi,
+                                        Read<face::ExactShare<Dim>> share, Optional<Read<DrySides<Dim>>> dry,
+                                        Optional<Read<SiteExchange>> shared, Write<multiplier::SurfaceDistance> psi,
                                         Write<multiplier::SurfaceNormal<Dim>> n_l, Write<multiplier::NearExact> near,
                                         Write<multiplier::ContinuedFill> continued) const {
   const Whole is_whole{open.span()};
@@ -156,7 +156,7 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
   });
   with_degree(splines->degree, [&](auto degree) {
     spread_largest<Dim, degree()>(
-        {*splines, *rows, site.span(), neighbour.span()}, near.span(), psi.span(), [&](std::size_t i) {
+        {*splines, *rows, site.span(), neighbour.span(), hiding(dry)}, near.span(), psi.span(), [&](std::size_t i) {
           return near[i] == 0 && liquid::may_be_at_surface(*splines, site[i], neighbour[i], phi.span(), i);
         });
   });

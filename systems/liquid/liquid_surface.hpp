@@ -6,6 +6,7 @@
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
@@ -46,9 +47,9 @@ struct FindLiquidSurface {
   void operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
                   Optional<Read<multiplier::OpenShare>> open, Read<face::ExactShare<Dim>> share,
-                  Optional<Read<SiteExchange>> shared, Write<multiplier::SurfaceDistance> psi,
-                  Write<multiplier::SurfaceNormal<Dim>> n_l, Write<multiplier::NearExact> near,
-                  Write<multiplier::ContinuedFill> continued) const;
+                  Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
+                  Write<multiplier::SurfaceDistance> psi, Write<multiplier::SurfaceNormal<Dim>> n_l,
+                  Write<multiplier::NearExact> near, Write<multiplier::ContinuedFill> continued) const;
 };
 
 }  // namespace minamo

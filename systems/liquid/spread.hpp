@@ -3,9 +3,16 @@
 /// The largest value of a column of multipliers around each of them.
 
 #include "components/staggered.hpp"
+#include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/sites_around.hpp"
 
 namespace minamo {
+
+/// The dry sides of bodies, if they hide anything that is wet, too.
+template <int Dim>
+const DrySides<Dim>* hiding(const Optional<Read<DrySides<Dim>>>& dry) {
+  return dry && dry->hides_any() ? &*dry : nullptr;
+}
 
 /// The rows of a step.
 template <int Dim>
@@ -14,6 +21,20 @@ struct RowsOfSites {
   const StaggeredIndex<Dim>& rows;
   std::span<const Index<Dim>> site;
   std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
+  const DrySides<Dim>* dry = nullptr;  ///< null: no thin wall hides anything
+
+  /// Whether a thin wall may part a row from those around: their sites tell, not which rows know each other.
+  bool is_near_thin_wall(std::size_t i) const { return dry != nullptr && dry->has_view(site[i]); }
+  bool parts(std::size_t i, std::uint32_t j) const {
+    return dry != nullptr && dry->parts(site[i], site[j]);
+  }  /// Whether one parts a face of direction d from a face of direction e: all their sites.
+  bool parts_faces(std::size_t i, std::size_t d, std::size_t j, std::size_t e) const {
+    if (dry == nullptr) return false;
+    const auto below_i = site_beside(splines, site[i], 2 * d);
+    const auto below_j = site_beside(splines, site[j], 2 * e);
+    return dry->parts(site[i], site[j]) && (!below_i || dry->parts(*below_i, site[j])) &&
+           (!below_j || (dry->parts(site[i], *below_j) && (!below_i || dry->parts(*below_i, *below_j))));
+  }
 
   /// Whether a site next to one has no row, though the grid goes on.
   bool lacks_one_beside(std::size_t i) const {
@@ -45,16 +66,20 @@ void spread_over_neighbours(const RowsOfSites<Dim>& of, std::span<double> value,
 }
 
 /// The same over all rows: where rows between are missing those for which may_miss(row) holds look at every site
-/// around. On several ranks it is that of the rows that a rank owns.
+/// around that no thin wall parts from theirs. On several ranks it is that of the rows that a rank owns.
 template <int Dim, int Reach, class MayMiss>
 void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer,
                     const MayMiss& may_miss) {
   const std::vector<double> of_row(value.begin(), value.end());
   spread_over_neighbours<Dim, Reach>(of, value, buffer);
   for_each_row(value.size(), [&](std::size_t i) {
-    if (!may_miss(i)) return;
+    if (of.is_near_thin_wall(i)) {
+      value[i] = of_row[i];
+    } else if (!may_miss(i)) {
+      return;
+    }
     for_each_row_around<Dim, Reach>(of.splines, of.rows, of.site[i], [&](std::uint32_t j, const auto&, const auto&) {
-      value[i] = std::max(value[i], of_row[j]);
+      if (!of.parts(i, j)) value[i] = std::max(value[i], of_row[j]);
     });
   });
 }

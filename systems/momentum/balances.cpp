@@ -100,7 +100,8 @@ void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Re
                                      Read<cell::LiquidIndicator> w_c, Read<particle::QuadraturePosition<Dim>> y_p,
                                      Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p,
                                      Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                                     Optional<Read<SiteExchange>> shared, Write<face::InertiaCorrection<Dim>> c_f,
+                                     Optional<Read<FaceExtension<Dim>>> extension, Optional<Read<SiteExchange>> shared,
+                                     Write<face::InertiaCorrection<Dim>> c_f,
                                      Update<face::Predictor<Dim>> predictor) const {
   const double share = std::min(1.0, step->seconds / clock->step);
   const double most = steady_force / (clock->step * clock->step);
@@ -112,6 +113,7 @@ void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Re
                                 return series::Linear<Dim>{nothing, (size > most ? w * most / size : w) * grad_f_p[p]};
                               };
                             });
+  if (extension) extension->apply_to_parted(c_f.span(), 0);
   const double tau = rates->velocity / rates->acceleration;
   const Constraints<Dim> walls{held.span()};
   for_each_row(c_f.size(), [&](std::size_t i) {

@@ -17,6 +17,7 @@
 #include "engine/schedule/system.hpp"
 #include "systems/grid/incidence.hpp"
 #include "systems/grid/splines.hpp"
+#include "systems/momentum/face_extension.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -85,7 +86,8 @@ struct AddFaceInertia {
                   Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<cell::LiquidIndicator> w_c, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p, Read<face::Mass<Dim>> m_f,
-                  Read<face::Held> held, Optional<Read<SiteExchange>> shared, Write<face::InertiaCorrection<Dim>> c_f,
+                  Read<face::Held> held, Optional<Read<FaceExtension<Dim>>> extension,
+                  Optional<Read<SiteExchange>> shared, Write<face::InertiaCorrection<Dim>> c_f,
                   Update<face::Predictor<Dim>> predictor) const;
 };
 

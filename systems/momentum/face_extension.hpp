@@ -20,10 +20,11 @@ struct FaceExtension {
   struct Target {
     std::uint32_t row;
     std::int32_t direction;
-    std::size_t begin;                                  ///< in `source` and `weight`
-    std::size_t count;                                  ///< of open faces
-    bool own = false;                                   ///< open enough for a velocity of its own
-    std::int32_t wall = -1;                             ///< body that the liquid sticks to, or -1
+    std::size_t begin;       ///< in `source` and `weight`
+    std::size_t count;       ///< of open faces
+    bool own = false;        ///< open enough for a velocity of its own
+    bool is_parted = false;  ///< (E136) a thin wall parts its sites: rows of both sides may stand for it
+    std::int32_t wall = -1;  ///< body that the liquid sticks to, or -1
     RigidVector<Dim> lever = RigidVector<Dim>::Zero();  ///< weights of that body's motion
 
     std::size_t number() const { return Dim * std::size_t{row} + static_cast<std::size_t>(direction); }
@@ -35,6 +36,7 @@ struct FaceExtension {
   using rows_of = Staggered;
   static constexpr ComponentInfo info{"bodies.extension", "", "1", Lifetime::scratch};
 
+  static RigidVector<Dim> at_rest(std::size_t) { return RigidVector<Dim>::Zero(); }
   /// Whether the values of a target are set: it has no own ones, and there is something to make them of.
   static bool sets(const Target& at) { return !at.own && (at.count > 0 || at.wall >= 0); }
   /// Sets the closed faces of a field.
@@ -42,9 +44,19 @@ struct FaceExtension {
   /// \param motion  of a wall, by body
   template <class MotionOf>
   void apply(std::span<Vec<Dim>> field, double beyond, const MotionOf& motion) const {
+    apply_where(field, beyond, motion, [](const Target&) { return true; });
+  }
+  /// The same where walls are at rest.
+  void apply(std::span<Vec<Dim>> field, double beyond) const { apply(field, beyond, at_rest); }
+  /// The same for faces with sites that a thin wall parts.
+  void apply_to_parted(std::span<Vec<Dim>> field, double beyond) const {
+    apply_where(field, beyond, at_rest, [](const Target& at) { return at.is_parted; });
+  }
+  template <class MotionOf, class IsWanted>
+  void apply_where(std::span<Vec<Dim>> field, double beyond, const MotionOf& motion, const IsWanted& is_wanted) const {
     for_each_row(targets.size(), [&](std::size_t k) {
       const Target& at = targets[k];
-      if (!sets(at)) return;
+      if (!sets(at) || !is_wanted(at)) return;
       double sum = 0;
       ValueRange range;
       for (std::size_t j = at.begin; j < at.begin + at.count; ++j) {
@@ -59,10 +71,6 @@ struct FaceExtension {
       }
       field[at.row][at.direction] = range.limit(sum, beyond);
     });
-  }
-  /// The same where walls are at rest.
-  void apply(std::span<Vec<Dim>> field, double beyond) const {
-    apply(field, beyond, [](std::size_t) { return RigidVector<Dim>(RigidVector<Dim>::Zero()); });
   }
   /// Calls use(number, weight) for the open faces that a closed one is made of; the number is that of
   /// Target::number().

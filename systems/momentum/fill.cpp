@@ -105,9 +105,9 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
 template <int Dim>
 void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                                Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
-                               Read<multiplier::Capacity> capacity, Optional<Read<SiteExchange>> shared,
-                               Write<multiplier::FillFraction> phi, Write<multiplier::FillAround> around,
-                               Write<multiplier::LeastFill> least) const {
+                               Read<multiplier::Capacity> capacity, Optional<Read<HiddenSites>> hidden,
+                               Optional<Read<SiteExchange>> shared, Write<multiplier::FillFraction> phi,
+                               Write<multiplier::FillAround> around, Write<multiplier::LeastFill> least) const {
   for_each_row(phi.size(), [&](std::size_t i) { phi[i] = capacity[i] > 0 ? v_l[i] / capacity[i] : 0; });
   // Of a neighbour that no particle touches, as if there were no bodies.
   const auto empty_room = [&](std::size_t i, std::size_t side) {
@@ -116,6 +116,11 @@ void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<
     const int beside = along.periodic() ? own : own + (side % 2 == 0 ? -1 : 1);
     return capacity[i] * along.width(beside) / along.width(own);
   };
+  const auto neighbour_of = [&](std::size_t i, std::size_t side) {
+    const std::int32_t j = neighbour[i][side];
+    const bool is_there = j != staggered::none && !(hidden && hidden->has_faces_alone(static_cast<std::size_t>(j)));
+    return is_there ? j : staggered::none;
+  };
   for_each_row(phi.size(), [&](std::size_t i) {
     around[i] = phi[i];
     if (v_l[i] == 0) return;  // neighbours below may have no rows
@@ -123,7 +128,7 @@ void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<
     double room = 2 * capacity[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
-      const std::int32_t j = neighbour[i][side];
+      const std::int32_t j = neighbour_of(i, side);
       filled += j == staggered::none ? 0 : v_l[static_cast<std::size_t>(j)];
       room += j == staggered::none ? empty_room(i, side) : capacity[static_cast<std::size_t>(j)];
     }
@@ -199,8 +204,8 @@ void AssembleMultipliers<Dim>::operator()(
     Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
     Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released,
     Optional<Read<SurfaceTension>> tension, Optional<Read<multiplier::ContinuedFill>> continued,
-    Optional<Read<multiplier::OpenShare>> open_share, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
-    Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+    Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<HiddenSites>> hidden, Resize<Unknowns> unknowns,
+    Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
     Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
     Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
@@ -217,6 +222,7 @@ void AssembleMultipliers<Dim>::operator()(
   };
   const double from = tension ? active_with_tension : active_from<Dim>;
   const auto is_active = [&](std::size_t i) {
+    if (hidden && hidden->is_hidden(i)) return false;
     if (!continued) return phi[i] > from;
     const bool is_cut_by_particles = open_share && open_share[i] < 1 && continued[i] == phi[i];
     return continued[i] > (is_cut_by_particles ? from : active_in_liquid);

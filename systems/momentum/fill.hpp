@@ -45,9 +45,9 @@ struct FindFill {
   static constexpr std::string_view doc = "(E125) fill fraction of multipliers";
   void operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
-                  Read<multiplier::Capacity> capacity, Optional<Read<SiteExchange>> shared,
-                  Write<multiplier::FillFraction> phi, Write<multiplier::FillAround> around,
-                  Write<multiplier::LeastFill> least) const;
+                  Read<multiplier::Capacity> capacity, Optional<Read<HiddenSites>> hidden,
+                  Optional<Read<SiteExchange>> shared, Write<multiplier::FillFraction> phi,
+                  Write<multiplier::FillAround> around, Write<multiplier::LeastFill> least) const;
 };
 
 /// (E61) of a cell, f_c = sum_l V~_l/sum_l V_l over its multipliers.
@@ -87,10 +87,10 @@ struct AssembleMultipliers {
                   Read<multiplier::FillFraction> phi, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<multiplier::Released>> released, Optional<Read<SurfaceTension>> tension,
                   Optional<Read<multiplier::ContinuedFill>> continued, Optional<Read<multiplier::OpenShare>> open_share,
-                  Resize<Unknowns> unknowns, Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
-                  Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
-                  Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
-                  Write<unknown::NullVector> null_vector) const;
+                  Optional<Read<HiddenSites>> hidden, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
+                  Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
+                  Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
+                  Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const;
 };
 
 }  // namespace minamo

@@ -25,13 +25,15 @@ const StepTable& table_of_faces() {
               {"sort", "migrate_particles", both, {several_ranks}},
               {"sort", "bin_by_cell"},
               {"sort", "find_ghost_cells", both, {several_ranks}},
+              {"sort", "place_bodies", start, {bodies}},
+              {"sort", "find_dry_sides", both, {asked}},  // of bodies with a thin wall, as what it hides
+              {"sort", "split_cells", both, {asked}},
               {"sort", "number_sites"},
+              {"sort", "number_hidden_sites", both, {asked}},
               {"sort", "plan_site_exchange", both, {several_ranks}},
               {"sort", "ask_for_former_rows", both, {several_ranks, exact}},
               // Bodies extend velocities to faces that no opening holds.
               {"sort", "open_faces", both, {openings}},
-              {"sort", "place_bodies", start, {bodies}},
-              {"sort", "find_dry_sides", both, {asked}},  // of bodies with a thin wall
               {"sort", "cut_faces", both, {bodies}},
               {"sort", "find_face_extension", both, {bodies}},
               {"sort", "find_cut_friction", both, {bodies, friction_of_bodies}},

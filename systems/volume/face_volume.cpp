@@ -55,6 +55,45 @@ void add_up_parts(const SiteExchange& shared, const Splines<Dim>& splines, const
   shared.add_up(per_cell, [&](std::size_t row) { return of_site[row]; });
 }
 
+/// The cells around every cell, the particles of which lie close to its own, whichever side of a thin wall they are on.
+template <int Dim>
+struct CellsAround {
+  const Splines<Dim>& splines;
+  const GridCells<Dim>& cells;
+  const CellSites& sites;
+  const StaggeredIndex<Dim>& index;
+  const HiddenSites* hidden;
+  std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
+  const PartFill& parts;
+
+  /// \param offset  0 ... 2, the cell itself in the middle
+  /// \return -1: no particles there
+  std::int32_t at(std::size_t c, const Index<Dim>& offset) const {
+    const std::int32_t row =
+        hidden != nullptr && hidden->any(neighbour.size()) ? by_site(c, offset) : by_row(c, offset);
+    return row == staggered::none ? -1 : parts.cell_of_site[static_cast<std::size_t>(row)];
+  }
+
+ private:
+  std::int32_t by_row(std::size_t c, const Index<Dim>& offset) const {
+    auto row = static_cast<std::int32_t>(sites.of(c)[0]);
+    // First up: the sites there are the cell's own, and from them down those of the cell around, if it has particles.
+    for (const int side : {2, 0}) {
+      for (std::size_t d = 0; d < Dim && row != staggered::none; ++d) {
+        if (offset[d] == side) row = neighbour[static_cast<std::size_t>(row)][2 * d + (side == 2 ? 1 : 0)];
+      }
+    }
+    return row;
+  }
+  /// Where walls hide sites rows of neighbours may be those of one side.
+  std::int32_t by_site(std::size_t c, Index<Dim> offset) const {
+    for (int& steps : offset) --steps;
+    const auto site = splines.site_at(splines.site(cells.cells[c].node, {}), offset);
+    const auto row = site ? index.find(*site) : std::nullopt;
+    return row ? static_cast<std::int32_t>(*row) : staggered::none;
+  }
+};
+
 }  // namespace
 
 template <int Dim>
@@ -62,21 +101,28 @@ void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines
                                 Read<CellSites> sites, Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
                                 Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                                 Optional<Read<SiteExchange>> shared, Optional<Read<GhostCells<Dim>>> ghosts,
-                                Read<StaggeredIndex<Dim>> index, Write<PartFill> parts) const {
+                                Read<StaggeredIndex<Dim>> index, Optional<Read<HiddenSites>> hidden,
+                                Write<PartFill> parts) const {
   const auto per_cell = static_cast<std::size_t>(std::pow(stir->parts, Dim));
   const std::size_t own = cells->cells.size();
   const std::size_t all = own + (ghosts ? ghosts->cells.size() : 0);
   parts->fill.assign(all * per_cell, 0);
   parts->cell_of_site.assign(neighbour.size(), -1);
-  for (std::size_t c = 0; c < own; ++c) parts->cell_of_site[sites->of(c)[0]] = static_cast<std::int32_t>(c);
+  for (std::size_t c = own; c-- > 0;) {
+    std::uint32_t lowest = sites->of(c)[0];
+    if (hidden && hidden->is_hidden(lowest)) lowest = *index->find(splines->site(cells->cells[c].node, {}));
+    parts->cell_of_site[lowest] = static_cast<std::int32_t>(c);
+  }
   for (std::size_t c = own; c < all; ++c) {
     const std::uint32_t lowest = *index->find(splines->site(ghosts->cells[c - own].at, {}));
     parts->cell_of_site[lowest] = static_cast<std::int32_t>(c);
   }
   const double per_volume = std::pow(stir->parts / grid->spacing, Dim);
+  const CellsAround<Dim> around{*splines,         *cells, *sites, *index, hidden ? &*hidden : nullptr,
+                                neighbour.span(), *parts};
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const CellFrame<Dim> frame(*grid, *splines, cell.node);
-    PartWindow<Dim> window(stir->parts, *splines, cell.node, sites->of(c)[0], *parts, neighbour.span());
+    PartWindow<Dim> window(stir->parts, *splines, cell.node, [&](const auto& offset) { return around.at(c, offset); });
     window.clear();
     for (std::size_t p = cell.begin; p < cell.end; ++p) window.add(frame.local(y_p[p]), V_p[p] * per_volume);
     window.add_to(parts->fill);
@@ -90,8 +136,11 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
                                     Read<PartFill> parts, Optional<Read<SolidParts>> solid,
                                     Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
                                     Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
+                                    Read<StaggeredIndex<Dim>> index, Optional<Read<HiddenSites>> hidden,
                                     Write<particle::Stir<Dim>> s_p) const {
   const double spacing = grid->spacing / stir->parts;
+  const CellsAround<Dim> around{*splines,         *cells, *sites, *index, hidden ? &*hidden : nullptr,
+                                neighbour.span(), *parts};
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
@@ -106,7 +155,8 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
       const auto jet = jet_at<Dim, K>(q, SplineWeights<Dim, K>(frame, middle), SplineSlopes<Dim, K>(frame, middle));
       const double strain = (jet.gradient + jet.gradient.transpose()).norm() / std::sqrt(2.0);
       const double per_gradient = -stir_strength * clock->step * strain * spacing;  // slopes are per part
-      PartWindow<Dim> window(stir->parts, *splines, cell.node, rows[0], *parts, neighbour.span());
+      PartWindow<Dim> window(stir->parts, *splines, cell.node,
+                             [&](const auto& offset) { return around.at(c, offset); });
       window.load(parts->fill);
       if (solid) window.add(*solid, c);
       Vec<Dim> mean = Vec<Dim>::Zero();

@@ -48,7 +48,7 @@ struct FillParts {
                   Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                   Optional<Read<SiteExchange>> shared, Optional<Read<GhostCells<Dim>>> ghosts,
-                  Read<StaggeredIndex<Dim>> index, Write<PartFill> parts) const;
+                  Read<StaggeredIndex<Dim>> index, Optional<Read<HiddenSites>> hidden, Write<PartFill> parts) const;
 };
 
 /// (E74)  s_p = q_p - mean of q over the particles of the cell, q = -5 dt |D| d^2 grad C, D the rate of strain in the
@@ -63,6 +63,7 @@ struct StirParticles {
                   Read<CellSites> sites, Read<StirGrid> stir, Read<PartFill> parts, Optional<Read<SolidParts>> solid,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
                   Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Read<StaggeredIndex<Dim>> index, Optional<Read<HiddenSites>> hidden,
                   Write<particle::Stir<Dim>> s_p) const;
 };
 

@@ -12,7 +12,7 @@ namespace minamo {
 /// How full the parts of every occupied cell are, parts^d of them, x fastest. [1]
 struct PartFill {
   std::vector<double> fill;
-  std::vector<std::int32_t> cell_of_site;  ///< by row of the lowest site of the cell; -1: none
+  std::vector<std::int32_t> cell_of_site;  ///< by row of the lowest site of the cell, of several the first; -1: none
   static constexpr ComponentInfo info{"stir.fill", "C", "1", Lifetime::scratch};
 };
 
@@ -45,11 +45,12 @@ class PartWindow {
  public:
   static constexpr int most_parts = 16;
 
-  /// \param row  of the lowest site of the cell
-  PartWindow(int parts, const Splines<Dim>& splines, const Index<Dim>& cell, std::uint32_t row, const PartFill& fill,
-             std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour)
+  /// \param around  around(offset): of the 3^d cells with the cell itself, offsets 0 ... 2, its number, or -1: no
+  ///                particles there
+  template <class Around>
+  PartWindow(int parts, const Splines<Dim>& splines, const Index<Dim>& cell, const Around& around)
       : parts_(parts), side_(static_cast<std::size_t>(parts) + 2) {
-    find_cells_around(row, fill, neighbour);
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { around_[k] = around(offset); });
     per_cell_ = 1;
     for (std::size_t d = 0; d < Dim; ++d) {
       const SplineAxis& axis = splines.axis[d];
@@ -113,20 +114,6 @@ class PartWindow {
  private:
   using AxisMap = std::array<int, most_parts + 2>;
 
-  /// 3^d of them with the cell itself, x fastest; -1: no particles there.
-  void find_cells_around(std::uint32_t own, const PartFill& fill,
-                         std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour) {
-    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-      auto row = static_cast<std::int32_t>(own);
-      // First up: the sites there are the cell's own, and from them down those of the cell around, if it has particles.
-      for (const int side : {2, 0}) {
-        for (std::size_t d = 0; d < Dim && row != staggered::none; ++d) {
-          if (offset[d] == side) row = neighbour[static_cast<std::size_t>(row)][2 * d + (side == 2 ? 1 : 0)];
-        }
-      }
-      around_[k] = row == staggered::none ? -1 : fill.cell_of_site[static_cast<std::size_t>(row)];
-    });
-  }
   /// use(value, place in PartFill::fill) for the parts of occupied cells, otherwise(value) for the others.
   template <class Use, class Otherwise>
   void for_each(const Use& use, const Otherwise& otherwise) {
@@ -181,7 +168,7 @@ class PartWindow {
   int parts_;
   std::size_t side_;
   std::size_t per_cell_;
-  std::array<std::int32_t, support_size<Dim>> around_;
+  std::array<std::int32_t, support_size<Dim>> around_;       ///< x fastest
   std::array<AxisMap, static_cast<std::size_t>(Dim)> cell_;  ///< 0 below, 1 own, 2 above, by place in the window
   std::array<AxisMap, static_cast<std::size_t>(Dim)> part_;  ///< within that cell
   std::array<double, power(most_parts + 2, Dim)> value_;

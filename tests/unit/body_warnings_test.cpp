@@ -199,12 +199,12 @@ TEST_CASE("a thin wall is told once, with its place, if it is wet on both sides"
                 found.end());
     return found;
   };
-  const auto found = of_wall(wall(0.02));
+  const auto found = of_wall(wall(0.005));
   REQUIRE(found.size() == 1);
-  CHECK_THAT(found[0], Contains("body \"wall\" is thinner than 2 cells and wet on both sides at x = 0.51, y = 0:"));
-  CHECK_THAT(found[0], Contains("thicker than 0.1 m, or cells of 0.01 m"));
-  CHECK(of_wall(wall(0.11)).empty());
-  Json left = wall(0.02);
+  CHECK_THAT(found[0], Contains("body \"wall\" is 0.1 cells thick and wet on both sides at x = 0.5025, y = 0:"));
+  CHECK_THAT(found[0], Contains("thicker than 0.0075 m, or cells of 0.0333 m"));
+  CHECK(of_wall(wall(0.02)).empty());
+  Json left = wall(0.005);
   left["particles"][0]["shape"]["box"]["high"][0] = 0.5;
   CHECK(of_wall(left).empty());
 }

@@ -74,7 +74,7 @@ void check_dry_side() {
   // Next to the end of the wall, which is 0.2 m above the liquid, the way around is as short as through it.
   CHECK(shaded(thickness / 2 + 0.05, -0.01) > 0);
   CHECK(shaded(thickness / 2 + 0.05, -0.3) < 0);
-  CHECK_FALSE(walls->wet_on_both_sides(shape));
+  CHECK_FALSE(walls->wet_on_both_sides(shape, 1));
 }
 
 }  // namespace
@@ -114,10 +114,45 @@ TEST_CASE("a thin wall with liquid on both sides has no dry one, and tells where
     const Vec<2> place(x, -0.5);
     CHECK(walls->shaded(shape, place, shape.distance(place)) == shape.distance(place));
   }
-  const auto wet = walls->wet_on_both_sides(shape);
+  CHECK_FALSE(walls->wet_on_both_sides(shape, 0.01));
+  const auto wet = walls->wet_on_both_sides(shape, 0.03);
   REQUIRE(wet);
   CHECK(wet->thickness == Approx(0.02).epsilon(1e-2));
   CHECK(std::abs(wet->middle[0]) < 1e-3);
+}
+
+TEST_CASE("a thin wall that is wet on both sides hides one from the other, not what is at its end", "[unit]") {
+  const auto shape = wall<2>(0.02);
+  auto walls = ThinWalls<2>::find(shape, region<2>(), h, degree);
+  REQUIRE(walls);
+  CHECK_FALSE(walls->may_hide_at({-0.05, -0.5}));
+  for (double y = -0.9; y < -0.2; y += 0.01) {
+    walls->light(shape, {-0.015, y});
+    walls->light(shape, {0.015, y});
+  }
+  walls->find_dry();
+  CHECK(walls->may_hide_at({-0.05, -0.5}));
+  const auto hides = [&](const Vec<2>& from, const Vec<2>& x) {
+    const auto view = walls->view_from(shape, from);
+    const auto small = walls->small_cell_of(shape, x);
+    REQUIRE(view);
+    REQUIRE(small);
+    return walls->hides(*view, *small);
+  };
+  CHECK(hides({-0.05, -0.5}, {0.011, -0.5}));
+  CHECK(hides({0.05, -0.5}, {-0.15, -0.42}));
+  CHECK_FALSE(hides({-0.05, -0.5}, {-0.011, -0.5}));
+  CHECK_FALSE(hides({-0.05, -0.5}, {-0.2, -0.38}));
+  // In the wall a place is on the side that is nearer, on none in its middle.
+  CHECK(hides({-0.004, -0.5}, {0.05, -0.5}));
+  CHECK_FALSE(hides({-0.004, -0.5}, {-0.05, -0.5}));
+  CHECK(hides({0, -0.5}, {-0.05, -0.5}));
+  CHECK(hides({0, -0.5}, {0.05, -0.5}));
+  // What is hidden counts as part of the wall.
+  const auto view = walls->view_from(shape, {-0.05, -0.5});
+  const Vec<2> there(0.03, -0.5);
+  CHECK(walls->shaded(shape, there, shape.distance(there), &*view) == Approx(-0.04));
+  CHECK(walls->shaded(shape, there, shape.distance(there)) == Approx(0.02));
 }
 
 TEST_CASE("the dry side of a thin wall is found anew only where light has changed", "[unit]") {

@@ -187,7 +187,8 @@ TEST_CASE("forces on exact integrals are the same in the mirror", "[property]") 
 }
 
 TEST_CASE("bodies are the same in the mirror", "[property]") {
-  // At the edge of the liquid, at sides of the box, with sides and corners on points of the grid, and anywhere.
+  // At the edge of the liquid, at sides of the box, with sides and corners on points of the grid, and anywhere; a plate
+  // a fifth of a cell thick with water on both sides.
   const std::string body = GENERATE(
       R"({"shape": {"ball": {"center": [0.02, 0.06], "radius": 0.09}}})",
       R"({"shape": {"box": {"low": [-0.33, -0.2], "high": [-0.21, 0.03]}}})",
@@ -197,6 +198,8 @@ TEST_CASE("bodies are the same in the mirror", "[property]") {
       R"({"shape": {"box": {"low": [-1, -1], "high": [-0.21, 0.03]}}})",
       R"({"shape": {"polygon": {"vertices": [[-0.4, -0.2], [0.05, -0.2], [-0.4, 0.11]]}}})",
       R"({"shape": {"box": {"low": [-0.11, -1], "high": [-0.09, 1]}}, "motion": {"prescribed": {"velocity": ["-0.5", 0]}}})",
+      R"({"shape": {"polygon": {"vertices": [[-0.3, -0.13], [-0.28, -0.13], [-0.17, 0.09], [-0.19, 0.09]]}},
+          "motion": {"prescribed": {"velocity": ["0.3", "0.2"]}}})",
       R"json({"shape": {"ball": {"center": [0, 0.05], "radius": 0.08}},
               "motion": {"prescribed": {"velocity": ["-0.5", "-0.3*cos(3*t)"]}}})json",
       R"({"shape": {"ball": {"center": [-0.1, 0.2], "radius": 0.08}}, "motion": {"free": {"density": 400}}})");

@@ -189,25 +189,72 @@ struct Sticks {
   }
 };
 
+/// (E136) Which open faces lie on the side of a closed one that stands for one side of a wall.
+template <int Dim>
+class FacesOnSide {
+ public:
+  FacesOnSide(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows, const DrySides<Dim>& dry,
+              const HiddenSites& hidden)
+      : splines_(splines), rows_(rows), dry_(dry), hidden_(hidden) {}
+
+  /// Whether a closed face stands for one side of a wall, that of the particles with weight on it; not if some see it
+  /// from both sides, at the end of a wall.
+  bool is_of_one_side(std::size_t row, const Index<Dim>& site, std::size_t d) const {
+    if (hidden_.seen_from(HiddenSites::face(row, d)).empty()) return hidden_.is_hidden(row);
+    const auto below = site_beside(splines_, site, 2 * d);
+    const auto lower = below ? rows_.find(*below) : std::nullopt;
+    return !lower || !hidden_.sees(HiddenSites::face(*rows_.find(site), d), *lower) || !dry_.parts(site, *below);
+  }
+  /// Whether no wall parts an open face from the closed one of a row.
+  bool has(std::size_t row, const Index<Dim>& site, const Index<Dim>& open, std::size_t d) const {
+    const auto below = site_beside(splines_, open, 2 * d);
+    const bool by_particles = is_of_one_side(row, site, d);
+    const auto is_seen = [&](const Index<Dim>& other) {
+      return by_particles ? is_seen_by_particles(HiddenSites::face(row, d), other) : is_seen_from(site, other, d);
+    };
+    return is_seen(open) || (below && is_seen(*below));
+  }
+  bool is_parted(std::size_t row, const Index<Dim>& site, std::size_t d) const {
+    const auto below = site_beside(splines_, site, 2 * d);
+    return hidden_.is_hidden(row) || (below && dry_.parts(site, *below));
+  }
+
+ private:
+  bool is_seen_by_particles(std::size_t face, const Index<Dim>& other) const {
+    const auto row = rows_.find(other);
+    return row && hidden_.sees(face, *row);
+  }
+  /// From any of the two sites of a face.
+  bool is_seen_from(const Index<Dim>& site, const Index<Dim>& other, std::size_t d) const {
+    const auto below = site_beside(splines_, site, 2 * d);
+    return !dry_.parts(site, other) || (below && !dry_.parts(*below, other));
+  }
+
+  const Splines<Dim>& splines_;
+  const StaggeredIndex<Dim>& rows_;
+  const DrySides<Dim>& dry_;
+  const HiddenSites& hidden_;
+};
+
 }  // namespace
 
 template <int Dim>
-void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                        Read<StaggeredIndex<Dim>> rows, Read<BodySet<Dim>> set,
-                                        Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
-                                        Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                                        Read<GridCells<Dim>> cells, Read<CellSites> cell_sites,
-                                        Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
-                                        Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site,
-                                        Read<face::Held> held, Read<face::Open<Dim>> open,
-                                        Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
-                                        Write<FaceExtension<Dim>> extension) const {
+void FindFaceExtension<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<BodySet<Dim>> set,
+    Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
+    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells,
+    Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
+    Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site, Read<face::Held> held,
+    Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+    Write<FaceExtension<Dim>> extension) const {
   constexpr std::size_t most = power(rows_across, Dim);
   const SitePlaces<Dim> places(*grid, *splines);
   const Sticks<Dim> sticks{*set, {*set, c_b.span(), R_b.span()}};
   const bool any_sticks = set->any_sticks();
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
+  std::optional<FacesOnSide<Dim>> on_side;
+  if (dry && dry->hides_any()) on_side.emplace(*splines, *rows, *dry, *hidden);
   const OpenSites<Dim> open_sites{*splines, *rows, share.span(), open.span(), cuts};
   std::vector<std::uint8_t> is_open(site.size());
   for_each_row(site.size(), [&](std::size_t i) {
@@ -252,10 +299,13 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
     const Vec<Dim> x = places.face(own, direction);
     Around<Dim> around;
     std::array<Index<Dim>, most> steps_to;
+    const bool is_of_one_side = on_side && on_side->is_of_one_side(target.row, own, direction);
+    target.is_parted = on_side && on_side->is_parted(target.row, own, direction);
     for_each_row_around<Dim, rings>(*splines, *rows, own, [&](std::uint32_t row, const auto& at, const auto& steps) {
       if (!splines->has_face(at, direction) || (is_open[row] & (1U << direction)) == 0) return;
       // Faces without liquid have rows above it alone, and velocities that mean nothing.
       if (filled[row][target.direction] == 0) return;
+      if (on_side && !on_side->has(target.row, own, at, direction)) return;
       const Vec<Dim> y = places.face(at, direction);
       Vec<Dim> offset;
       for (std::size_t d = 0; d < Dim; ++d) {
@@ -267,7 +317,7 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
       around.filled[around.count] = filled[row][target.direction];
       around.offset[around.count++] = offset;
     });
-    if (set->parts_liquid && lies_between<Dim>(around))
+    if (set->parts_liquid && !is_of_one_side && lies_between<Dim>(around))
       keep_nearer_side<Dim>(around, {open_sites, own, direction}, steps_to);
     const auto weight = std::span(extension->weight).subspan(target.begin, most);
     std::copy_n(around.row.begin(), around.count,

@@ -34,8 +34,9 @@ struct FindFaceExtension {
   static constexpr std::string_view doc = "(E87) what velocities of closed faces are made of";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells,
-                  Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
+                  Optional<Read<HiddenSites>> hidden, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells, Read<CellSites> cell_sites,
+                  Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
                   Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site, Read<face::Held> held,
                   Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
                   Read<multiplier::OpenShare> share, Write<FaceExtension<Dim>> extension) const;

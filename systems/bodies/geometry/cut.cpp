@@ -243,15 +243,17 @@ double SitePlaces<Dim>::reach() const {
   return 0.5 * grid_.spacing * (splines_.degree + 1) * std::sqrt(static_cast<double>(Dim));
 }
 
-template <int Dim, class Distance>
-SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded,
-                      const Distance& exact_distance) {
+/// \param distance_at       distance_at(x) from bodies, and what is hidden from the site
+/// \param distance_at_face  distance_at_face(x, d): and what is hidden from both sites of the face of direction d
+template <int Dim, class Distance, class FaceDistance>
+SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, bool bounded, const Distance& distance_at,
+                      const FaceDistance& distance_at_face) {
   // Bodies often have sides along the grid: on which side of them a point of it lies is not for rounding to say.
-  const auto distance = [&](const Vec<Dim>& x) {
+  const auto rounded = [&](double exact) {
     constexpr double on_surface = 1e-9;  // [h]
-    const double exact = exact_distance(x);
     return std::abs(exact) < on_surface * places.grid().spacing ? 0.0 : exact;
   };
+  const auto distance = [&](const Vec<Dim>& x) { return rounded(distance_at(x)); };
   const Bounds<Dim> box = places.box(site);
   SiteCut<Dim> cut;
   const bool has_multiplier = places.splines().has_multiplier(site);
@@ -267,15 +269,16 @@ SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, boo
     if (!places.splines().has_face(site, d)) continue;
     const auto axis = static_cast<Eigen::Index>(d);
     // What is farther away than a cell reaches neither cuts the face nor parts its multipliers.
-    const CellSide side = bounded ? side_of_cell<Dim>(places.face(site, d), half_diagonal, distance) : CellSide::cut;
+    const auto of_face = [&](const Vec<Dim>& x) { return rounded(distance_at_face(x, d)); };
+    const CellSide side = bounded ? side_of_cell<Dim>(places.face(site, d), half_diagonal, of_face) : CellSide::cut;
     if (side != CellSide::cut) {
       cut.open[axis] = side == CellSide::open ? 1 : 0;
       continue;
     }
     Vec<Dim> high = box.high;
     high[axis] = box.low[axis];
-    const double open = open_share<Dim>(box.low, high, static_cast<int>(d), distance);
-    cut.open[axis] = open < least_open || is_parted<Dim>(places, site, d, distance) ? 0 : open;
+    const double open = open_share<Dim>(box.low, high, static_cast<int>(d), of_face);
+    cut.open[axis] = open < least_open || is_parted<Dim>(places, site, d, of_face) ? 0 : open;
   }
   if (has_multiplier)
     cut.share = volume_share<Dim>(places, site, bounded, distance, [](const Vec<Dim>&, double) { return 1.0; });
@@ -294,7 +297,8 @@ StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
   const std::size_t cells = rows_in<Dim>(grid.cells);
   cut.of.resize(sites);
   for_each_row(sites, [&](std::size_t i) {
-    cut.of[i] = cut_site<Dim>(places, index_in<Dim>(cut.sites, i), bodies.bounded(), at_rest);
+    cut.of[i] = cut_site<Dim>(places, index_in<Dim>(cut.sites, i), bodies.bounded(), at_rest,
+                              [&](const Vec<Dim>& x, std::size_t) { return at_rest(x); });
   });
   cut.clearance.resize(cells);
   const double half_diagonal = 0.5 * grid.spacing * std::sqrt(static_cast<double>(Dim));
@@ -333,13 +337,17 @@ PlacedBodies<Dim> PlacedBodies<Dim>::at_start(const BodySet<Dim>& set) {
 }
 
 template <int Dim>
-typename PlacedBodies<Dim>::Nearest PlacedBodies<Dim>::nearest(const Vec<Dim>& x, bool moving) const {
+typename PlacedBodies<Dim>::Nearest PlacedBodies<Dim>::nearest(const Vec<Dim>& x, bool moving,
+                                                               const Index<Dim>* from) const {
   Nearest nearest;
   for (const std::size_t b : moving ? moving_ : resting_) {
     const Shape<Dim>& shape = *set_.bodies[b].shape;
     const Vec<Dim> in_body = placement_[b].to_body(x);
     double distance = shape.distance(in_body);
-    if (dry_ != nullptr && dry_->of_body[b]) distance = dry_->of_body[b]->shaded(shape, in_body, distance);
+    if (dry_ != nullptr && dry_->of_body[b]) {
+      const auto* view = from != nullptr ? dry_->view(b, *from) : nullptr;
+      distance = dry_->of_body[b]->shaded(shape, in_body, distance, view);
+    }
     if (distance < nearest.distance) nearest = {distance, static_cast<int>(b)};
   }
   return nearest;
@@ -355,7 +363,31 @@ bool PlacedBodies<Dim>::may_be_near(const Vec<Dim>& x, double reach) const {
 
 template <int Dim>
 SiteCut<Dim> SiteCuts<Dim>::cut_by_resting(const Index<Dim>& site) const {
-  return cut_site<Dim>(places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return bodies_.distance(x, false); });
+  return cut_from(site, [&](const Vec<Dim>& x, const Index<Dim>& from) { return bodies_.distance(x, false, &from); });
+}
+
+template <int Dim>
+template <class Distance>
+SiteCut<Dim> SiteCuts<Dim>::cut_from(const Index<Dim>& site, const Distance& distance) const {
+  const bool hides_any = bodies_.dry() != nullptr && bodies_.dry()->hides_any();
+  const auto at_face = [&](const Vec<Dim>& x, std::size_t d) {
+    const double from_site = distance(x, site);
+    const auto below = hides_any ? site_beside(places_.splines(), site, 2 * d) : std::nullopt;
+    return below ? std::max(from_site, distance(x, *below)) : from_site;
+  };
+  SiteCut<Dim> cut = cut_site<Dim>(
+      places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return distance(x, site); }, at_face);
+  close_hidden(site, cut);
+  return cut;
+}
+
+template <int Dim>
+void SiteCuts<Dim>::close_hidden(const Index<Dim>& site, SiteCut<Dim>& cut) const {
+  if (bodies_.dry() == nullptr || !bodies_.dry()->hides_any()) return;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto below = site_beside(places_.splines(), site, 2 * d);
+    if (below && bodies_.dry()->parts(site, *below)) cut.open[static_cast<Eigen::Index>(d)] = 0;
+  }
 }
 
 template <int Dim>
@@ -363,10 +395,45 @@ SiteCut<Dim> SiteCuts<Dim>::at(const Index<Dim>& site) const {
   const SiteCut<Dim> of_resting = by_resting(site);
   if (!bodies_.may_be_near(middle<Dim>(places_.box(site)), places_.reach())) return of_resting;
   SiteCut<Dim> cut =
-      cut_site<Dim>(places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return bodies_.distance(x); });
+      cut_from(site, [&](const Vec<Dim>& x, const Index<Dim>& from) { return bodies_.distance_from(&from, x); });
   cut.open = cut.open.cwiseMin(of_resting.open);
   cut.share = std::min(cut.share, of_resting.share);
   return cut;
+}
+
+template <int Dim>
+double SiteCuts<Dim>::share_from(const Index<Dim>& from, const Index<Dim>& site) const {
+  return volume_share<Dim>(
+      places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return bodies_.distance_from(&from, x); },
+      [](const Vec<Dim>&, double) { return 1.0; });
+}
+
+template <int Dim>
+double SiteCuts<Dim>::share_from(std::span<const HiddenSites::Sight> side, std::span<const Index<Dim>> site_of_row,
+                                 const Index<Dim>& site) const {
+  int least = std::numeric_limits<int>::max();
+  double sum = 0;
+  int count = 0;
+  for (const auto& [from, row] : side) {
+    int square = 0;
+    for (const int along : places_.splines().steps(site, site_of_row[row])) square += along * along;
+    if (square > least) continue;
+    if (square < least) sum = count = 0;
+    least = square;
+    sum += share_from(site_of_row[row], site);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+template <int Dim>
+double SiteCuts<Dim>::share_from_row(const HiddenSites* hidden, std::span<const Index<Dim>> site_of_row,
+                                     std::size_t row, const Index<Dim>& site) const {
+  if (hidden != nullptr && hidden->is_hidden(row))
+    return share_from(hidden->seen_from(HiddenSites::multiplier(row)), site_of_row, site);
+  const DrySides<Dim>* dry = bodies_.dry();
+  const bool is_hidden = dry != nullptr && dry->hides_any() && dry->parts(site_of_row[row], site);
+  return is_hidden ? share_from(site_of_row[row], site) : at(site).share;
 }
 
 template <int Dim>
@@ -376,39 +443,49 @@ double SiteCuts<Dim>::open_below(const Index<Dim>& site, double psi, const Vec<D
   for (std::size_t d = 0; d < Dim; ++d)
     middle[static_cast<Eigen::Index>(d)] += grid.spacing * places_.splines().axis[d].place(site[d]);
   return volume_share<Dim>(
-      places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return bodies_.distance(x); },
+      places_, site, bodies_.bounded(), [&](const Vec<Dim>& x) { return bodies_.distance_from(&site, x); },
       [&](const Vec<Dim>& x, double size) {
         return std::clamp(0.5 + (grid.spacing * psi + normal.dot(x - middle)) / size, 0.0, 1.0);
       });
 }
 
 template <int Dim>
-void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                               Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
-                               Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                               Read<body::MeanVelocity<Dim>> V_b, Read<body::Velocity<Dim>> V_old,
-                               Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b,
-                               Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                               Write<face::Open<Dim>> open, Write<face::OpenVolume<Dim>> open_volume,
-                               Write<face::WallFlux<Dim>> flux, Write<face::OldWallFlux<Dim>> old_flux,
-                               Write<face::Closed<Dim>> closed, Write<face::Closer<Dim>> closer,
-                               Write<multiplier::OpenShare> share, Update<multiplier::Capacity> capacity) const {
+void CutFaces<Dim>::operator()(
+    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
+    Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden, Read<body::MiddlePosition<Dim>> c_b,
+    Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b, Read<body::Velocity<Dim>> V_old,
+    Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
+    Read<staggered::Neighbour<Dim>> neighbour, Write<face::Open<Dim>> open, Write<face::OpenVolume<Dim>> open_volume,
+    Write<face::WallFlux<Dim>> flux, Write<face::OldWallFlux<Dim>> old_flux, Write<face::Closed<Dim>> closed,
+    Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share, Update<multiplier::Capacity> capacity) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const SitePlaces<Dim>& places = cuts.places();
+  const auto is_hidden = [&](std::size_t i) { return hidden && hidden->is_hidden(i); };
+  const HiddenSites* of_hidden = hidden ? &*hidden : nullptr;
+  const auto cut_of_hidden = [&](std::size_t i) {
+    const double of_side =
+        splines->has_multiplier(site[i]) ? cuts.share_from_row(of_hidden, site.span(), i, site[i]) : 1;
+    return SiteCut<Dim>{Vec<Dim>::Zero(), of_side};
+  };
   for_each_row(site.size(), [&](std::size_t i) {
-    const SiteCut<Dim> cut = cuts.at(site[i]);
+    const SiteCut<Dim> cut = is_hidden(i) ? cut_of_hidden(i) : cuts.at(site[i]);
     open[i] = cut.open;
     share[i] = cut.share;
     capacity[i] *= cut.share;
   });
   if (set->any_moves()) close_gaps<Dim>(cuts, site.span(), neighbour.span(), open.span());
+  // The nearest wall is the one that hides.
+  const auto open_by_resting = [&](const Vec<Dim>& x) {
+    return std::abs(bodies.distance(x, false)) < std::abs(bodies.distance(x, true)) ? 0.0 : 1.0;
+  };
   for_each_row(site.size(), [&](std::size_t i) {
     flux[i].setZero();
     old_flux[i].setZero();
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const double by_resting = cuts.by_resting(site[i]).open[axis];
+      const double by_resting =
+          is_hidden(i) ? open_by_resting(places.face(site[i], d)) : cuts.by_resting(site[i]).open[axis];
       closed[i][d] = {1 - by_resting, by_resting - open[i][axis]};
       closer[i][d] = {-1, -1};
       if (open[i][axis] == 1) continue;
@@ -427,8 +504,13 @@ void CutFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
   for_each_row(site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto share_of = [&](const Index<Dim>& at) {
-        const std::int32_t row = at == site[i] ? static_cast<std::int32_t>(i) : neighbour[i][2 * d];
-        return row == staggered::none ? cuts.at(at).share : share[static_cast<std::size_t>(row)];
+        const std::int32_t below = neighbour[i][2 * d];
+        const std::int32_t row = at == site[i] ? static_cast<std::int32_t>(i) : below;
+        const bool has_row = row != staggered::none && !(is_hidden(static_cast<std::size_t>(row)) &&
+                                                         hidden->has_faces_alone(static_cast<std::size_t>(row)));
+        if (has_row) return share[static_cast<std::size_t>(row)];
+        const std::size_t other = at == site[i] && below != staggered::none ? static_cast<std::size_t>(below) : i;
+        return cuts.share_from_row(of_hidden, site.span(), other, at);
       };
       open_volume[i][static_cast<Eigen::Index>(d)] = cuts.open_volume(site[i], d, share_of);
     }

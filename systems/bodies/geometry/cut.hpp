@@ -118,12 +118,52 @@ struct StaticCut {
 template <int Dim>
 StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const Splines<Dim>& splines);
 
-/// (E136) What is dry behind the thin walls of bodies. Only where a body has one.
+/// (E136) What is dry behind the thin walls of bodies, and what wet walls hide of each other's sides. Only where a body
+/// has a thin wall.
 template <int Dim>
 struct DrySides {
+  using View = typename ThinWalls<Dim>::View;
+  /// What a body hides from sites.
+  struct Views {
+    std::vector<std::int32_t> of_site;  ///< place in `list`, or -1; empty where no wall is wet on both sides
+    std::vector<View> list;
+  };
   std::vector<std::optional<ThinWalls<Dim>>> of_body;
+  std::vector<Views> views;  ///< by body
+  /// By site, 1 where a wall ends next to it, so that a way leads around over sites next to it: it is hidden from
+  /// nobody.
+  std::vector<std::uint8_t> is_at_end;
+  Index<Dim> sites{};                 ///< per direction
   std::vector<SiteCut<Dim>> at_rest;  ///< as StaticCut::of, by bodies with what is dry behind them
   static constexpr ComponentInfo info{"bodies.dry_sides", "", "", Lifetime::cache};
+
+  /// Whether any wall hides anything that is wet.
+  bool hides_any() const {
+    return std::any_of(views.begin(), views.end(), [](const Views& of) { return !of.list.empty(); });
+  }
+  /// What body b hides from a site; null: nothing.
+  const View* view(std::size_t b, const Index<Dim>& site) const {
+    if (b >= views.size() || views[b].of_site.empty()) return nullptr;
+    const std::int32_t at = views[b].of_site[row_in<Dim>(sites, site)];
+    return at < 0 ? nullptr : &views[b].list[static_cast<std::size_t>(at)];
+  }
+  /// Whether anything may be hidden from a site.
+  bool has_view(const Index<Dim>& site) const {
+    for (std::size_t b = 0; b < views.size(); ++b) {
+      if (view(b, site) != nullptr) return true;
+    }
+    return false;
+  }
+  /// Whether a wall lies between two sites: they are on its two sides.
+  bool parts(const Index<Dim>& one, const Index<Dim>& other) const {
+    for (std::size_t b = 0; b < views.size(); ++b) {
+      const View* of_one = view(b, one);
+      const View* of_other = view(b, other);
+      if (of_one == nullptr || of_other == nullptr) continue;
+      if (of_body[b]->parts(*of_one, *of_other)) return true;
+    }
+    return false;
+  }
 };
 
 /// The bodies of a scene at some place each.
@@ -140,9 +180,15 @@ class PlacedBodies {
     int body = -1;
   };
   /// Of the bodies at rest, or of the moving ones.
-  Nearest nearest(const Vec<Dim>& x, bool moving) const;
-  double distance(const Vec<Dim>& x, bool moving) const { return nearest(x, moving).distance; }
-  double distance(const Vec<Dim>& x) const { return std::min(distance(x, false), distance(x, true)); }
+  /// \param from  a site: what thin walls hide from it counts as part of them; null: nothing
+  Nearest nearest(const Vec<Dim>& x, bool moving, const Index<Dim>* from = nullptr) const;
+  double distance(const Vec<Dim>& x, bool moving, const Index<Dim>* from = nullptr) const {
+    return nearest(x, moving, from).distance;
+  }
+  double distance(const Vec<Dim>& x) const { return distance_from(nullptr, x); }
+  double distance_from(const Index<Dim>* from, const Vec<Dim>& x) const {
+    return std::min(distance(x, false, from), distance(x, true, from));
+  }
   /// Whether a moving body may be within a distance of a point.
   bool may_be_near(const Vec<Dim>& x, double reach) const;
   bool bounded() const { return bounded_; }
@@ -182,9 +228,23 @@ class SiteCuts {
   /// \param share  of a multiplier, by its site
   template <class ShareOf>
   double open_volume(const Index<Dim>& site, std::size_t d, const ShareOf& share) const;
+  /// Open share of a multiplier as another site sees it.
+  double share_from(const Index<Dim>& from, const Index<Dim>& site) const;
+  /// The same as a side of a wall sees it, the mean from those of its multipliers that are nearest; 0 if it has none.
+  double share_from(std::span<const HiddenSites::Sight> side, std::span<const Index<Dim>> site_of_row,
+                    const Index<Dim>& site) const;
+  /// The same as a multiplier sees it, that of a hidden site as its side does.
+  double share_from_row(const HiddenSites* hidden, std::span<const Index<Dim>> site_of_row, std::size_t row,
+                        const Index<Dim>& site) const;
   const SitePlaces<Dim>& places() const { return places_; }
 
  private:
+  /// No face leads through a wall that hides one of its multipliers from the other.
+  /// \param distance  distance(x, from) from bodies, as a site sees them
+  template <class Distance>
+  SiteCut<Dim> cut_from(const Index<Dim>& site, const Distance& distance) const;
+  void close_hidden(const Index<Dim>& site, SiteCut<Dim>& cut) const;
+
   SitePlaces<Dim> places_;
   const StaticCut<Dim>& at_rest_;
   const PlacedBodies<Dim>& bodies_;
@@ -204,13 +264,14 @@ template <int Dim>
 struct CutFaces {
   static constexpr std::string_view doc = "(E85) what bodies leave open of faces and multipliers";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b,
-                  Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Write<face::Open<Dim>> open, Write<face::OpenVolume<Dim>> open_volume,
-                  Write<face::WallFlux<Dim>> flux, Write<face::OldWallFlux<Dim>> old_flux,
-                  Write<face::Closed<Dim>> closed, Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share,
+                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
+                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                  Read<body::MeanVelocity<Dim>> V_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
+                  Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
+                  Read<staggered::Neighbour<Dim>> neighbour, Write<face::Open<Dim>> open,
+                  Write<face::OpenVolume<Dim>> open_volume, Write<face::WallFlux<Dim>> flux,
+                  Write<face::OldWallFlux<Dim>> old_flux, Write<face::Closed<Dim>> closed,
+                  Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share,
                   Update<multiplier::Capacity> capacity) const;
 };
 

@@ -1,6 +1,10 @@
 #include "systems/bodies/geometry/dry_sides.hpp"
 
+#include "systems/bodies/geometry/images.hpp"
+
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 namespace minamo {
 
@@ -21,27 +25,101 @@ Bounds<Dim> region_of(const BodyScene<Dim>& body, const Grid<Dim>& grid, int deg
     region.high[d] = grid.high[d] + beyond;
     // What a moving body has around it moves with it.
     if (!body.moves() || !std::isfinite(shape.low[d]) || !std::isfinite(shape.high[d])) continue;
-    region.low[d] = shape.low[d] - around;
-    region.high[d] = shape.high[d] + around;
+    // By whole cells, so that small cells lie the same in the mirror.
+    const double length = shape.high[d] - shape.low[d] + 2 * around;
+    const double margin = around + 0.5 * (std::ceil(length / grid.spacing - 1e-9) * grid.spacing - length);
+    region.low[d] = shape.low[d] - margin;
+    region.high[d] = shape.high[d] + margin;
   }
   return region;
 }
 
-/// use(y) for a point and its images beyond the ends of periodic axes that a body may have near.
-template <int Dim, class Use>
-void for_each_image(const Grid<Dim>& grid, const Vec<Dim>& x, const Use& use) {
-  std::array<Vec<Dim>, power(3, Dim)> images;
-  images[0] = x;
-  std::size_t count = 1;
-  for (int d = 0; d < Dim; ++d) {
-    if (!grid.periodic[static_cast<std::size_t>(d)]) continue;
-    const Vec<Dim> length = (grid.high[d] - grid.low[d]) * Vec<Dim>::Unit(d);
-    for (std::size_t k = 0, before = count; k < before; ++k) {
-      images[count++] = images[k] - length;
-      images[count++] = images[k] + length;
-    }
+/// What the thin walls of a body hide from the sites around.
+/// \param stays  the body: views that nothing has changed near stay, too
+template <int Dim>
+void find_views(const ThinWalls<Dim>& walls, const Shape<Dim>& shape, const Placement<Dim>& placement,
+                const SitePlaces<Dim>& places, bool stays, typename DrySides<Dim>::Views& views) {
+  const Index<Dim> sites = places.splines().sites();
+  typename DrySides<Dim>::Views before;
+  std::swap(before, views);
+  std::vector<std::uint32_t> near;
+  const auto middle_of = [&](std::size_t i) {
+    const Bounds<Dim> box = places.box(index_in<Dim>(sites, i));
+    return placement.to_body(Vec<Dim>(0.5 * (box.low + box.high)));
+  };
+  for (std::size_t i = 0; i < rows_in<Dim>(sites); ++i) {
+    if (walls.may_hide_at(middle_of(i))) near.push_back(static_cast<std::uint32_t>(i));
   }
-  for (std::size_t k = 0; k < count; ++k) use(images[k]);
+  if (near.empty()) return;
+  // A body that moves has small cells beyond the sides of the grid, too, where no way leads around it.
+  const Grid<Dim>& grid = places.grid();
+  const auto is_within = [&](const Vec<Dim>& at, double margin) {
+    for (int d = 0; d < Dim; ++d) {
+      if (grid.periodic[static_cast<std::size_t>(d)]) continue;
+      if (at[d] < grid.low[d] + margin || at[d] > grid.high[d] - margin) return false;
+    }
+    return true;
+  };
+  const std::function<bool(const Vec<Dim>&)> everywhere;
+  const std::function<bool(const Vec<Dim>&)> has_place = [&](const Vec<Dim>& in_body) {
+    return is_within(placement.to_world(in_body), -1e-9 * grid.spacing);
+  };
+  const auto is_deep = [&](std::size_t i) {
+    const Bounds<Dim> box = places.box(index_in<Dim>(sites, i));
+    return is_within(0.5 * (box.low + box.high), 4 * std::sqrt(static_cast<double>(Dim)) * grid.spacing);
+  };
+  std::vector<std::optional<typename DrySides<Dim>::View>> found(near.size());
+  for_each_row(
+      near.size(),
+      [&](std::size_t k) {
+        const Vec<Dim> x = middle_of(near[k]);
+        const std::int32_t at = stays && !before.of_site.empty() ? before.of_site[near[k]] : -1;
+        if (at >= 0 && !walls.has_new_view_at(x)) {
+          found[k] = std::move(before.list[static_cast<std::size_t>(at)]);
+        } else {
+          found[k] = walls.view_from(shape, x, stays || is_deep(near[k]) ? everywhere : has_place);
+        }
+      },
+      4);
+  views.of_site.assign(rows_in<Dim>(sites), -1);
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    if (!found[k]) continue;
+    views.of_site[near[k]] = static_cast<std::int32_t>(views.list.size());
+    views.list.push_back(std::move(*found[k]));
+  }
+}
+
+/// Whether a wall parts a site from some of those around, but none of them from the next.
+template <int Dim>
+bool ends_beside(const DrySides<Dim>& dry, const Splines<Dim>& splines, const Index<Dim>& site) {
+  std::array<std::optional<Index<Dim>>, power(3, Dim)> around;
+  std::array<std::size_t, power(3, Dim)> side;
+  for_each_support<Dim>([&](std::size_t k, Index<Dim> offset) {
+    for (int& steps : offset) --steps;
+    const auto at = splines.site_at(site, offset);
+    if (k != power(3, Dim) / 2 && at && splines.has_multiplier(*at)) around[k] = at;
+    side[k] = k;
+  });
+  const auto side_of = [&](std::size_t k) {
+    while (side[k] != k) k = side[k];
+    return k;
+  };
+  for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (offset[d] == 0 || !around[k]) continue;
+      const std::size_t below = k - power(3, static_cast<int>(d));
+      if (around[below] && !dry.parts(*around[k], *around[below])) side[side_of(k)] = side_of(below);
+    }
+  });
+  bool any_parted = false;
+  std::optional<std::size_t> first;
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    if (!around[k]) continue;
+    if (first && side_of(k) != *first) return false;
+    first = side_of(k);
+    any_parted = any_parted || dry.parts(site, *around[k]);
+  }
+  return any_parted;
 }
 
 }  // namespace
@@ -61,7 +139,11 @@ void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
                                    Read<body::MiddleRotation<Dim>> R_b, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Update<DrySides<Dim>> dry) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), &*dry);
+  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
+  dry->sites = splines->sites();
+  dry->views.resize(set->bodies.size());
   std::vector<std::size_t> changed_at_rest;
+  bool any_changed = false;
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     if (!dry->of_body[b]) continue;
     ThinWalls<Dim>& walls = *dry->of_body[b];
@@ -70,12 +152,23 @@ void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
       for_each_image<Dim>(*grid, y_p[p],
                           [&](const Vec<Dim>& y) { walls.light(shape, bodies.placement(b).to_body(y)); });
     });
-    if (walls.find_dry() && !set->bodies[b].moves()) changed_at_rest.push_back(b);
+    const bool has_changed = walls.find_dry();
+    const bool moves = set->bodies[b].moves();
+    if (!has_changed && !(moves && walls.may_hide_any())) continue;
+    any_changed = true;
+    if (!moves) changed_at_rest.push_back(b);
+    find_views<Dim>(walls, shape, bodies.placement(b), cuts.places(), !moves, dry->views[b]);
+  }
+  if (any_changed) {
+    dry->is_at_end.assign(rows_in<Dim>(dry->sites), 0);
+    for_each_row(dry->is_at_end.size(), [&](std::size_t i) {
+      const Index<Dim> site = index_in<Dim>(dry->sites, i);
+      if (dry->has_view(site)) dry->is_at_end[i] = ends_beside<Dim>(*dry, *splines, site) ? 1 : 0;
+    });
   }
   if (at_rest->of.empty()) return;
   if (dry->at_rest.empty()) dry->at_rest = at_rest->of;
   if (changed_at_rest.empty()) return;
-  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const SitePlaces<Dim>& places = cuts.places();
   for_each_row(
       dry->at_rest.size(),
@@ -84,7 +177,9 @@ void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
         const Bounds<Dim> box = places.box(site);
         const Vec<Dim> middle = 0.5 * (box.low + box.high);
         const bool has_changed = std::any_of(changed_at_rest.begin(), changed_at_rest.end(), [&](std::size_t b) {
-          return dry->of_body[b]->has_changed_near(middle, places.reach());
+          const Vec<Dim> in_body = bodies.placement(b).to_body(middle);
+          return dry->of_body[b]->has_changed_near(in_body, places.reach()) ||
+                 dry->of_body[b]->has_new_view_at(in_body);
         });
         if (has_changed) dry->at_rest[i] = cuts.cut_by_resting(site);
       },

@@ -28,11 +28,11 @@ constexpr double inside_below = 1e-6;
 template <int Dim>
 void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                                        Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
-                                       Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                                       Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                       Read<multiplier::OpenShare> share, Read<multiplier::Volume> v_l,
-                                       Read<multiplier::Capacity> capacity, Update<multiplier::FillFraction> phi,
-                                       Update<multiplier::FillAround> around,
+                                       Optional<Read<HiddenSites>> hidden, Read<body::MiddlePosition<Dim>> c_b,
+                                       Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
+                                       Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> share,
+                                       Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                                       Update<multiplier::FillFraction> phi, Update<multiplier::FillAround> around,
                                        Update<multiplier::LeastFill> least) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
@@ -44,13 +44,17 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
   };
   const auto beside = [&](std::size_t i, std::size_t side) -> Beside {
     const Index<Dim> at = *site_beside(*splines, site[i], side);
-    const std::int32_t j = neighbour[i][side];
-    return {at, j, j == staggered::none ? cuts.at(at).share : share[static_cast<std::size_t>(j)]};
+    std::int32_t j = neighbour[i][side];
+    if (hidden && j != staggered::none && hidden->has_faces_alone(static_cast<std::size_t>(j))) j = staggered::none;
+    return {at, j,
+            j == staggered::none ? cuts.share_from_row(hidden ? &*hidden : nullptr, site.span(), i, at)
+                                 : share[static_cast<std::size_t>(j)]};
   };
   const auto has_cut_empty = [&](std::size_t i) {
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
-      if (splines->ends_at(site[i], side) || neighbour[i][side] != staggered::none) continue;
-      if (beside(i, side).share < 1) return true;
+      if (splines->ends_at(site[i], side)) continue;
+      const Beside other = beside(i, side);
+      if (other.row == staggered::none && other.share < 1) return true;
     }
     return false;
   };
@@ -96,13 +100,14 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
 template <int Dim>
 void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                                     Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
-                                    Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
-                                    Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows,
-                                    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                    Read<face::Open<Dim>> open_face, Read<face::OpenVolume<Dim>> open_volume,
-                                    Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
-                                    Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
-                                    Optional<Read<face::Density<Dim>>> rho_f, Write<face::UncutMass<Dim>> uncut) const {
+                                    Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
+                                    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                                    Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open_face,
+                                    Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+                                    Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least,
+                                    Read<face::Mass<Dim>> m_f, Optional<Read<face::Density<Dim>>> rho_f,
+                                    Write<face::UncutMass<Dim>> uncut) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
@@ -119,8 +124,22 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
     return open / liquid;
   };
   // Where no particle is, no row.
-  const auto open_empty = [&](const Index<Dim>& at, std::size_t d) {
-    return cuts.open_volume(at, d, [&](const Index<Dim>& l) { return cuts.at(l).share; });
+  const auto open_empty = [&](std::size_t from, const Index<Dim>& at, std::size_t d) {
+    return cuts.open_volume(at, d, [&](const Index<Dim>& l) {
+      return cuts.share_from_row(hidden ? &*hidden : nullptr, site.span(), from, l);
+    });
+  };
+  const bool hides_any = dry && dry->hides_any();
+  // None if a thin wall parts either of its sites from that of the face.
+  const auto face_beside = [&](std::size_t i, std::size_t side, const Index<Dim>& at, std::size_t d) {
+    const std::int32_t j = neighbour[i][side];
+    if (!hides_any || !dry->has_view(site[i])) return j;
+    const auto row = rows->find(at);
+    if (!row || dry->parts(site[i], at)) return staggered::none;
+    const auto below = site_beside(*splines, site[i], 2 * d);
+    const auto below_at = site_beside(*splines, at, 2 * d);
+    if (below && below_at && dry->parts(*below, *below_at)) return staggered::none;
+    return static_cast<std::int32_t>(*row);
   };
   for_each_row(m_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -132,9 +151,9 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
       for (std::size_t side = 0; side < 2 * Dim && from_beside > 0; ++side) {
         const auto beside = site_beside(*splines, site[i], side);
         if (side / 2 == d || !beside || !splines->has_face(*beside, d)) continue;
-        const std::int32_t j = neighbour[i][side];
-        open +=
-            from_beside * (j == staggered::none ? open_empty(*beside, d) : open_liquid(static_cast<std::size_t>(j), d));
+        const std::int32_t j = face_beside(i, side, *beside, d);
+        open += from_beside *
+                (j == staggered::none ? open_empty(i, *beside, d) : open_liquid(static_cast<std::size_t>(j), d));
         uncut[i][axis] += j == staggered::none ? 0 : from_beside * m_f[static_cast<std::size_t>(j)][axis];
       }
       // Of a face that is lighter than its particles, a pressure makes more energy than it takes.

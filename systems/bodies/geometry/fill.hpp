@@ -17,10 +17,10 @@ template <int Dim>
 struct FillBesideBodies {
   static constexpr std::string_view doc = "(E86) fill fraction near bodies";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> share,
-                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
+                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                  Read<multiplier::OpenShare> share, Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Update<multiplier::FillFraction> phi, Update<multiplier::FillAround> around,
                   Update<multiplier::LeastFill> least) const;
 };
@@ -31,8 +31,9 @@ template <int Dim>
 struct FindUncutMass {
   static constexpr std::string_view doc = "(E86) mass of faces, were nothing cut away";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
+                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                  Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open,
                   Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
                   Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,

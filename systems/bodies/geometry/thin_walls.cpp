@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace minamo {
 
@@ -15,6 +17,10 @@ namespace {
 constexpr int pieces_of_cell = 16;
 /// How often the piece with the far side is halved.
 constexpr int halvings_of_piece = 24;
+/// What rounding may say of a point on a side of the region. [h]
+constexpr double on_region_side = 1e-6;
+/// A point nearer than this is on the body. [h]
+constexpr double on_body = 1e-9;
 /// What is dry is behind a wall by more than this. [h]
 constexpr double detour = 1;
 
@@ -45,8 +51,9 @@ std::optional<ThinWalls<Dim>> ThinWalls<Dim>::find(const Shape<Dim>& shape, cons
         const double size = spacing / fineness;
         for (std::size_t k = 0; k < per_block && is_thin[block] == 0; ++k) {
           const Vec<Dim> x = walls.middle_within(block, k);
+          if (!walls.is_inside(x, -on_region_side * spacing)) continue;  // the last blocks go on beyond the region
           const double distance = shape.distance(x);
-          if (distance <= 0 || distance > 2 * size) continue;
+          if (distance <= on_body * spacing || distance > 2 * size) continue;
           is_thin[block] = walls.thickness_at(shape, x, distance) < thin * spacing ? 1 : 0;
         }
       },
@@ -58,8 +65,8 @@ std::optional<ThinWalls<Dim>> ThinWalls<Dim>::find(const Shape<Dim>& shape, cons
 }
 
 template <int Dim>
-bool ThinWalls<Dim>::is_inside(const Vec<Dim>& x) const {
-  return (x.array() > region_.low.array()).all() && (x.array() < region_.high.array()).all();
+bool ThinWalls<Dim>::is_inside(const Vec<Dim>& x, double margin) const {
+  return (x.array() > region_.low.array() + margin).all() && (x.array() < region_.high.array() - margin).all();
 }
 
 template <int Dim>
@@ -78,7 +85,7 @@ double ThinWalls<Dim>::thickness_at(const Shape<Dim>& shape, const Vec<Dim>& x, 
       inside = outside;
       continue;
     }
-    if (!is_inside(far)) return none_thin;  // only the grid's side is behind it
+    if (!is_inside(far, on_region_side * spacing_)) return none_thin;  // only the grid's side is behind it
     for (int half = 0; half < halvings_of_piece; ++half) {
       const double middle = 0.5 * (inside + outside);
       (shape.distance(surface - middle * n) > 0 ? outside : inside) = middle;
@@ -129,37 +136,57 @@ void ThinWalls<Dim>::keep_blocks(const std::vector<std::uint8_t>& is_thin) {
   was_lit_.assign(count, 0);
   is_dry_.assign(count, 0);
   has_changed_.assign(kept_.size(), 0);
+  may_hide_.assign(kept_.size(), 0);
+  has_new_view_.assign(kept_.size(), 0);
+  around_.assign(count, -1);
 }
 
 template <int Dim>
 void ThinWalls<Dim>::join(const Shape<Dim>& shape) {
   const double size = spacing_ / fineness;
   std::vector<double> distance(flags_.size());
+  std::vector<std::uint8_t> is_in(flags_.size());  // the last blocks go on beyond the region
   for_each_row(flags_.size(), [&](std::size_t s) {
     const Vec<Dim> x = middle_of_small(s);
     distance[s] = shape.distance(x);
+    if (std::abs(distance[s]) <= on_body * spacing_) distance[s] = 0;
+    is_in[s] = is_inside(x, -on_region_side * spacing_) ? 1 : 0;
+    if (is_in[s] == 0) return;
     if (distance[s] > 0 && distance[s] < 2 * size)
       thickness_[s] = static_cast<float>(thickness_at(shape, x, distance[s]));
   });
-  const auto distance_at = [&](const Vec<Dim>& x) { return shape.distance(x); };
-  const auto faces_away = [&](const Vec<Dim>& a, const Vec<Dim>& b) {
-    return shape.gradient(a).dot(shape.gradient(b)) < 0;
-  };
-  constexpr int most_halvings = 4;
   for_each_row(flags_.size(), [&](std::size_t s) {
+    if (is_in[s] == 0) return;
     unsigned flags = distance[s] > 0 ? 1U << is_open : 0;
     const Vec<Dim> x = middle_of_small(s);
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       const std::int32_t other = neighbour(s, side);
-      if (other == none) continue;
+      if (other == none || is_in[static_cast<std::size_t>(other)] == 0) continue;
       Vec<Dim> y = x;
       y[static_cast<Eigen::Index>(side / 2)] += side % 2 == 0 ? -size : size;
       const double at_y = distance[static_cast<std::size_t>(other)];
-      if (!passes_through<Dim>(x, y, distance[s], at_y, most_halvings, distance_at, faces_away)) flags |= 1U << side;
+      if (!is_parted(shape, x, distance[s], y, at_y)) flags |= 1U << side;
     }
     flags_[s] = static_cast<std::uint8_t>(flags);
   });
   spread_thickness();
+  find_opposites(shape);
+}
+
+template <int Dim>
+void ThinWalls<Dim>::find_opposites(const Shape<Dim>& shape) {
+  const double size = spacing_ / fineness;
+  for (std::size_t s = 0; s < flags_.size(); ++s) {
+    const double thickness = static_cast<double>(thickness_[s]);
+    if (thickness == 0 || thickness >= thin_ * spacing_ || !has(s, is_open)) continue;
+    const Vec<Dim> x = middle_of_small(s);
+    const double distance = shape.distance(x);
+    if (distance > size) continue;
+    const Vec<Dim> n = shape.gradient(x).stableNormalized();
+    const std::int32_t other = small_at(Vec<Dim>(x - (distance + thickness + size) * n));
+    if (other != none && has(static_cast<std::size_t>(other), is_open))
+      opposites_.push_back({static_cast<std::int32_t>(s), other});
+  }
 }
 
 template <int Dim>
@@ -200,19 +227,45 @@ Vec<Dim> ThinWalls<Dim>::middle_within(std::size_t block, std::size_t within) co
 }
 
 template <int Dim>
-std::int32_t ThinWalls<Dim>::small_at(const Vec<Dim>& x) const {
+std::optional<Index<Dim>> ThinWalls<Dim>::place_of(const Vec<Dim>& x) const {
+  Index<Dim> place;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    const double along = (x[axis] - low_[axis]) / spacing_ * fineness;
+    if (!(along >= 0 && along < static_cast<double>(blocks_[d]) * fineness)) return {};
+    place[d] = static_cast<int>(along);
+  }
+  return place;
+}
+
+template <int Dim>
+Index<Dim> ThinWalls<Dim>::place_of(std::int32_t small) const {
+  const auto s = static_cast<std::size_t>(small);
+  Index<Dim> sides;
+  sides.fill(fineness);
+  Index<Dim> place = index_in<Dim>(blocks_, kept_[s / per_block]);
+  const Index<Dim> within = index_in<Dim>(sides, s % per_block);
+  for (std::size_t d = 0; d < Dim; ++d) place[d] = place[d] * fineness + within[d];
+  return place;
+}
+
+template <int Dim>
+std::int32_t ThinWalls<Dim>::small_at(const Index<Dim>& place) const {
   Index<Dim> block;
   std::size_t within = 0;
   for (std::size_t d = Dim; d-- > 0;) {
-    const auto axis = static_cast<Eigen::Index>(d);
-    const double along = (x[axis] - low_[axis]) / spacing_ * fineness;
-    if (!(along >= 0 && along < static_cast<double>(blocks_[d]) * fineness)) return none;
-    const int at = static_cast<int>(along);
-    block[d] = at / fineness;
-    within = within * fineness + static_cast<std::size_t>(at % fineness);
+    if (place[d] < 0 || place[d] >= blocks_[d] * fineness) return none;
+    block[d] = place[d] / fineness;
+    within = within * fineness + static_cast<std::size_t>(place[d] % fineness);
   }
   const std::int32_t first = first_[row_in<Dim>(blocks_, block)];
   return first == none ? none : first + static_cast<std::int32_t>(within);
+}
+
+template <int Dim>
+std::int32_t ThinWalls<Dim>::small_at(const Vec<Dim>& x) const {
+  const auto place = place_of(x);
+  return place ? small_at(*place) : none;
 }
 
 template <int Dim>
@@ -235,8 +288,51 @@ std::int32_t ThinWalls<Dim>::telling(const Shape<Dim>& shape, const Vec<Dim>& x,
   if (distance >= size) return small_at(x);
   const Vec<Dim> gradient = shape.gradient(x);
   if (gradient.isZero(0)) return none;
-  const std::int32_t small = small_at(x + (size - distance) / gradient.squaredNorm() * gradient);
-  return small != none && has(static_cast<std::size_t>(small), is_open) ? small : none;
+  const Vec<Dim> outward = gradient / gradient.squaredNorm();
+  const std::int32_t small = small_at(Vec<Dim>(x + (size - distance) * outward));
+  if (small != none && has(static_cast<std::size_t>(small), is_open)) return small;
+  return in_corner(shape, distance > 0 ? x : Vec<Dim>(x + (1e-3 * size - distance) * outward));
+}
+
+template <int Dim>
+std::int32_t ThinWalls<Dim>::in_corner(const Shape<Dim>& shape, const Vec<Dim>& x) const {
+  const auto middle = place_of(x);
+  if (!middle) return none;
+  constexpr int across = 5;
+  Index<Dim> window;
+  window.fill(across);
+  const auto distance_at = [&](const Vec<Dim>& y) { return shape.distance(y); };
+  const double at_x = distance_at(x);
+  std::int32_t nearest = none;
+  double least = std::numeric_limits<double>::infinity();
+  double farthest = 0;
+  const double tie = on_body * spacing_ * spacing_;
+  for (std::size_t k = 0; k < rows_in<Dim>(window); ++k) {
+    Index<Dim> place = index_in<Dim>(window, k);
+    for (std::size_t d = 0; d < Dim; ++d) place[d] += (*middle)[d] - across / 2;
+    const std::int32_t small = small_at(place);
+    if (small == none || !has(static_cast<std::size_t>(small), is_open)) continue;
+    const Vec<Dim> y = middle_of_small(static_cast<std::size_t>(small));
+    const double square = (y - x).squaredNorm();
+    const double at_y = distance_at(y);
+    // Of two as near the one farther from the body: the same in the mirror.
+    const bool is_tied = std::abs(square - least) < tie;
+    if (is_tied ? at_y <= farthest : square > least) continue;
+    if (is_parted(shape, x, at_x, y, at_y)) continue;
+    least = square;
+    farthest = at_y;
+    nearest = small;
+  }
+  return nearest;
+}
+
+template <int Dim>
+bool ThinWalls<Dim>::is_parted(const Shape<Dim>& shape, const Vec<Dim>& x, double at_x, const Vec<Dim>& y,
+                               double at_y) const {
+  constexpr int most_halvings = 4;
+  return passes_through<Dim>(
+      x, y, at_x, at_y, most_halvings, [&](const Vec<Dim>& z) { return shape.distance(z); },
+      [&](const Vec<Dim>& a, const Vec<Dim>& b) { return shape.gradient(a).dot(shape.gradient(b)) < 0; });
 }
 
 template <int Dim>
@@ -281,6 +377,7 @@ bool ThinWalls<Dim>::find_dry() {
   std::fill(is_lit_.begin(), is_lit_.end(), std::uint8_t{0});
   if (is_alike) {
     std::fill(has_changed_.begin(), has_changed_.end(), std::uint8_t{0});
+    std::fill(has_new_view_.begin(), has_new_view_.end(), std::uint8_t{0});
     return false;
   }
   constexpr int longer = static_cast<int>(detour * fineness);
@@ -298,32 +395,128 @@ bool ThinWalls<Dim>::find_dry() {
     }
     any = any || has_changed_[k] != 0;
   }
-  return any;
+  return find_two_sided() || any;
 }
 
 template <int Dim>
-double ThinWalls<Dim>::shaded(const Shape<Dim>& shape, const Vec<Dim>& x, double distance) const {
+std::vector<std::uint8_t> ThinWalls<Dim>::blocks_near(const std::vector<std::uint8_t>& blocks, int within) const {
+  std::vector<std::uint8_t> near(kept_.size(), 0);
+  Index<Dim> window;
+  window.fill(2 * within + 1);
+  for (std::size_t kept = 0; kept < kept_.size(); ++kept) {
+    if (blocks[kept] == 0) continue;
+    const Index<Dim> block = index_in<Dim>(blocks_, kept_[kept]);
+    for (std::size_t k = 0; k < rows_in<Dim>(window); ++k) {
+      Index<Dim> place = index_in<Dim>(window, k);
+      for (std::size_t d = 0; d < Dim; ++d) place[d] = (place[d] + block[d] - within) * fineness;
+      const std::int32_t small = small_at(place);
+      if (small != none) near[static_cast<std::size_t>(small) / per_block] = 1;
+    }
+  }
+  return near;
+}
+
+template <int Dim>
+bool ThinWalls<Dim>::find_two_sided() {
+  std::vector<std::uint8_t> is_two_sided(kept_.size(), 0);
+  const std::vector<std::int32_t> before = std::exchange(two_sided_, {});
+  // Next to the surface of the lower liquid its side is neither wet nor dry.
+  for (const auto& [one, other] : opposites_) {
+    const auto is_open_to = [&](std::int32_t small) { return is_dry_[static_cast<std::size_t>(small)] == 0; };
+    if ((!is_wet(one) || !is_open_to(other)) && (!is_wet(other) || !is_open_to(one))) continue;
+    is_two_sided[static_cast<std::size_t>(one) / per_block] = 1;
+    two_sided_.push_back(one);
+  }
+  may_hide_ = blocks_near(is_two_sided, reach());
+  std::vector<std::uint8_t> changed = has_changed_;
+  std::vector<std::int32_t> changes;
+  std::set_symmetric_difference(before.begin(), before.end(), two_sided_.begin(), two_sided_.end(),
+                                std::back_inserter(changes));
+  for (const std::int32_t small : changes) changed[static_cast<std::size_t>(small) / per_block] = 1;
+  has_new_view_ = blocks_near(changed, half_a_view);
+  return !changes.empty();
+}
+
+template <int Dim>
+bool ThinWalls<Dim>::has_new_view_at(const Vec<Dim>& x) const {
+  const std::int32_t small = small_at(x);
+  return small != none && has_new_view_[static_cast<std::size_t>(small) / per_block] != 0;
+}
+
+template <int Dim>
+bool ThinWalls<Dim>::may_hide_at(const Vec<Dim>& x) const {
+  const std::int32_t small = small_at(x);
+  if (small == none || may_hide_[static_cast<std::size_t>(small) / per_block] == 0) return false;
+  // By small cells: a point of the grid lies at the rim of its block, and in the mirror in another one.
+  const int within = (2 * thin_ + 1) * fineness / 2;
+  const Index<Dim> middle = place_of(small);
+  Index<Dim> low;
+  Index<Dim> sides;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    low[d] = std::max(0, middle[d] - within) / fineness;
+    sides[d] = std::min(blocks_[d], (middle[d] + within) / fineness + 1) - low[d];
+  }
+  const auto is_near = [&](std::int32_t other) {
+    const Index<Dim> place = place_of(other);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (std::abs(place[d] - middle[d]) > within) return false;
+    }
+    return true;
+  };
+  for (std::size_t k = 0; k < rows_in<Dim>(sides); ++k) {
+    Index<Dim> block = index_in<Dim>(sides, k);
+    for (std::size_t d = 0; d < Dim; ++d) block[d] += low[d];
+    const std::int32_t first = first_[row_in<Dim>(blocks_, block)];
+    if (first == none) continue;
+    const auto begin = std::lower_bound(two_sided_.begin(), two_sided_.end(), first);
+    const auto end = std::lower_bound(begin, two_sided_.end(), first + static_cast<std::int32_t>(per_block));
+    if (std::any_of(begin, end, is_near)) return true;
+  }
+  return false;
+}
+
+template <int Dim>
+std::optional<std::int32_t> ThinWalls<Dim>::small_cell_of(const Shape<Dim>& shape, const Vec<Dim>& x) const {
+  if (small_at(x) == none) return {};
+  const std::int32_t small = telling(shape, x, shape.distance(x));
+  return small == none ? std::nullopt : std::optional(small);
+}
+
+template <int Dim>
+bool ThinWalls<Dim>::hides(const View& view, std::int32_t small) const {
+  if (view.hides_all) return true;
+  if (view.hidden.empty()) return false;
+  const Index<Dim> place = place_of(small);
+  std::size_t at = 0;
+  for (std::size_t d = Dim; d-- > 0;) {
+    const int along = place[d] - view.low[d];
+    if (along < 0 || along >= view_across) return false;
+    at = at * view_across + static_cast<std::size_t>(along);
+  }
+  return view.hidden[at] != 0;
+}
+
+template <int Dim>
+double ThinWalls<Dim>::shaded(const Shape<Dim>& shape, const Vec<Dim>& x, double distance, const View* view) const {
   if (small_at(x) == none) return distance;
   const std::int32_t small = telling(shape, x, distance);
-  if (small == none || is_dry_[static_cast<std::size_t>(small)] == 0) return distance;
+  if (small == none) return distance;
+  const bool is_hidden = view != nullptr && hides(*view, small);
+  if (!is_hidden && is_dry_[static_cast<std::size_t>(small)] == 0) return distance;
   return -distance - static_cast<double>(thickness_[static_cast<std::size_t>(small)]);
 }
 
 template <int Dim>
-std::optional<typename ThinWalls<Dim>::Place> ThinWalls<Dim>::wet_on_both_sides(const Shape<Dim>& shape) const {
-  const double size = spacing_ / fineness;
-  const auto is_wet = [&](std::size_t s) { return around_[s] >= 0 && around_[s] <= fineness; };
-  for (std::size_t s = 0; s < around_.size(); ++s) {
-    const double thickness = static_cast<double>(thickness_[s]);
-    if (thickness == 0 || thickness >= thin_ * spacing_ || !is_wet(s) || shape.distance(middle_of_small(s)) > size)
-      continue;
-    const Vec<Dim> x = middle_of_small(s);
+std::optional<typename ThinWalls<Dim>::Place> ThinWalls<Dim>::wet_on_both_sides(const Shape<Dim>& shape,
+                                                                                double thinner_than) const {
+  for (const auto& [one, other] : opposites_) {
+    if (!is_wet(one) || !is_wet(other)) continue;
+    const auto small = static_cast<std::size_t>(one);
+    const Vec<Dim> x = middle_of_small(small);
+    const auto thickness = static_cast<double>(thickness_[small]);
+    if (thickness >= thinner_than) continue;
     const Vec<Dim> n = shape.gradient(x).stableNormalized();
-    const Vec<Dim> surface = x - shape.distance(x) * n;
-    const std::int32_t opposite = small_at(surface - (thickness + size) * n);
-    if (opposite != none && has(static_cast<std::size_t>(opposite), is_open) &&
-        is_wet(static_cast<std::size_t>(opposite)))
-      return Place{surface - 0.5 * thickness * n, thickness};
+    return Place{x - (shape.distance(x) + 0.5 * thickness) * n, thickness};
   }
   return {};
 }
@@ -345,6 +538,153 @@ bool ThinWalls<Dim>::has_changed_near(const Vec<Dim>& x, double within) const {
     if (first != none && has_changed_[static_cast<std::size_t>(first) / per_block] != 0) return true;
   }
   return false;
+}
+
+template <int Dim>
+std::vector<std::int32_t> ThinWalls<Dim>::small_cells_from(const Index<Dim>& low) const {
+  // Along every axis, what a place adds to the number of its block and to that within it.
+  struct Part {
+    std::size_t block;
+    std::size_t within;
+    bool is_in;
+  };
+  std::array<std::array<Part, view_across>, static_cast<std::size_t>(Dim)> part;
+  std::size_t blocks_before = 1;
+  std::size_t within_before = 1;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    for (int k = 0; k < view_across; ++k) {
+      const int at = low[d] + k;
+      const bool is_in = at >= 0 && at < blocks_[d] * fineness;
+      const auto place = static_cast<std::size_t>(is_in ? at : 0);
+      part[d][static_cast<std::size_t>(k)] = {place / fineness * blocks_before, place % fineness * within_before,
+                                              is_in};
+    }
+    blocks_before *= static_cast<std::size_t>(blocks_[d]);
+    within_before *= fineness;
+  }
+  std::vector<std::int32_t> small(power(view_across, Dim), none);
+  Index<Dim> at{};
+  for (std::int32_t& of : small) {
+    Part sum{0, 0, true};
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const Part& along = part[d][static_cast<std::size_t>(at[d])];
+      sum = {sum.block + along.block, sum.within + along.within, sum.is_in && along.is_in};
+    }
+    if (sum.is_in && first_[sum.block] != none) of = first_[sum.block] + static_cast<std::int32_t>(sum.within);
+    for (std::size_t d = 0; d < Dim && ++at[d] == view_across; ++d) at[d] = 0;
+  }
+  return small;
+}
+
+template <int Dim>
+std::vector<std::int16_t> ThinWalls<Dim>::steps_around(const std::vector<std::int32_t>& small,
+                                                       const std::vector<std::size_t>& starts) const {
+  // Ways end at the rim of the window.
+  static const std::vector<std::uint8_t> is_rim = [] {
+    Index<Dim> across;
+    across.fill(view_across);
+    std::vector<std::uint8_t> rim(power(view_across, Dim));
+    for (std::size_t k = 0; k < rim.size(); ++k) {
+      const Index<Dim> at = index_in<Dim>(across, k);
+      rim[k] = std::any_of(at.begin(), at.end(), [](int along) { return along == 0 || along == view_across - 1; });
+    }
+    return rim;
+  }();
+  std::vector<std::int16_t> around(small.size(), -1);
+  std::vector<std::uint32_t> front;
+  front.reserve(small.size());
+  for (const std::size_t start : starts) {
+    front.push_back(static_cast<std::uint32_t>(start));
+    around[start] = 0;
+  }
+  for (std::size_t next = 0; next < front.size(); ++next) {
+    const std::size_t k = front[next];
+    if (is_rim[k] != 0) continue;
+    const unsigned open = flags_[static_cast<std::size_t>(small[k])];
+    for (std::size_t side = 0, step = 1; side < 2 * Dim; ++side) {
+      const std::size_t other = side % 2 == 0 ? k - step : k + step;
+      if ((open >> side & 1U) != 0 && around[other] < 0 && small[other] != none) {
+        around[other] = static_cast<std::int16_t>(around[k] + 1);
+        front.push_back(static_cast<std::uint32_t>(other));
+      }
+      if (side % 2 == 1) step *= static_cast<std::size_t>(view_across);
+    }
+  }
+  return around;
+}
+
+template <int Dim>
+std::vector<std::uint8_t> ThinWalls<Dim>::hidden_from(const std::vector<std::int32_t>& small,
+                                                      const std::vector<std::size_t>& starts) const {
+  Index<Dim> across;
+  across.fill(view_across);
+  std::vector<Index<Dim>> from;
+  for (const std::size_t start : starts) from.push_back(index_in<Dim>(across, start));
+  const std::vector<std::int16_t> around = steps_around(small, starts);
+  constexpr int longer = static_cast<int>(detour * fineness);
+  std::vector<std::uint8_t> hidden(small.size(), 0);
+  Index<Dim> at{};
+  for (std::size_t k = 0; k < small.size(); ++k) {
+    if (may_be_wet(small[k])) {
+      int through = std::numeric_limits<int>::max() - longer;
+      for (const Index<Dim>& start : from) {
+        int steps = 0;
+        for (std::size_t d = 0; d < Dim; ++d) steps += std::abs(at[d] - start[d]);
+        through = std::min(through, steps);
+      }
+      hidden[k] = around[k] < 0 || around[k] > through + longer ? 1 : 0;
+    }
+    for (std::size_t d = 0; d < Dim && ++at[d] == view_across; ++d) at[d] = 0;
+  }
+  return hidden;
+}
+
+template <int Dim>
+std::optional<typename ThinWalls<Dim>::View>
+ThinWalls<Dim>::view_from(const Shape<Dim>& shape, const Vec<Dim>& x,
+                          const std::function<bool(const Vec<Dim>&)>& has_place) const {
+  const auto middle = place_of(x);
+  if (!middle) return {};
+  View view;
+  for (std::size_t d = 0; d < Dim; ++d) view.low[d] = (*middle)[d] - view_across / 2;
+  Index<Dim> across;
+  across.fill(view_across);
+  std::vector<std::int32_t> small = small_cells_from(view.low);
+  for (std::int32_t& of : small) {
+    if (has_place && of != none && !has_place(middle_of_small(static_cast<std::size_t>(of)))) of = none;
+  }
+  std::vector<std::size_t> nearest;
+  double least = spacing_ * spacing_;
+  const double alike = 1e-6 * spacing_ * spacing_;
+  // Those of them that are nearest to the place.
+  Index<Dim> around_middle;
+  around_middle.fill(2 * fineness + 1);
+  for (std::size_t n = 0; n < rows_in<Dim>(around_middle); ++n) {
+    Index<Dim> at = index_in<Dim>(around_middle, n);
+    for (std::size_t d = 0; d < Dim; ++d) at[d] += view_across / 2 - fineness;
+    const std::size_t k = row_in<Dim>(across, at);
+    if (!may_be_wet(small[k])) continue;
+    const double square = (middle_of_small(static_cast<std::size_t>(small[k])) - x).squaredNorm();
+    if (square > least + alike) continue;
+    if (square < least - alike) nearest.clear();
+    least = std::min(least, square);
+    nearest.push_back(k);
+  }
+  if (nearest.empty()) return {};
+  // Of those that are equally near the ones that are farthest from the body: a lattice knows of no sides.
+  const auto distance_of = [&](std::size_t k) {
+    return shape.distance(middle_of_small(static_cast<std::size_t>(small[k])));
+  };
+  double farthest = 0;
+  for (const std::size_t k : nearest) farthest = std::max(farthest, distance_of(k));
+  std::erase_if(nearest, [&](std::size_t k) { return distance_of(k) < farthest - 1e-6 * spacing_; });
+  std::vector<std::uint8_t> hidden = hidden_from(small, {nearest.front()});
+  view.hides_all = std::any_of(nearest.begin(), nearest.end(), [&](std::size_t k) { return hidden[k] != 0; });
+  if (nearest.size() > 1 && !view.hides_all) hidden = hidden_from(small, nearest);
+  for (const std::size_t k : nearest) view.from.push_back(small[k]);
+  if (std::any_of(hidden.begin(), hidden.end(), [](std::uint8_t is) { return is != 0; }))
+    view.hidden = std::move(hidden);
+  return view;
 }
 
 template class ThinWalls<2>;
