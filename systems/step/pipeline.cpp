@@ -81,10 +81,13 @@ Pipeline make_pipeline(const Scene& scene) {
   require_rows(scene.recipe);
   const ForceWork work = force_work(scene);
   // No slot of a step without a row comes after one that it leaves out, so it has nothing to miss.
-  const std::vector<System> always = make_step(scene, {slots().begin(), slot_named(record_slots)}, work);
+  const auto record = slot_named(record_slots);
+  std::vector<System> step = make_step(scene, {slots().begin(), record}, work);
+  const std::size_t always = step.size();
+  append(step, make_step(scene, {record, slots().end()}, work));
   std::vector<System> output = systems_of(scene, "output", When::always);
   append(output, scene.recipe.output());
-  return {make_start(scene, work), make_step(scene, slots(), work), always.size(), std::move(output)};
+  return {make_start(scene, work), std::move(step), always, std::move(output)};
 }
 
 }  // namespace minamo
