@@ -25,9 +25,8 @@ struct RowsOfSites {
 
   /// Whether a thin wall may part a row from those around: their sites tell, not which rows know each other.
   bool is_near_thin_wall(std::size_t i) const { return dry != nullptr && dry->has_view(site[i]); }
-  bool parts(std::size_t i, std::uint32_t j) const {
-    return dry != nullptr && dry->parts(site[i], site[j]);
-  }  /// Whether one parts a face of direction d from a face of direction e: all their sites.
+  bool parts(std::size_t i, std::uint32_t j) const { return dry != nullptr && dry->parts(site[i], site[j]); }
+  /// Whether one parts a face of direction d from a face of direction e: all their sites.
   bool parts_faces(std::size_t i, std::size_t d, std::size_t j, std::size_t e) const {
     if (dry == nullptr) return false;
     const auto below_i = site_beside(splines, site[i], 2 * d);
