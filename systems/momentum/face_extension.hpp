@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// (E87) Velocities of closed faces, on which particles near a body have weight: linear functions of those of the
-/// open faces around, and of the motion of a wall to which the liquid sticks.
+/// open faces around, and of the motion of the nearest body.
 
 #include "components/rigid.hpp"
 #include "components/staggered.hpp"
@@ -24,7 +24,8 @@ struct FaceExtension {
     std::size_t count;       ///< of open faces
     bool own = false;        ///< open enough for a velocity of its own
     bool is_parted = false;  ///< (E136) a thin wall parts its sites: rows of both sides may stand for it
-    std::int32_t wall = -1;  ///< body that the liquid sticks to, or -1
+    bool sticks = false;     ///< the liquid, to that body
+    std::int32_t wall = -1;  ///< the nearest body, where it may move or the liquid sticks to it; else -1
     RigidVector<Dim> lever = RigidVector<Dim>::Zero();  ///< weights of that body's motion
 
     std::size_t number() const { return Dim * std::size_t{row} + static_cast<std::size_t>(direction); }
@@ -67,7 +68,7 @@ struct FaceExtension {
       if (at.wall >= 0) {
         const double of_wall = at.lever.dot(motion(static_cast<std::size_t>(at.wall)));
         sum += of_wall;
-        range.cover(of_wall);
+        if (at.sticks) range.cover(of_wall);
       }
       field[at.row][at.direction] = range.limit(sum, beyond);
     });

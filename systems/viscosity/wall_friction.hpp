@@ -80,7 +80,7 @@ template <int Dim>
 void bound_by_open_faces(const FaceExtension<Dim>& extension, std::span<double> bound) {
   for (const auto& at : extension.targets) {
     const std::size_t f = at.number();
-    double sum = at.wall < 0 ? 0 : 1;
+    double sum = at.sticks ? 1 : 0;
     extension.for_each_source(at, [&](std::size_t, double e) { sum += std::abs(e); });
     extension.for_each_source(at, [&](std::size_t source, double e) { bound[source] += sum * std::abs(e) * bound[f]; });
   }

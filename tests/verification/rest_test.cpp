@@ -122,3 +122,34 @@ TEST_CASE("water rests near bodies, wherever they are in the grid", "[verificati
   }
   CHECK(largest.value() < 0.02);
 }
+
+TEST_CASE("an eddy in a corner of a tank does not grow, however short the steps are", "[verification]") {
+  // Particles bring what they take from closed faces back to open ones in every step. With slopes that few faces tell
+  // of the eddy under the surface has 1.2 m/s after 3.5 s; 0.003 with these.
+  SceneRun run(
+      Json::parse(R"({"dimension": 2, "grid": {"low": [-0.0995, -0.1], "high": [1.1005, 1.1], "cells": [24, 24]},
+    "fluid": {"density": 1000, "viscosity": 1e-3}, "body_force": [0, -9.81],
+    "particles": [{"shape": {"half_space": {"point": [0, 0.311], "normal": [0, 1]}}, "per_cell": 2}],
+    "bodies": [{"name": "tank", "shape": {"invert": {"polygon": {"vertices":
+      [[0.478, -0.065], [1.065, 0.479], [0.522, 1.065], [-0.065, 0.522]]}}}}], "time": {"end": 4, "step": 0.001}})"));
+  run.step(3500);
+  CHECK(speed_of_fastest<2>(run.world()) < 0.03);
+}
+
+TEST_CASE("a column of water between a wall and the first line of the grid in front of it does not rise and fall",
+          "[verification]") {
+  // Particles of the multiplier in the wall, 0.27 open, tell where the surface is: else the column has 0.3 m/s.
+  SceneRun run(
+      Json::parse(R"({"dimension": 2, "grid": {"low": [-0.2125, -0.2215], "high": [1.1875, 0.5785], "cells": [28, 16]},
+    "fluid": {"density": 1000, "viscosity": 1e-3}, "body_force": [0, -9.81],
+    "particles": [{"shape": {"box": {"low": [0, 0], "high": [1, 0.31]}}, "per_cell": 2, "arrangement": "cut"}],
+    "bodies": [{"name": "tank", "shape": {"invert": {"box": {"low": [0, 0], "high": [1, 0.6]}}}}],
+    "time": {"end": 5, "step": 0.0119}})"));
+  run.step(168);
+  Largest largest;
+  for (int k = 0; k < 168; ++k) {
+    run.step();
+    largest.add(speed_of_fastest<2>(run.world()));
+  }
+  CHECK(largest.value() < 0.01);
+}

@@ -19,16 +19,18 @@ namespace {
 /// What is farther than so many times that from those that no body cuts is not told, and keeps its particles.
 constexpr int continued_passes = 3;
 /// Open share of multipliers from which on their own particles tell where the surface is.
-constexpr double telling_open = 0.3;
+constexpr double telling_open = 0.1;
 /// Length of the mean of normals from which on they are those of one plane.
 constexpr double agreeing = 0.7;
 /// Majority, as a share, from which on what is far from the surface counts as full or empty.
 constexpr double decisive = 0.25;
-/// Newton's steps to the plane below which the open part of a multiplier holds what was measured; least area of the
-/// surface in it, as a share, and largest move in units of h.
+/// Newton's steps to where particles tell that the surface is, the largest of them, and what its area is told by.
+/// [1, h, h]
 constexpr int own_corrections = 3;
-constexpr double least_open_area = 0.1;
 constexpr double largest_own_move = 0.2;
+constexpr double for_area = 0.1;
+/// Variance of how full particles tell that a multiplier is, over that of a continued surface. [h^-2]
+constexpr double own_noise = 0.02;
 
 /// What is known of the liquid around a multiplier: from its particles, or continued.
 template <int Dim>
@@ -257,6 +259,21 @@ class Continuation {
   std::vector<std::uint8_t> is_told_;
 };
 
+/// Moves a continued surface to where the open part of its multiplier holds what was measured, by least squares: next
+/// to no area tells next to nothing, and a wedge of few particles would have a surface that is not level.
+template <int Dim>
+void hold_own_volume(const SiteCuts<Dim>& cuts, double measured, Known<Dim>& known) {
+  const auto held = [&](double psi) { return cuts.open_below(known.site, psi, known.normal); };
+  const double continued = known.psi;
+  const double area = (held(continued + for_area) - held(continued - for_area)) / (2 * for_area);
+  for (int k = 0; k < own_corrections; ++k) {
+    const double towards = area * (measured - held(known.psi)) + own_noise * (continued - known.psi);
+    const double move = towards / (area * area + own_noise);
+    known.psi += std::clamp(move, -largest_own_move, largest_own_move);
+    known.psi = std::clamp(known.psi, -farthest, farthest);
+  }
+}
+
 /// Calls use(site) for the multipliers of the cells that a face reaches.
 template <int Dim, class Use>
 void for_each_multiplier_of_face(const Splines<Dim>& splines, const Index<Dim>& site, std::size_t d, const Use& use) {
@@ -350,19 +367,13 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
                                                     fill.span(), psi.span(), n_l.span()};
   Continuation<Dim> continuation(columns, *continued);
   constexpr Index<Dim> here{};
-  // The plane in the continued direction below which the open part holds what was measured.
   continuation.tell([&](Known<Dim>& known, std::size_t c, std::size_t side) {
     const auto row = rows->find(known.site);
     if (!row || open[*row] < telling_open || v_l[*row] == 0) return false;
     if (continued->version(c, here) != std::optional<std::size_t>(continued->first[c] + side)) return false;
     if (!is_cut(known.fill)) return true;
     const double measured = v_l[*row] / capacity[*row] * open[*row];
-    for (int k = 0; k < own_corrections; ++k) {
-      const double lack = measured - cuts.open_below(known.site, known.psi, known.normal);
-      const double area = open[*row] * (1 - std::abs(known.psi));
-      const double move = std::clamp(lack / std::max(least_open_area, area), -largest_own_move, largest_own_move);
-      known.psi = std::clamp(known.psi + move, -farthest, farthest);
-    }
+    hold_own_volume(cuts, measured, known);
     known.fill = SplineFraction<Dim>(*splines, known.site, known.normal)(known.psi).share;
     return true;
   });
