@@ -20,6 +20,9 @@ constexpr int liquid_reach = 2;
 constexpr double least_open_share = 0.05;
 /// Largest rho V^_f/m_f: a face that no particle is near has next to no inertia.
 constexpr double largest_ratio = 10;
+/// rho V^_f q_f + m_f (...) of a step gives q_f of the next one: what m_f has more than rho V^_f comes back as one over
+/// this, with the other sign.
+constexpr double steady = 2;
 /// Froude number of a cell, h |grad v|/sqrt(h |q|), up to which forces are those of a liquid at rest, and from which on
 /// those of the particles: in a flow that strains, exact integrals are no better, and let particles gain energy.
 constexpr double still_to = 0.05;
@@ -92,9 +95,10 @@ void FindPressureAcceleration<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
     Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
-    Read<face::Mass<Dim>> m_f, Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Open<Dim>>> open,
-    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
-    Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const {
+    Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
+    Optional<Read<face::Open<Dim>>> open, Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry,
+    Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
+    Write<face::PressureAcceleration<Dim>> q_f) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   // What particles have left still has rows on the high side of the liquid.
@@ -107,6 +111,9 @@ void FindPressureAcceleration<Dim>::operator()(
           (holds & (1U << d)) != 0 || m_f[i][axis] == 0 || (open && (open[i][axis] == 0 || volume[i][axis] == 0));
       sums[i][d] = is_held ? 0 : -incidence.gradient(i, d, at_multiplier);
       sums[i][Dim + d] = is_held ? 0 : rho.at(i, axis) * volume[i][axis];
+      // Where a body's wall tells less liquid than there are particles q_f would swing from step to step, and grow.
+      if (open && !is_held && mobility[i][axis] > 0)
+        sums[i][Dim + d] = std::max(sums[i][Dim + d], steady * (1 / mobility[i][axis] - sums[i][Dim + d]));
     }
   });
   const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span(), hiding(dry)};

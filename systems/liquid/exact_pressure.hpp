@@ -23,10 +23,10 @@ struct FindPressureAcceleration {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
                   Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
-                  Read<face::Mass<Dim>> m_f, Read<face::ExactVolume<Dim>> volume, Optional<Read<face::Open<Dim>>> open,
-                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry,
-                  Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
-                  Write<face::PressureAcceleration<Dim>> q_f) const;
+                  Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
+                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::Density<Dim>>> rho_f,
+                  Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
+                  Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const;
 };
 
 /// (E133)  w_f: 1 where the liquid is nearly at rest, 0 where it moves, and in spray.
