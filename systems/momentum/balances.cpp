@@ -12,17 +12,6 @@ namespace minamo {
 
 namespace {
 
-/// Open share of a multiplier from which on its own particles tell how full it is, and their error: of a lattice, two
-/// along a cell, that ends at a wall.
-constexpr double own_fill_from = 0.4;
-constexpr double error_of_cut = 0.02;
-
-/// What both tell that is more than noise.
-double beyond_noise(double one, double other) {
-  if (one * other <= 0) return 0;
-  return std::copysign(std::max(0.0, std::min(std::abs(one), std::abs(other)) - error_of_cut), one);
-}
-
 /// kappa of (E63).
 constexpr double damped_share = 0.5;
 /// Largest dt^2 |grad f_p| that (E53) passes on. An impact changes velocities in one step, and is no force that lasts
@@ -159,41 +148,6 @@ void DampFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>
 }
 
 template <int Dim>
-void FillFaceVolumeSource<Dim>::operator()(Read<VolumeRate> rate, Read<Splines<Dim>> splines,
-                                           Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                           Read<multiplier::FillFraction> phi,
-                                           Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
-                                           Read<multiplier::Capacity> capacity,
-                                           Optional<Read<ContinuedLiquid<Dim>>> continued,
-                                           Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
-  // Near bodies phi is that of neighbours, too, and no lattice fills a cut multiplier exactly: water at rest would be
-  // stirred. Where the liquid is continued, particles of the multiplier alone have to say the same.
-  const auto own_fill = [&](std::size_t i) -> std::optional<double> {
-    if (!continued || !open || open[i] == 1 || open[i] < own_fill_from) return {};
-    return v_l[i] / capacity[i];
-  };
-  const auto half_full = [&](std::size_t i) {
-    return (phi[i] > 0.5 && own_fill(i).value_or(1) > 0.5) || !splines->has_multiplier(site[i]);
-  };
-  // With the neighbours of neighbours too, holes at the surface that the flow tears would not close.
-  const auto is_deep = [&](std::size_t i) {
-    if (!half_full(i)) return false;
-    for (std::size_t side = 0; side < 2 * Dim; ++side) {
-      if (splines->ends_at(site[i], side)) continue;
-      const std::int32_t j = neighbour[i][side];
-      if (j == staggered::none || !half_full(static_cast<std::size_t>(j))) return false;
-    }
-    return true;
-  };
-  for_each_row(source.size(), [&](std::size_t l) {
-    const std::size_t i = of_unknown[l];
-    double excess = phi[i] - 1;
-    if (continued && open && open[i] < 1) excess = beyond_noise(excess, own_fill(i).value_or(phi[i]) - 1);
-    source[l][unknown::volume] = excess >= 0 || is_deep(i) ? -rate->rate * excess : 0;
-  });
-}
-
-template <int Dim>
 void ProjectFaces<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                                    Read<face::Mobility<Dim>> mobility, Read<face::Predictor<Dim>> predictor,
@@ -306,8 +260,6 @@ template struct FillFaceSource<2>;
 template struct FillFaceSource<3>;
 template struct DampFaceDivergence<2>;
 template struct DampFaceDivergence<3>;
-template struct FillFaceVolumeSource<2>;
-template struct FillFaceVolumeSource<3>;
 template struct ProjectFaces<2>;
 template struct ProjectFaces<3>;
 template struct CorrectFacesMidpoint<2>;

@@ -125,17 +125,6 @@ struct DampFaceDivergence {
                   Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const;
 };
 
-/// (E36), (E37) on the staggered grid: the divergence that the shift is to have, from the volumes at y_p.
-template <int Dim>
-struct FillFaceVolumeSource {
-  static constexpr std::string_view doc = "(E36) (E37) r E_l/V_l, source of the shift";
-  void operator()(Read<VolumeRate> rate, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                  Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
-                  Read<multiplier::Capacity> capacity, Optional<Read<ContinuedLiquid<Dim>>> continued,
-                  Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const;
-};
-
 /// Velocities and shift without divergence, or with the one that they are to have: q - m^-1 B^T x of the solutions x.
 template <int Dim>
 struct ProjectFaces {

@@ -18,6 +18,51 @@ constexpr double stir_strength = 5;
 constexpr double stirred_from = 0.6;
 /// A step that strains the liquid by one over this takes particles out of order as fast as a whole shift puts them in.
 constexpr double per_strain = 30;
+/// e of (E124): the share of a shift that goes with the strain of a step.
+double disorder(double strain) { return std::min(1.0, per_strain * strain); }
+
+/// Norm of the differences of velocities around a multiplier: between its two faces across every axis, and the largest
+/// along the others from these to those next to them. Faces without mass have none.
+template <int Dim>
+double difference_around(std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
+                         std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> v_f, std::size_t i) {
+  double squares = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const auto axis = static_cast<Eigen::Index>(d);
+    const auto difference = [&](std::int32_t one, std::int32_t other) {
+      if (one == staggered::none || other == staggered::none) return 0.0;
+      const auto a = static_cast<std::size_t>(one);
+      const auto b = static_cast<std::size_t>(other);
+      return m_f[a][axis] > 0 && m_f[b][axis] > 0 ? std::abs(v_f[a][axis] - v_f[b][axis]) : 0.0;
+    };
+    const auto low = static_cast<std::int32_t>(i);
+    const std::int32_t high = neighbour[i][2 * d + 1];
+    squares += std::pow(difference(low, high), 2);
+    for (std::size_t e = 0; e < Dim; ++e) {
+      if (e == d) continue;
+      double most = 0;
+      for (const std::int32_t face : {low, high}) {
+        if (face == staggered::none) continue;
+        for (const std::int32_t next :
+             {neighbour[static_cast<std::size_t>(face)][2 * e], neighbour[static_cast<std::size_t>(face)][2 * e + 1]})
+          most = std::max(most, difference(face, next));
+      }
+      squares += most * most;
+    }
+  }
+  return std::sqrt(squares);
+}
+
+/// Open share of a multiplier from which on its own particles tell how full it is, and their error: of a lattice, two
+/// along a cell, that ends at a wall.
+constexpr double own_fill_from = 0.4;
+constexpr double error_of_cut = 0.02;
+
+/// What both tell that is more than noise.
+double beyond_noise(double one, double other) {
+  if (one * other <= 0) return 0;
+  return std::copysign(std::max(0.0, std::min(std::abs(one), std::abs(other)) - error_of_cut), one);
+}
 
 /// What a shift lifts and what it lowers. [J]
 struct Lift {
@@ -179,6 +224,47 @@ void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
 }
 
 template <int Dim>
+void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<VolumeRate> rate,
+                                           Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                                           Read<staggered::Neighbour<Dim>> neighbour, Read<face::Velocity<Dim>> v_f,
+                                           Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
+                                           Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
+                                           Read<multiplier::Capacity> capacity,
+                                           Optional<Read<ContinuedLiquid<Dim>>> continued,
+                                           Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
+  // Near bodies phi is that of neighbours, too, and no lattice fills a cut multiplier exactly: water at rest would be
+  // stirred. Where the liquid is continued, particles of the multiplier alone have to say the same.
+  const auto own_fill = [&](std::size_t i) -> std::optional<double> {
+    if (!continued || !open || open[i] == 1 || open[i] < own_fill_from) return {};
+    return v_l[i] / capacity[i];
+  };
+  const auto half_full = [&](std::size_t i) {
+    return (phi[i] > 0.5 && own_fill(i).value_or(1) > 0.5) || !splines->has_multiplier(site[i]);
+  };
+  // With the neighbours of neighbours too, holes at the surface that the flow tears would not close.
+  const auto is_deep = [&](std::size_t i) {
+    if (!half_full(i)) return false;
+    for (std::size_t side = 0; side < 2 * Dim; ++side) {
+      if (splines->ends_at(site[i], side)) continue;
+      const std::int32_t j = neighbour[i][side];
+      if (j == staggered::none || !half_full(static_cast<std::size_t>(j))) return false;
+    }
+    return true;
+  };
+  const auto difference = [&](std::size_t i) {
+    return difference_around<Dim>(neighbour.span(), m_f.span(), v_f.span(), i);
+  };
+  for_each_row(source.size(), [&](std::size_t l) {
+    const std::size_t i = of_unknown[l];
+    double excess = phi[i] - 1;
+    if (continued && open && open[i] < 1) excess = beyond_noise(excess, own_fill(i).value_or(phi[i]) - 1);
+    // Walls leave lattices that do not fill multipliers exactly, and water that all but rests would be moved for it.
+    if (continued) excess *= disorder(clock->step / grid->spacing * difference(i));
+    source[l][unknown::volume] = excess >= 0 || is_deep(i) ? -rate->rate * excess : 0;
+  });
+}
+
+template <int Dim>
 void LimitParticleShift<Dim>::operator()(Read<Clock> clock, Read<BodyForce> b, Read<Rates> rates,
                                          Optional<Read<ode::AtBalances>> ode,
                                          Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
@@ -212,7 +298,7 @@ void LimitParticleShift<Dim>::operator()(Read<Clock> clock, Read<BodyForce> b, R
   const auto left = [&](std::size_t p) {
     if (!grad_v) return 1 - of_all;
     const double strain = clock->step * (grad_v[p] + grad_v[p].transpose()).norm() / std::sqrt(2.0);
-    return (1 - of_all) * std::min(1.0, per_strain * strain);
+    return (1 - of_all) * disorder(strain);
   };
   const Lift lift_left = sum_lifts(
       m_p.size(), [&](std::size_t p) { return left(p) * lift_of(p); }, of_ranks(shared));
@@ -242,6 +328,8 @@ template struct StirParticles<2>;
 template struct StirParticles<3>;
 template struct GatherFaceShift<2>;
 template struct GatherFaceShift<3>;
+template struct FillFaceVolumeSource<2>;
+template struct FillFaceVolumeSource<3>;
 template struct LimitParticleShift<2>;
 template struct LimitParticleShift<3>;
 template struct ApplyParticleShift<2>;

@@ -7,11 +7,13 @@
 #include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/instant.hpp"
+#include "components/liquid.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "components/step.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/grid/splines.hpp"
 #include "systems/openings/opening_set.hpp"
 #include "systems/ranks/site_exchange.hpp"
 #include "systems/volume/part_window.hpp"
@@ -74,6 +76,19 @@ struct GatherFaceShift {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Shift<Dim>> d_f,
                   Write<particle::Shift<Dim>> d_p) const;
+};
+
+/// (E36), (E37) on the staggered grid: the divergence that the shift is to have, from the volumes at y_p;
+/// with bodies the share of it that the strain of the step asks for, as in (E124).
+template <int Dim>
+struct FillFaceVolumeSource {
+  static constexpr std::string_view doc = "(E36) (E37) r E_l/V_l, source of the shift";
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<VolumeRate> rate, Read<Splines<Dim>> splines,
+                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                  Read<face::Velocity<Dim>> v_f, Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
+                  Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
+                  Read<multiplier::Capacity> capacity, Optional<Read<ContinuedLiquid<Dim>>> continued,
+                  Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const;
 };
 
 /// (E69) and (E124) over all that moves particles without a velocity, so that shift and stirring raise no energy, and
