@@ -8,11 +8,12 @@ import sys
 import unittest
 from pathlib import Path
 
+import rest_by_chance
+from support.stand_in import with_arguments
+
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = os.environ["PROGRAM"]
 WORK = Path(os.environ["WORK"])
-sys.path.insert(0, str(ROOT / "tests"))
-import rest_by_chance  # noqa: E402
 
 
 def look_at(program, *arguments):
@@ -37,9 +38,7 @@ class RestByChance(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "0 of 8 pools move, 0 fail"), done.stdout)
 
     def test_what_moves_is_told(self):
-        pushed = WORK / "pushed"
-        pushed.write_text(f'#!/bin/sh\nexec "{PROGRAM}" "$@" --set "/body_force=[2, -9.81]"\n', encoding="utf8")
-        pushed.chmod(0o755)
+        pushed = with_arguments(WORK / "pushed", PROGRAM, "--set", '"/body_force=[2, -9.81]"')
         done = look_at(pushed, "--count", "1", "--end", "0.6", "--kinds", "tank,post")
         self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "2 of 2 pools move, 0 fail"), done.stdout)
 

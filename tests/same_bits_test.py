@@ -7,6 +7,8 @@ import sys
 import unittest
 from pathlib import Path
 
+from support.stand_in import with_arguments
+
 ROOT = Path(__file__).resolve().parent.parent
 SCENE = ROOT / "scenes/dam_break.json"
 PROGRAM = os.environ["PROGRAM"]
@@ -15,10 +17,7 @@ WORK = Path(os.environ["WORK"])
 
 def program(name, *arguments):
     """A program that is minamo with further arguments."""
-    path = WORK / name
-    path.write_text(f'#!/bin/sh\nexec "{PROGRAM}" "$@" {" ".join(arguments)}\n', encoding="utf8")
-    path.chmod(0o755)
-    return path
+    return with_arguments(WORK / name, PROGRAM, *arguments)
 
 
 def compare(after, *arguments):
