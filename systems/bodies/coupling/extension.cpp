@@ -12,7 +12,7 @@ namespace minamo {
 
 namespace {
 
-/// Mean square of the offsets of open faces along an axis, in units of h^2, that halves a slope along it. With 1e-3 an
+/// Variance of the offsets of open faces along an axis, in units of h^2, at which a slope along it is halved. With 1e-3 an
 /// eddy at rest in a corner under water grew from rounding to 3 m/s in 4 s, with steps of 1 ms.
 constexpr double least_spread = 0.1;
 constexpr int rings = 2;
@@ -176,6 +176,7 @@ std::vector<Vec<Dim>> liquid_around_faces(const Grid<Dim>& grid, const Splines<D
   return filled;
 }
 
+/// What closes faces, and whether the liquid sticks to it.
 template <int Dim>
 struct WallsAround {
   const BodySet<Dim>& set;
