@@ -12,8 +12,8 @@ namespace minamo {
 
 namespace {
 
-/// Variance of the offsets of open faces along an axis, in units of h^2, at which a slope along it is halved. With 1e-3 an
-/// eddy at rest in a corner under water grew from rounding to 3 m/s in 4 s, with steps of 1 ms.
+/// Variance of the offsets of open faces along an axis, in units of h^2, at which a slope along it is halved. With 1e-3
+/// an eddy at rest in a corner under water grew from rounding to 3 m/s in 4 s, with steps of 1 ms.
 constexpr double least_spread = 0.1;
 constexpr int rings = 2;
 constexpr int rows_across = 2 * rings + 1;
