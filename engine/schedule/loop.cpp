@@ -9,7 +9,7 @@ namespace minamo {
 namespace {
 
 bool is_same(const Access& x, const Access& y) {
-  if (x.mode == Mode::resize || y.mode == Mode::resize) return x.mode == y.mode && x.table == y.table;
+  if (is_of_table(x.mode) || is_of_table(y.mode)) return x.mode == y.mode && x.table == y.table;
   return x.component == y.component;
 }
 

@@ -72,7 +72,7 @@ std::string unwritten_line(const System& system, const Access& access, const std
 }  // namespace
 
 bool conflict(const Access& x, const Access& y) {
-  if (x.mode == Mode::resize || y.mode == Mode::resize) return x.table == y.table;
+  if (is_of_table(x.mode) || is_of_table(y.mode)) return x.table == y.table;
   return x.component == y.component && (writes(x.mode) || writes(y.mode));
 }
 

@@ -93,8 +93,8 @@ std::string to_dot(std::span<const System> systems, std::string_view title);
 
 /// The same as JSON text: {"title", "systems": [{"name", "access": [{"mode", "component", "table", "unit",
 /// "lifetime"}]}], "edges": [{"from", "to", "components"}]}. "from" and "to" are places in "systems"; a table's name
-/// among the "components" means its rows; the mode is "read", "optional read", "write", "update" or "resize"; what an
-/// access does not have (the table of a resource that belongs to none) is null.
+/// among the "components" means its rows; the mode is "read", "optional read", "write", "update", "rows" or "resize";
+/// what an access does not have (the table of a resource that belongs to none) is null.
 std::string to_json(std::span<const System> systems, std::string_view title);
 
 }  // namespace minamo

@@ -50,6 +50,8 @@ std::string_view name_of(Mode mode) {
     return "write";
   case Mode::update:
     return "update";
+  case Mode::rows:
+    return "rows";
   case Mode::resize:
     return "resize";
   }
@@ -78,7 +80,7 @@ std::vector<std::string> causes(const System& from, const System& to) {
   for (const Access& x : from.access) {
     for (const Access& y : to.access) {
       if (!conflict(x, y)) continue;
-      const bool by_rows = x.mode == Mode::resize || y.mode == Mode::resize;
+      const bool by_rows = is_of_table(x.mode) || is_of_table(y.mode);
       const std::string name(by_rows ? x.table : x.component);
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }

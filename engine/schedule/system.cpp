@@ -9,7 +9,7 @@ using Kernel = std::shared_ptr<const void>;
 /// What is optional is not created for the sake of a reader.
 void create(std::span<const Access> accesses, World& world) {
   for (const Access& access : accesses) {
-    if (access.mode == Mode::resize) {
+    if (is_of_table(access.mode)) {
       world.add_table(access.table);
     } else if (!access.optional) {
       world.stored(*access.type);

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
 /// A system is a struct whose `operator()` parameters are its declaration: `Read<C>`, `Optional<Read<C>>`, `Write<C>`,
-/// `Update<C>`, `Resize<Table>`. make_system() turns it into what the schedule runs. It cannot touch what it did not
-/// declare.
+/// `Update<C>`, `RowBytes<Table>`, `Resize<Table>`. make_system() turns it into what the schedule runs. It cannot touch
+/// what it did not declare.
 
 #include "engine/schedule/parallel.hpp"
 #include "engine/storage/world.hpp"
@@ -25,17 +25,21 @@ enum class Mode {
   read,    ///< looks at it
   write,   ///< every row is given a new value; the old ones are not looked at
   update,  ///< reads and writes
+  rows,    ///< reads and writes what outlives a step in rows of a table, whatever columns there are
   resize,  ///< changes the rows of a table: all its columns are touched, its scratch becomes stale
 };
+
+/// Whether that is of all columns of a table, not of a component.
+constexpr bool is_of_table(Mode mode) { return mode == Mode::rows || mode == Mode::resize; }
 
 /// One line of a system's declaration.
 struct Access {
   Mode mode;                   ///< what it does
-  std::string_view component;  ///< empty for Mode::resize
+  std::string_view component;  ///< empty if is_of_table(mode)
   std::string_view table;      ///< whose rows it has or, as a resource, belongs to; empty for other resources
-  const ComponentInfo* info;   ///< null for Mode::resize
+  const ComponentInfo* info;   ///< null if is_of_table(mode)
   bool optional = false;       ///< a read of what need not be there
-  const detail::ComponentType* type = nullptr;  ///< from which a world makes it; null for Mode::resize
+  const detail::ComponentType* type = nullptr;  ///< from which a world makes it; null if is_of_table(mode)
 };
 
 /// Names of optional components that no system of a list writes.
@@ -166,6 +170,27 @@ template <class Reader>
 inline constexpr bool is_optional<Optional<Reader>> = true;
 }  // namespace detail
 
+/// The rows of a table as bytes, with all columns that outlive a step.
+template <class Table>
+class RowBytes {
+ public:
+  /// The schedule makes it.
+  explicit RowBytes(World& world) : world_(&world) { world.add_table<Table>(); }
+  /// Its line in the declaration of the system.
+  static constexpr Access access() { return {Mode::rows, {}, Table::name, nullptr}; }
+  /// Rows as bytes, one after the other (world.hpp).
+  std::vector<std::byte> pack(std::span<const std::uint32_t> rows) const { return world_->pack(Table::name, rows); }
+  /// Bytes of a row that is packed.
+  std::size_t packed_bytes() const { return world_->packed_bytes(Table::name); }
+  /// Rows become what pack() has packed of as many.
+  void unpack(std::span<const std::uint32_t> rows, std::span<const std::byte> packed) const {
+    world_->unpack(Table::name, rows, packed);
+  }
+
+ private:
+  World* world_;
+};
+
 /// The right to change the rows of a table.
 /// Views of its columns follow; spans taken from them before do not.
 template <class Table>
@@ -258,7 +283,8 @@ struct Declared<Kernel, void (Kernel::*)(Args...) const> {
 
 }  // namespace detail
 
-/// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Optional, Write, Update or Resize.
+/// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Optional, Write, Update, RowBytes or
+/// Resize.
 template <class Kernel>
 System make_system(std::string name, Kernel kernel = {}) {
   std::shared_ptr<const void> members;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <numeric>
 
 namespace minamo {
 
@@ -143,44 +144,54 @@ void World::resize(std::string_view table, std::size_t rows) {
   }
 }
 
-namespace {
-
-bool travels(const Storage& storage, std::string_view table) {
-  return storage.table() == table && storage.info().lifetime != Lifetime::scratch && storage.value_bytes() > 0;
+std::vector<Storage*> World::travelling(std::string_view table) const {
+  std::vector<Storage*> columns;
+  for (const auto& [name, storage] : components()) {
+    if (storage->table() == table && storage->info().lifetime != Lifetime::scratch && storage->value_bytes() > 0)
+      columns.push_back(storage);
+  }
+  return columns;
 }
 
-}  // namespace
+std::size_t World::packed_bytes(std::string_view table) const {
+  std::size_t bytes = 0;
+  for (const Storage* storage : travelling(table)) bytes += storage->value_bytes();
+  return bytes;
+}
 
 std::vector<std::byte> World::pack(std::string_view table, std::span<const std::uint32_t> rows) const {
-  std::vector<std::byte> packed;
-  for (const auto& [name, storage] : components()) {
-    if (!travels(*storage, table)) continue;
-    const std::size_t size = storage->value_bytes();
-    const std::span<const std::byte> bytes = storage->bytes();
-    for (const std::uint32_t row : rows) {
-      const auto value = bytes.subspan(row * size, size);
-      packed.insert(packed.end(), value.begin(), value.end());
+  std::vector<std::byte> packed(rows.size() * packed_bytes(table));
+  auto to = packed.begin();
+  const std::vector<Storage*> columns = travelling(table);
+  for (const std::uint32_t row : rows) {
+    for (Storage* storage : columns) {
+      const std::size_t size = storage->value_bytes();
+      const auto value = storage->bytes().subspan(row * size, size);
+      to = std::copy(value.begin(), value.end(), to);
     }
   }
   return packed;
 }
 
+void World::unpack(std::string_view table, std::span<const std::uint32_t> rows, std::span<const std::byte> packed) {
+  const std::vector<Storage*> columns = travelling(table);
+  for (Storage* storage : columns) storage->keep(Old::needed);
+  for (const std::uint32_t row : rows) {
+    for (Storage* storage : columns) {
+      const std::size_t size = storage->value_bytes();
+      std::copy_n(packed.begin(), size, storage->bytes().subspan(row * size).begin());
+      packed = packed.subspan(size);
+    }
+  }
+}
+
 void World::append(std::string_view table, std::span<const std::byte> packed) {
-  std::size_t row_bytes = 0;
-  for (const auto& [name, storage] : components()) {
-    if (travels(*storage, table)) row_bytes += storage->value_bytes();
-  }
-  if (row_bytes == 0 || packed.empty()) return;
+  if (packed.empty()) return;
   const std::size_t before = rows(table);
-  const std::size_t count = packed.size() / row_bytes;
-  resize(table, before + count);
-  for (const auto& [name, storage] : components()) {
-    if (!travels(*storage, table)) continue;
-    const std::size_t size = storage->value_bytes();
-    const auto column = packed.first(count * size);
-    std::copy(column.begin(), column.end(), storage->bytes().subspan(before * size).begin());
-    packed = packed.subspan(count * size);
-  }
+  std::vector<std::uint32_t> rows(packed.size() / packed_bytes(table));
+  std::iota(rows.begin(), rows.end(), static_cast<std::uint32_t>(before));
+  resize(table, before + rows.size());
+  unpack(table, rows, packed);
 }
 
 void World::reorder(std::string_view table, std::span<const std::uint32_t> order) {

@@ -443,9 +443,13 @@ class World {
   }
   /// The same by the table's name.
   void resize(std::string_view table, std::size_t rows);
-  /// What outlives a step of some rows of a table, column by column in the order of their names, as bytes.
+  /// What outlives a step of some rows of a table, row by row, columns in the order of their names, as bytes.
   std::vector<std::byte> pack(std::string_view table, std::span<const std::uint32_t> rows) const;
-  /// Adds rows that pack() of a world with the same columns has left.
+  /// Bytes of a row that is packed.
+  std::size_t packed_bytes(std::string_view table) const;
+  /// Rows become what pack() of a world with the same columns has left of as many.
+  void unpack(std::string_view table, std::span<const std::uint32_t> rows, std::span<const std::byte> packed);
+  /// Adds such rows.
   void append(std::string_view table, std::span<const std::byte> packed);
 
   /// Row k of every column of the table that outlives a step becomes what row `order[k]` was.
@@ -474,6 +478,7 @@ class World {
  private:
   bool has(const detail::ComponentType& type) const;
   void insert(std::size_t id, std::unique_ptr<Storage> storage);
+  std::vector<Storage*> travelling(std::string_view table) const;
   void reorder(std::string_view table, std::span<const std::uint32_t> order);
   void renumber(std::string_view table, std::span<const std::optional<std::uint32_t>> from);
 

@@ -33,6 +33,7 @@ const Access reads_d = Read<Depth>::access();
 const Access reads_T = Read<Sum>::access();
 const Access writes_T = Write<Sum>::access();
 const Access resizes = Resize<Rows>::access();
+const Access as_bytes = RowBytes<Rows>::access();
 const Access resizes_other = Resize<OtherRows>::access();
 
 using Lines = std::vector<std::string>;
@@ -61,17 +62,19 @@ TEST_CASE("accesses to different components do not conflict", "[unit]") {
   CHECK_FALSE(conflict(writes_h, writes_T));
 }
 
-TEST_CASE("a resize conflicts with every access to its table and with no other", "[unit]") {
+TEST_CASE("a resize, and rows as bytes, conflict with every access to their table and with no other", "[unit]") {
+  const Access of_table = GENERATE(resizes, as_bytes);
   const auto [access, expected] = GENERATE(table<Access, bool>({
       {reads_h, true},
       {writes_s, true},
       {resizes, true},
+      {as_bytes, true},
       {writes_d, false},
       {resizes_other, false},
       {writes_T, false},
   }));
-  CHECK(conflict(resizes, access) == expected);
-  CHECK(conflict(access, resizes) == expected);
+  CHECK(conflict(of_table, access) == expected);
+  CHECK(conflict(access, of_table) == expected);
 }
 
 TEST_CASE("readers of one component do not wait for each other", "[unit]") {
@@ -126,6 +129,10 @@ TEST_CASE("a system's own write does not make its own read legal", "[unit][error
 TEST_CASE("a resize makes the scratch of its table stale", "[unit][error]") {
   CHECK(unwritten({declared("a", {writes_s}), declared("grow", {resizes}), declared("b", {reads_s})}) ==
         Lines{"system \"b\" reads row.slope, which no earlier system of the step writes after \"grow\" resizes row"});
+}
+
+TEST_CASE("rows as bytes leave the scratch of their table readable", "[unit]") {
+  CHECK(unwritten({declared("a", {writes_s}), declared("bytes", {as_bytes}), declared("b", {reads_s})}).empty());
 }
 
 TEST_CASE("a resize leaves the scratch of other tables and of resources readable", "[unit]") {

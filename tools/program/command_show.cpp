@@ -70,7 +70,7 @@ std::string accesses(const System& system, bool writes) {
     const bool is_read = access.mode == Mode::read || access.mode == Mode::update;
     if (writes ? !is_write : !is_read) continue;
     if (!names.empty()) names += ", ";
-    names += access.mode == Mode::resize ? fmt::format("rows of {}", access.table) : std::string(access.component);
+    names += is_of_table(access.mode) ? fmt::format("rows of {}", access.table) : std::string(access.component);
     if (access.optional) names += " (if there is one)";
   }
   return names;

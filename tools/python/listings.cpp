@@ -21,7 +21,7 @@ py::list names_of(const System& system, bool (*counts)(Mode)) {
   py::list names;
   for (const Access& access : system.access) {
     if (!counts(access.mode)) continue;
-    names.append(access.mode == Mode::resize ? "rows of " + std::string(access.table) : std::string(access.component));
+    names.append(is_of_table(access.mode) ? "rows of " + std::string(access.table) : std::string(access.component));
   }
   return names;
 }
