@@ -45,6 +45,8 @@ struct HiddenSites {
     auto operator<=>(const Sight&) const = default;  ///< by `from`, then by `row`
   };
   std::vector<Sight> seen;  ///< rising; of rows of cells that walls part
+  /// The rows of the sites of the cells of other ranks, as CellSites::rows. Empty without other ranks.
+  std::vector<std::uint32_t> rows_of_ghosts;
   static constexpr ComponentInfo info{"staggered.hidden", "", "1", Lifetime::scratch};
 
   /// The number of a face of a row.

@@ -68,6 +68,8 @@ struct FreeSurface {
     /// What a plane cuts from a tetrahedron has four corners at most, and another plane adds one.
     static constexpr std::size_t most = Dim == 2 ? 2 : 5;
 
+    bool counts = true;  ///< in sums over all ranks: one on the edge of a rank others have, too
+
     void push_back(const Corner& corner) { corner_[size_++] = corner; }
     void turn_around() { std::reverse(begin(), end()); }
 
@@ -88,6 +90,7 @@ struct FreeSurface {
     std::array<Corner, static_cast<std::size_t>(Dim) - 1> corner;
     Vec<Dim> outward;  ///< along the wall, across the contact line, off what is wet [1]
     std::int32_t body = staggered::none;
+    bool counts = true;  ///< as Element::counts
   };
   /// What is found side by side. Which piece holds what does not depend on the number of threads.
   struct Piece {

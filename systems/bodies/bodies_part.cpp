@@ -9,6 +9,7 @@
 #include "systems/bodies/coupling/extension.hpp"
 #include "systems/bodies/coupling/forces.hpp"
 #include "systems/bodies/coupling/wall_flux.hpp"
+#include "systems/bodies/geometry/blocks_near.hpp"
 #include "systems/bodies/geometry/continue_liquid.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/bodies/geometry/dry_sides.hpp"
@@ -321,34 +322,35 @@ bool finds_friction(const BodiesOfScene& bodies, const Scene& scene) {
 }
 
 void add_bodies(SystemRegistry& registry) {
-  registry.add<PlaceBodies>("place_bodies");
-  registry.add<RequireRepeats>("require_repeats");
-  registry.add<FindDrySides>("find_dry_sides");
-  registry.add<SplitCells>("split_cells");
-  registry.add<NumberHiddenSites>("number_hidden_sites");
-  registry.add<CutFaces>("cut_faces");
-  registry.add<FindFaceExtension>("find_face_extension");
-  registry.add<FindCutFriction>("find_cut_friction");
-  registry.add<ExtendOldVelocity>("extend_old_velocity");
-  registry.add<FindDivergenceAhead>("find_divergence_ahead");
-  registry.add<FillBesideBodies>("fill_beside_bodies");
-  registry.add<ContinueLiquid>("continue_liquid");
-  registry.add<FindUncutMass>("find_uncut_mass");
-  registry.add<FindAttachedMass>("find_attached_mass");
-  registry.add<CoupleFreeBodies>("couple_free_bodies");
-  registry.add<PushBodies>("push_bodies");
-  registry.add<MoveBodies>("move_bodies");
-  registry.add<FindSolidParts>("find_solid_parts");
-  registry.add<KeepOutOfBodies>("keep_out_of_bodies");
-  registry.add<CountStops>("count_stops");
-  registry.add<CountClosedFaces>("count_closed_faces");
-  registry.add<MeasureBodies>("measure_bodies");
-  registry.add<MeasureBodiesAtStart>("measure_bodies_at_start");
-  registry.add<WatchBodies>("watch_bodies");
-  registry.add<StopAtPlates>("stop_at_plates");
-  registry.add<RequireRoom>("require_room");
-  registry.add<RenewWallFlux>("renew_wall_flux");
-  registry.add<ExtendBalanceVelocity>("extend_balance_velocity");
+  registry.add<PlaceBodies>("place_bodies", OnRanks::alike_on_all);
+  registry.add<RequireRepeats>("require_repeats", OnRanks::alike_on_all);
+  registry.add<FindDrySides>("find_dry_sides", OnRanks::adds_up);
+  registry.add<SplitCells>("split_cells", OnRanks::own);
+  registry.add<NumberHiddenSites>("number_hidden_sites", OnRanks::own);
+  registry.add<FindBlocksNearBodies>("find_blocks_near_bodies", OnRanks::own);
+  registry.add<CutFaces>("cut_faces", OnRanks::own);
+  registry.add<FindFaceExtension>("find_face_extension", OnRanks::adds_up);
+  registry.add<FindCutFriction>("find_cut_friction", OnRanks::own);
+  registry.add<ExtendOldVelocity>("extend_old_velocity", OnRanks::own);
+  registry.add<FindDivergenceAhead>("find_divergence_ahead", OnRanks::adds_up);
+  registry.add<FillBesideBodies>("fill_beside_bodies", OnRanks::own);
+  registry.add<ContinueLiquid>("continue_liquid", OnRanks::exchanges);
+  registry.add<FindUncutMass>("find_uncut_mass", OnRanks::exchanges);
+  registry.add<FindAttachedMass>("find_attached_mass", OnRanks::own);
+  registry.add<CoupleFreeBodies>("couple_free_bodies", OnRanks::adds_up);
+  registry.add<PushBodies>("push_bodies", OnRanks::adds_up);
+  registry.add<MoveBodies>("move_bodies", OnRanks::alike_on_all);
+  registry.add<FindSolidParts>("find_solid_parts", OnRanks::own);
+  registry.add<KeepOutOfBodies>("keep_out_of_bodies", OnRanks::adds_up);
+  registry.add<CountStops>("count_stops", OnRanks::alike_on_all);
+  registry.add<CountClosedFaces>("count_closed_faces", OnRanks::adds_up);
+  registry.add<MeasureBodies>("measure_bodies", OnRanks::alike_on_all);
+  registry.add<MeasureBodiesAtStart>("measure_bodies_at_start", OnRanks::alike_on_all);
+  registry.add<WatchBodies>("watch_bodies", OnRanks::adds_up);
+  registry.add<StopAtPlates>("stop_at_plates", OnRanks::adds_up);
+  registry.add<RequireRoom>("require_room", OnRanks::adds_up);
+  registry.add<RenewWallFlux>("renew_wall_flux", OnRanks::own);
+  registry.add<ExtendBalanceVelocity>("extend_balance_velocity", OnRanks::own);
   registry.add(Part{"bodies", "solids in the liquid", read_bodies});
 }
 

@@ -16,7 +16,8 @@ void FillContactSource<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
 }
 
 template <int Dim>
-void EndContactPass<Dim>::operator()(Update<ContactLoop> loop) const {
+void EndContactPass<Dim>::operator()(Optional<Read<Ranks>> ranks, Update<ContactLoop> loop) const {
+  if (ranks) loop->changes = static_cast<int>((*ranks)->sum(std::int64_t{loop->changes}));
   loop->passes = loop->pass + 1;
   loop->unsettled = loop->changes;
   loop->enough = loop->changes == 0 || loop->passes == most_contact_passes;

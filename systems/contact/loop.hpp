@@ -6,6 +6,7 @@
 #include "components/contact.hpp"
 #include "components/grid.hpp"
 #include "components/measure.hpp"
+#include "engine/run/communicator.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/grid/splines.hpp"
 
@@ -28,7 +29,7 @@ struct FillContactSource {
 template <int Dim>
 struct EndContactPass {
   static constexpr std::string_view doc = "(E105) whether the contact has settled";
-  void operator()(Update<ContactLoop> loop) const;
+  void operator()(Optional<Read<Ranks>> ranks, Update<ContactLoop> loop) const;
 };
 
 /// `contact_passes` and `contact_unsettled` of the history.

@@ -80,8 +80,8 @@ template <int Dim>
 void CompareContactOfSides<Dim>::operator()(Read<SolverTolerance> tolerance, Read<face::BalanceVelocity<Dim>> v_f,
                                             Read<multiplier::Row> row, Read<unknown::Solution> solution,
                                             Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
-                                            Read<MultiplierSolver<Dim>> solver, Update<SeparatingFaces<Dim>> separating,
-                                            Update<ContactLoop> loop) const {
+                                            Read<MultiplierSolver<Dim>> solver, Optional<Read<SiteExchange>> shared,
+                                            Update<SeparatingFaces<Dim>> separating, Update<ContactLoop> loop) const {
   const auto change = [&](const auto& face) {
     const std::int32_t l = row[face.multiplier];
     if (l == staggered::none) return 0.0;
@@ -91,6 +91,7 @@ void CompareContactOfSides<Dim>::operator()(Read<SolverTolerance> tolerance, Rea
   double largest = 0;
   for (const auto& face : separating->faces)
     largest = std::max(largest, std::abs(face.predictor) + std::abs(change(face)));
+  if (shared) largest = shared->ranks().largest(largest);
   const double rounding = rounding_of_contact(*tolerance) * largest;
   const StretchedComponents stretched(solver->closed(), null_vector.span(), source.span());
   const bool is_last = loop->pass + 1 == most_contact_passes;
@@ -100,7 +101,7 @@ void CompareContactOfSides<Dim>::operator()(Read<SolverTolerance> tolerance, Rea
     const bool pulls = face.is_held && !must_stay && face.away * (face.predictor + change(face)) > rounding;
     const bool passes = !face.is_held && face.away * v_f[face.row][face.direction] < -rounding;
     if (!pulls && !passes) continue;
-    ++loop->changes;
+    if (owns(of_ranks(shared), face.row)) ++loop->changes;
     // The set that was solved with stays with the solution of the last pass.
     if (!is_last) face.is_held = !face.is_held;
   }

@@ -63,8 +63,8 @@ struct CompareContactOfSides {
   static constexpr std::string_view doc = "(E105) contact with separating sides after a solve";
   void operator()(Read<SolverTolerance> tolerance, Read<face::BalanceVelocity<Dim>> v_f, Read<multiplier::Row> row,
                   Read<unknown::Solution> solution, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
-                  Read<MultiplierSolver<Dim>> solver, Update<SeparatingFaces<Dim>> separating,
-                  Update<ContactLoop> loop) const;
+                  Read<MultiplierSolver<Dim>> solver, Optional<Read<SiteExchange>> shared,
+                  Update<SeparatingFaces<Dim>> separating, Update<ContactLoop> loop) const;
 };
 
 /// What the solver's tolerance leaves of velocities into a side, and shifts into it, are taken out.

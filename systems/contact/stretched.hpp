@@ -24,11 +24,13 @@ class StretchedComponents {
       : closed_(closed), sum_(closed.count(), 0), absolute_(closed.count(), 0) {
     if (closed.count() == 0) return;
     for (std::size_t l = 0; l < b.size(); ++l) {
-      if (!closed.contains(l)) continue;
+      if (!closed.counts(l)) continue;
       const double out = null_vector[l] * (b[l][unknown::damping] + b[l][unknown::balance]);
       sum_[closed.number(l) - 1] += out;
       absolute_[closed.number(l) - 1] += std::abs(out);
     }
+    closed.add_up(sum_);
+    closed.add_up(absolute_);
   }
   /// Whether the liquid around an unknown is enclosed and not stretched.
   bool must_stay(std::size_t row) const {

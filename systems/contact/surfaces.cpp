@@ -128,13 +128,16 @@ void DetachFromBodies<Dim>::operator()(Read<BodySet<Dim>> set, Read<staggered::N
 }
 
 template <int Dim>
-void CompareContactOfBodies<Dim>::operator()(
-    Read<SolverTolerance> tolerance, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed,
-    Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
-    Read<body::MeanSpin<Dim>> omega_b, Read<face::BalanceVelocity<Dim>> v_f, Read<multiplier::Row> row,
-    Read<unknown::Solution> solution, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
-    Read<MultiplierSolver<Dim>> solver, Update<SeparatingRows<Dim>> separating, Update<ContactLoop> loop) const {
+void CompareContactOfBodies<Dim>::operator()(Read<SolverTolerance> tolerance, Read<Grid<Dim>> grid,
+                                             Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
+                                             Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open,
+                                             Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
+                                             Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
+                                             Read<body::MeanSpin<Dim>> omega_b, Read<face::BalanceVelocity<Dim>> v_f,
+                                             Read<multiplier::Row> row, Read<unknown::Solution> solution,
+                                             Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
+                                             Read<MultiplierSolver<Dim>> solver, Optional<Read<SiteExchange>> shared,
+                                             Update<SeparatingRows<Dim>> separating, Update<ContactLoop> loop) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
   const MovingWalls<Dim> walls{places,     site.span(), closed.span(), closer.span(),
@@ -165,9 +168,14 @@ void CompareContactOfBodies<Dim>::operator()(
   double most_pull = 0;
   double most_flow = 0;
   for (const auto& at : separating->rows) {
+    if (!owns(of_ranks(shared), at.multiplier)) continue;
     const std::int32_t l = row[at.multiplier];
     if (l != staggered::none) most_pull = std::max(most_pull, std::abs(pull(l)));
     if (at.is_released) most_flow = std::max(most_flow, outflow(at.multiplier).absolute);
+  }
+  if (shared) {
+    most_pull = shared->ranks().largest(most_pull);
+    most_flow = shared->ranks().largest(most_flow);
   }
   const double rounding = rounding_of_contact(*tolerance);
   const StretchedComponents stretched(solver->closed(), null_vector.span(), source.span());
@@ -178,7 +186,7 @@ void CompareContactOfBodies<Dim>::operator()(
         l != staggered::none && !stretched.must_stay(static_cast<std::size_t>(l)) && pull(l) > rounding * most_pull;
     const bool squeezes = at.is_released && outflow(at.multiplier).sum < -rounding * most_flow;
     if (!pulls && !squeezes) continue;
-    ++loop->changes;
+    if (owns(of_ranks(shared), at.multiplier)) ++loop->changes;
     if (!is_last) at.is_released = !at.is_released;
   }
 }

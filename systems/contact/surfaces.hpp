@@ -71,8 +71,8 @@ struct CompareContactOfBodies {
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
                   Read<body::MeanSpin<Dim>> omega_b, Read<face::BalanceVelocity<Dim>> v_f, Read<multiplier::Row> row,
                   Read<unknown::Solution> solution, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
-                  Read<MultiplierSolver<Dim>> solver, Update<SeparatingRows<Dim>> separating,
-                  Update<ContactLoop> loop) const;
+                  Read<MultiplierSolver<Dim>> solver, Optional<Read<SiteExchange>> shared,
+                  Update<SeparatingRows<Dim>> separating, Update<ContactLoop> loop) const;
 };
 
 }  // namespace minamo

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Blocks of 4^d cells: particles are sorted by them, blocks of one colour are worked on side by side, and ranks own
-/// them.
+/// Blocks of cells. By those of 4^d particles are sorted, and blocks of one colour are worked on side by side; ranks
+/// own smaller ones.
 
 #include "components/cells.hpp"
 #include "components/grid.hpp"
@@ -11,10 +11,10 @@
 namespace minamo {
 
 /// The blocks of cells of a grid, x fastest. The last block of an axis takes what is left, so that no block is narrow.
-template <int Dim>
+template <int Dim, int Width = OccupiedCells<Dim>::block_width>
 class CellBlocks {
  public:
-  static constexpr int width = OccupiedCells<Dim>::block_width;
+  static constexpr int width = Width;
 
   /// \param cells  along every axis
   CellBlocks(const Grid<Dim>& grid, const Index<Dim>& cells) : periodic_(grid.periodic), cells_(cells) {
@@ -26,11 +26,12 @@ class CellBlocks {
     for (const int blocks : blocks_) count *= static_cast<std::size_t>(blocks);
     return count;
   }
-  std::uint32_t block_of(const Index<Dim>& cell) const {
+  std::uint32_t block_of(const Index<Dim>& cell) const { return number_of(place_of(cell)); }
+  /// Number of the block at a place.
+  std::uint32_t number_of(const Index<Dim>& place) const {
     std::size_t block = 0;
-    for (std::size_t d = Dim; d-- > 0;) {
-      block = block * static_cast<std::size_t>(blocks_[d]) + static_cast<std::size_t>(along(d, cell));
-    }
+    for (std::size_t d = Dim; d-- > 0;)
+      block = block * static_cast<std::size_t>(blocks_[d]) + static_cast<std::size_t>(place[d]);
     return static_cast<std::uint32_t>(block);
   }
   /// Number of a cell among those of its block, x fastest.
@@ -47,6 +48,26 @@ class CellBlocks {
     int count = 1;
     for (std::size_t d = 0; d < Dim; ++d) count *= extent(d, at[d]);
     return static_cast<std::uint32_t>(count);
+  }
+  /// The first and the last of the cells of the block at a place.
+  std::array<Index<Dim>, 2> ends(const Index<Dim>& place) const {
+    std::array<Index<Dim>, 2> ends;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      ends[0][d] = place[d] * width;
+      ends[1][d] = ends[0][d] + extent(d, place[d]) - 1;
+    }
+    return ends;
+  }
+  /// The lowest and the highest corner of its cells. [m]
+  std::array<Vec<Dim>, 2> corners(const Grid<Dim>& grid, std::uint32_t block) const {
+    const Index<Dim> at = place(block);
+    std::array<Vec<Dim>, 2> corner{grid.low, grid.low};
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      corner[0][axis] += grid.spacing * (at[d] * width);
+      corner[1][axis] = corner[0][axis] + grid.spacing * extent(d, at[d]);
+    }
+    return corner;
   }
   /// Calls body(node) for the cells of a block, in the order of their numbers.
   template <class Body>

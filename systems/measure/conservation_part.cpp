@@ -17,11 +17,11 @@ namespace minamo {
 
 namespace {
 
-/// A lid is above: where there is a weight. Not on several ranks, each of which sees its own liquid alone.
+/// A lid is above: where there is a weight.
 void watch_lid(const Scene& scene, Recipe& recipe) {
   const auto& force = scene.facts.get<BodyForce>().of_place_and_time;
   const bool is_constant = std::all_of(force.begin(), force.end(), [](const auto& b) { return b.is_constant(); });
-  if (!is_constant || scene.facts.get<BodyForce>().is_zero() || all_ranks() != nullptr) return;
+  if (!is_constant || scene.facts.get<BodyForce>().is_zero()) return;
   recipe.add("boundaries", "watch_lid", When::step);
   recipe.seed([force](const Scene& of, World& world, SeedProblems&) {
     with_dimension(of.dimension, [&](auto dim) {
@@ -55,7 +55,7 @@ void add_conservation(SystemRegistry& registry) {
   registry.add<MeasureDivergence>("measure_divergence");
   registry.add<MeasureOverlap>("measure_overlap");
   registry.add<WatchMove>("watch_move", OnRanks::own);
-  registry.add<WatchLid>("watch_lid");
+  registry.add<WatchLid>("watch_lid", OnRanks::adds_up);
   registry.add<WatchVolume>("watch_volume", OnRanks::adds_up);
   registry.add(
       Part{"conservation", "energy, momentum, divergence and overlap in the history; no key", [](Input&, Scene&) {

@@ -46,21 +46,68 @@ void add_pieces(const std::array<Vec<Dim>, static_cast<std::size_t>(Dim)>& corne
   }
 }
 
+/// Open shares and pressures of multipliers, of those with rows on other ranks where they have been shared.
+template <int Dim>
+class KnownMultipliers {
+ public:
+  struct Known {
+    double share;     ///< [1]
+    double pressure;  ///< [Pa]
+  };
+
+  KnownMultipliers(const SiteRows<Dim>& rows, std::span<const double> share, std::span<const double> p_l)
+      : rows_(rows), share_(share), p_l_(p_l) {}
+
+  /// Makes these sites known on all ranks.
+  void share(const Splines<Dim>& splines, std::span<const Index<Dim>> sites, const SiteExchange& shared) {
+    shared_.start(splines.sites());
+    for (const Index<Dim>& site : sites) shared_.add(site);
+    of_ranks_.assign(shared_.number_rows(), {0, 0, 0});
+    shared_.for_each([&](const Index<Dim>& site, std::uint32_t k) {
+      const auto row = rows_.find(site);
+      if (row && shared.owns(*row)) of_ranks_[k] = {1, share_[*row], p_l_[*row]};
+    });
+    add_up_on_all(&shared, std::span(of_ranks_));
+  }
+  std::optional<Known> find(const Index<Dim>& site) const {
+    if (!of_ranks_.empty()) {
+      const auto& [is_known, share, pressure] = of_ranks_[*shared_.find(site)];
+      return is_known > 0 ? std::optional(Known{share, pressure}) : std::nullopt;
+    }
+    const auto row = rows_.find(site);
+    return row ? std::optional(Known{share_[*row], p_l_[*row]}) : std::nullopt;
+  }
+
+ private:
+  const SiteRows<Dim>& rows_;
+  std::span<const double> share_;
+  std::span<const double> p_l_;
+  SiteRows<Dim> shared_;
+  std::vector<std::array<double, 3>> of_ranks_;  ///< whether a rank has a row, and what it knows of that
+};
+
 /// (E139)  The linear field nearest to the pressures of multipliers around a point, at the point.
 template <int Dim>
 class PressureBeside {
  public:
-  PressureBeside(const Grid<Dim>& grid, const Splines<Dim>& splines, const SiteRows<Dim>& rows,
-                 const PlacedBodies<Dim>& bodies, std::span<const double> share, std::span<const double> p_l)
-      : grid_(grid), splines_(splines), rows_(rows), bodies_(bodies), share_(share), p_l_(p_l) {}
+  PressureBeside(const Grid<Dim>& grid, const Splines<Dim>& splines, const KnownMultipliers<Dim>& known,
+                 const PlacedBodies<Dim>& bodies)
+      : grid_(grid), splines_(splines), known_(known), bodies_(bodies) {}
+
+  /// Calls use(site) for the multipliers that the pressure at a point is made of.
+  template <class Use>
+  void for_each_site(const Vec<Dim>& x, const Use& use) const {
+    for_each_site_around<Dim, 1>(splines_, nearest(x), [&](const Index<Dim>& site, const Index<Dim>&) {
+      if (splines_.has_multiplier(site)) use(site);
+    });
+  }
 
   /// \param normal  out of the body: what lies behind its surface has a pressure of its own
   double at(const Vec<Dim>& x, const Vec<Dim>& normal) const {
     using Row = Vec<Dim + 1>;
     Mat<Dim + 1> squares = Mat<Dim + 1>::Zero();
     Row products = Row::Zero();
-    for_each_site_around<Dim, 1>(splines_, nearest(x), [&](const Index<Dim>& site, const Index<Dim>&) {
-      if (!splines_.has_multiplier(site)) return;
+    for_each_site(x, [&](const Index<Dim>& site) {
       const Vec<Dim> r = to(site, x) / grid_.spacing;
       const auto pressure = pressure_of(site, r.dot(normal));
       if (!pressure) return;
@@ -109,8 +156,8 @@ class PressureBeside {
   /// \param before  how far it lies before the surface, in units of h
   std::optional<double> pressure_of(const Index<Dim>& site, double before) const {
     constexpr double deepest = 0.5;  // so far inside a body is the middle of a multiplier half of which is open
-    const auto row = rows_.find(site);
-    if (row) return before > -deepest && share_[*row] >= sliver ? std::optional(p_l_[*row]) : std::nullopt;
+    if (const auto known = known_.find(site))
+      return before > -deepest && known->share >= sliver ? std::optional(known->pressure) : std::nullopt;
     return before > 0 && bodies_.distance(place(site)) > 0 ? std::optional(0.0) : std::nullopt;
   }
   Vec<Dim> place(const Index<Dim>& site) const {
@@ -124,10 +171,8 @@ class PressureBeside {
 
   const Grid<Dim>& grid_;
   const Splines<Dim>& splines_;
-  const SiteRows<Dim>& rows_;
+  const KnownMultipliers<Dim>& known_;
   const PlacedBodies<Dim>& bodies_;
-  std::span<const double> share_;
-  std::span<const double> p_l_;
 };
 
 /// What acts on a patch.
@@ -137,6 +182,20 @@ struct Load {
   double pressure = 0;  ///< times area
   Vec<Dim> force = Vec<Dim>::Zero();
 };
+
+/// The multipliers that the pressures on all patches are made of.
+template <int Dim>
+std::vector<Index<Dim>> sites_of(const Patches<Dim>& patches, const PlacedBodies<Dim>& bodies,
+                                 const PressureBeside<Dim>& pressure) {
+  std::vector<Index<Dim>> sites;
+  for (const auto& patch : patches.patches) {
+    for (const Piece<Dim>& piece : patch.pieces) {
+      const Vec<Dim> x = bodies.placement(patch.body).to_world(piece.middle);
+      pressure.for_each_site(x, [&](const Index<Dim>& site) { sites.push_back(site); });
+    }
+  }
+  return sites;
+}
 
 }  // namespace
 
@@ -156,10 +215,13 @@ void MeasurePatches<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
                                      Read<Patches<Dim>> patches, Read<BodySet<Dim>> set,
                                      Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
                                      Read<body::MiddleRotation<Dim>> R_b, Read<multiplier::OpenShare> share,
-                                     Read<multiplier::Pressure> p_l, Update<measure::Columns> columns) const {
+                                     Read<multiplier::Pressure> p_l, Optional<Read<SiteExchange>> shared,
+                                     Update<measure::Columns> columns) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const PlacedBodies<Dim> and_dry_sides(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
-  const PressureBeside<Dim> pressure(*grid, *splines, *rows, bodies, share.span(), p_l.span());
+  KnownMultipliers<Dim> known(*rows, share.span(), p_l.span());
+  const PressureBeside<Dim> pressure(*grid, *splines, known, bodies);
+  if (shared) known.share(*splines, sites_of<Dim>(*patches, bodies, pressure), *shared);
   // Where it is looked whether a piece is covered, before the surface.
   const double before = 0.01 * grid->spacing;
   for (const auto& patch : patches->patches) {

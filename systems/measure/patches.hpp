@@ -9,6 +9,7 @@
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 #include "systems/shapes/outline.hpp"
 
 namespace minamo {
@@ -45,7 +46,7 @@ struct MeasurePatches {
                   Read<Patches<Dim>> patches, Read<BodySet<Dim>> set, Optional<Read<DrySides<Dim>>> dry,
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
                   Read<multiplier::OpenShare> share, Read<multiplier::Pressure> p_l,
-                  Update<measure::Columns> columns) const;
+                  Optional<Read<SiteExchange>> shared, Update<measure::Columns> columns) const;
 };
 
 }  // namespace minamo

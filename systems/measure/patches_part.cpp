@@ -82,7 +82,7 @@ Contribution read_patches(Input& input, Scene& scene) {
 }  // namespace
 
 void add_patches(SystemRegistry& registry) {
-  registry.add<MeasurePatches>("measure_patches");
+  registry.add<MeasurePatches>("measure_patches", OnRanks::adds_up);
   registry.add(Part{"patches", "parts of the surfaces of bodies whose pressure goes into the history", read_patches});
 }
 

@@ -3,6 +3,7 @@
 #include "components/contact.hpp"
 #include "components/vector_text.hpp"
 #include "systems/openings/opening_set.hpp"
+#include "systems/ranks/gathered.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -67,7 +68,7 @@ Lids<Dim> lids_of(const Vec<Dim>& body_force, World& world) {
     const auto& x_p = world.column<particle::Position<Dim>>();
     const bool is_meant =
         std::any_of(x_p.begin(), x_p.end(), [&](const Vec<Dim>& x) { return distance<Dim>(lid, x) < grid.spacing; });
-    if (!is_meant && holds_liquid<Dim>(axis, is_high, world)) lids.lids.push_back(lid);
+    if (largest_over_ranks(is_meant ? 1 : 0) == 0 && holds_liquid<Dim>(axis, is_high, world)) lids.lids.push_back(lid);
   }
   return lids;
 }
@@ -75,11 +76,13 @@ Lids<Dim> lids_of(const Vec<Dim>& body_force, World& world) {
 template <int Dim>
 void WatchLid<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Lids<Dim>> lids,
                                Optional<Read<OccupiedCells<Dim>>> dual_cells, Optional<Read<GridCells<Dim>>> cells,
-                               Read<particle::Position<Dim>> x_p, Update<Warnings> warnings) const {
+                               Read<particle::Position<Dim>> x_p, Optional<Read<Ranks>> ranks,
+                               Update<Warnings> warnings) const {
   if (warnings->has(lid_is_wet)) return;
   const OccupiedCells<Dim>& occupied = cells ? static_cast<const OccupiedCells<Dim>&>(*cells) : *dual_cells;
   for (const Lid<Dim>& lid : lids->lids) {
-    const auto place = touching<Dim>(lid, *grid, occupied, x_p.span());
+    auto place = touching<Dim>(lid, *grid, occupied, x_p.span());
+    if (ranks) place = of_lowest_rank(*ranks->all, place);
     if (!place) continue;
     warnings->add(lid_is_wet,
                   fmt::format("liquid touches the lid, the {} side of {}, at {}, t = {:.6g} s: the box is closed, "

@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "engine/run/clock.hpp"
+#include "engine/run/communicator.hpp"
 #include "engine/run/warnings.hpp"
 #include "engine/schedule/system.hpp"
 
@@ -37,7 +38,7 @@ struct WatchLid {
   static constexpr std::string_view doc = "warn when liquid touches the lid of a tank for the first time";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Lids<Dim>> lids,
                   Optional<Read<OccupiedCells<Dim>>> dual_cells, Optional<Read<GridCells<Dim>>> cells,
-                  Read<particle::Position<Dim>> x_p, Update<Warnings> warnings) const;
+                  Read<particle::Position<Dim>> x_p, Optional<Read<Ranks>> ranks, Update<Warnings> warnings) const;
 };
 
 }  // namespace minamo

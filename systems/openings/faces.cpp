@@ -36,19 +36,21 @@ void hold_faces_at(const std::vector<opening::SideVelocity<Dim>>& velocities, co
   });
 }
 
-/// What faces with rows have on a side, across it what passes them; zero elsewhere.
+/// What faces with rows have on a side, across it what passes them; zero elsewhere. All ranks have all of it.
 template <int Dim>
 opening::SideVelocity<Dim> velocity_on(const Side<Dim>& side, const Splines<Dim>& splines, const Passage<Dim>& passage,
-                                       std::span<const Index<Dim>> site, std::span<const Vec<Dim>> v_f) {
+                                       std::span<const Index<Dim>> site, std::span<const Vec<Dim>> v_f,
+                                       const SiteExchange* shared) {
   opening::SideVelocity<Dim> velocity;
   for (std::size_t d = 0; d < Dim; ++d) {
     std::vector<double>& of = velocity.of[d];
     of.assign(side.count(d), 0);
     for_each_row(site.size(), [&](std::size_t i) {
-      if (!side.holds(site[i], d) || !splines.has_face(site[i], d)) return;
+      if (!side.holds(site[i], d) || !splines.has_face(site[i], d) || !owns(shared, i)) return;
       const auto axis = static_cast<Eigen::Index>(d);
       of[side.index(site[i], d)] = (d == side.axis() ? passage.share(i, axis) : 1) * v_f[i][axis];
     });
+    if (shared != nullptr) shared->ranks().sum(of);
   }
   return velocity;
 }
@@ -202,8 +204,13 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
                                      Read<OpeningSet<Dim>> set, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                                      Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
-                                     Update<multiplier::Volume> v_l, Update<multiplier::Curvature> curvature) const {
+                                     Optional<Read<SiteExchange>> shared, Update<multiplier::Volume> v_l,
+                                     Update<multiplier::Curvature> curvature) const {
   const std::vector<double> plain_volume(v_l.begin(), v_l.end());
+  // Ranks add up what each of them changes.
+  for (std::size_t i = 0; shared && i < v_l.size(); ++i) {
+    if (!shared->owns(i)) v_l[i] = 0;
+  }
   const auto is_beside = [&](const Index<Dim>& cell, std::size_t side) {
     return set->opens(side) && cell[side / 2] == (side % 2 == 0 ? 0 : grid->cells[side / 2] - 1);
   };
@@ -248,6 +255,7 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
       }
     });
   });
+  add_up(shared, v_l.span());
   for_each_row(v_l.size(), [&](std::size_t i) {
     if (v_l[i] == plain_volume[i]) return;
     // Where all particles are outside, rounding is left, and nothing must be divided by it.
@@ -295,7 +303,7 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
                                             Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f,
                                             Read<face::Velocity<Dim>> v_old, Read<face::BalanceVelocity<Dim>> v_f,
                                             Read<face::NewVelocity<Dim>> v_new, Read<multiplier::Force> lambda,
-                                            Optional<Read<face::Open<Dim>>> open,
+                                            Optional<Read<face::Open<Dim>>> open, Optional<Read<SiteExchange>> shared,
                                             Update<opening::Velocities<Dim>> velocities,
                                             Update<opening::EnergyIn> energy, Write<opening::StepWork> work) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
@@ -304,13 +312,14 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     if (set->openings[o].is_prescribed()) continue;
     const Side<Dim> side(*grid, *splines, set->openings[o].side);
-    velocities->in_balances[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_f.span());
-    velocities->at_end[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_new.span());
+    velocities->in_balances[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_f.span(), of_ranks(shared));
+    velocities->at_end[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_new.span(), of_ranks(shared));
   }
-  work->value = 0;
+  std::vector<double> done(set->openings.size() + 1, 0);  // on liquid in every opening; the last one: all work
   const Vec<Dim> force = force_with_potential<Dim>(*grid, *b).value_or(Vec<Dim>::Zero());
   // One after the other: the same sums on any number of threads.
   for (std::size_t i = 0; i < site.size(); ++i) {
+    if (!owns(of_ranks(shared), i)) continue;
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const FaceCondition condition = condition_at<Dim>(*set, *grid, *splines, *walls, site[i], d);
@@ -321,12 +330,15 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
       if (condition.is_held) {
         impulse = m_f[i][axis] * (v_new[i][axis] - v_old[i][axis]) - clock->step * share * incidence.gradient(i, d, at);
       }
-      work->value += impulse * v_f[i][axis];
+      done.back() += impulse * v_f[i][axis];
       // The body force does work on what an opening carries up or down, which counts with the potential of particles.
       if (condition.is_held) impulse -= clock->step * m_f[i][axis] * force[axis];
-      energy[o] += impulse * v_f[i][axis];
+      done[o] += impulse * v_f[i][axis];
     }
   }
+  if (shared) shared->ranks().sum(done);
+  work->value = done.back();
+  for (std::size_t o = 0; o < set->openings.size(); ++o) energy[o] += done[o];
 }
 
 template <int Dim>
@@ -341,11 +353,12 @@ void RequireOutlet<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   std::vector<std::array<double, 2>> sums(components.count(), {0, 0});
   for (std::size_t l = 0; l < of_unknown.size() && !sums.empty(); ++l) {
-    if (!components.contains(l) || !is_full[components.number(l) - 1]) continue;
+    if (!components.counts(l) || !is_full[components.number(l) - 1]) continue;
     auto& [squeeze, room] = sums[components.number(l) - 1];
     squeeze -= n_l[l] * incidence.divergence(of_unknown[l], w_f.span());
     room += n_l[l];
   }
+  components.add_up({reinterpret_cast<double*>(sums.data()), 2 * sums.size()});
   for (const auto& [squeeze, room] : sums) {
     if (room == 0 || std::abs(squeeze) * clock->step <= least_squeeze * room) continue;
     throw StepRejected(

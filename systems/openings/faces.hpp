@@ -58,7 +58,7 @@ struct FillAtOpenings {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Volume> V_p, Update<multiplier::Volume> v_l,
+                  Read<particle::Volume> V_p, Optional<Read<SiteExchange>> shared, Update<multiplier::Volume> v_l,
                   Update<multiplier::Curvature> curvature) const;
 };
 
@@ -86,8 +86,8 @@ struct TakeOpeningVelocities {
                   Read<face::OutsideForce<Dim>> F_f, Read<face::Velocity<Dim>> v_old,
                   Read<face::BalanceVelocity<Dim>> v_f, Read<face::NewVelocity<Dim>> v_new,
                   Read<multiplier::Force> lambda, Optional<Read<face::Open<Dim>>> open,
-                  Update<opening::Velocities<Dim>> velocities, Update<opening::EnergyIn> energy,
-                  Write<opening::StepWork> work) const;
+                  Optional<Read<SiteExchange>> shared, Update<opening::Velocities<Dim>> velocities,
+                  Update<opening::EnergyIn> energy, Write<opening::StepWork> work) const;
 };
 
 /// Rejects the step if inflow presses liquid into a full enclosure without a way out: its balance of mass has no

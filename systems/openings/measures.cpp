@@ -28,13 +28,19 @@ double rate_of(const Opening<Dim>& opening, const OpeningSet<Dim>& set, std::siz
   return rate;
 }
 
+/// Particles of all ranks.
+double number_of(std::size_t particles, const Optional<Read<Ranks>>& ranks) {
+  const auto own = static_cast<std::int64_t>(particles);
+  return static_cast<double>(ranks ? (*ranks)->sum(own) : own);
+}
+
 }  // namespace
 
 template <int Dim>
 void MeasureOpenings<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
                                       Read<opening::Velocities<Dim>> velocities, Read<opening::MassIn> mass_in,
                                       Read<opening::EnergyIn> energy_in, Read<particle::Id> id,
-                                      Update<measure::Columns> columns) const {
+                                      Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const {
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     const Opening<Dim>& opening = set->openings[o];
     const Side<Dim> side(*grid, *splines, opening.side);
@@ -43,19 +49,19 @@ void MeasureOpenings<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
     columns->set(opening.name + "_rate", rate_of<Dim>(opening, *set, o, side, velocities->in_balances[o]),
                  unit_of_rate<Dim>);
   }
-  columns->set("particles", static_cast<double>(id.size()), "1");
+  columns->set("particles", number_of(id.size(), ranks), "1");
 }
 
 template <int Dim>
 void MeasureOpeningsAtStart<Dim>::operator()(Read<OpeningSet<Dim>> set, Read<opening::MassIn> mass_in,
                                              Read<opening::EnergyIn> energy_in, Read<particle::Id> id,
-                                             Update<measure::Columns> columns) const {
+                                             Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const {
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     columns->set(set->openings[o].name + "_mass_in", mass_in[o], unit_of_mass<Dim>);
     columns->set(set->openings[o].name + "_energy_in", energy_in[o], unit_of_energy<Dim>);
     columns->set(set->openings[o].name + "_rate", std::numeric_limits<double>::quiet_NaN(), unit_of_rate<Dim>);
   }
-  columns->set("particles", static_cast<double>(id.size()), "1");
+  columns->set("particles", number_of(id.size(), ranks), "1");
 }
 
 template struct MeasureOpenings<2>;

@@ -4,6 +4,7 @@
 
 #include "components/measure.hpp"
 #include "components/particle.hpp"
+#include "engine/run/communicator.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/openings/opening_set.hpp"
 
@@ -16,7 +17,8 @@ struct MeasureOpenings {
   static constexpr std::string_view doc = "what came in through openings";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
                   Read<opening::Velocities<Dim>> velocities, Read<opening::MassIn> mass_in,
-                  Read<opening::EnergyIn> energy_in, Read<particle::Id> id, Update<measure::Columns> columns) const;
+                  Read<opening::EnergyIn> energy_in, Read<particle::Id> id, Optional<Read<Ranks>> ranks,
+                  Update<measure::Columns> columns) const;
 };
 
 /// The same before the first step, when there are no rates.
@@ -24,7 +26,7 @@ template <int Dim>
 struct MeasureOpeningsAtStart {
   static constexpr std::string_view doc = "what came in through openings, at the start";
   void operator()(Read<OpeningSet<Dim>> set, Read<opening::MassIn> mass_in, Read<opening::EnergyIn> energy_in,
-                  Read<particle::Id> id, Update<measure::Columns> columns) const;
+                  Read<particle::Id> id, Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const;
 };
 
 }  // namespace minamo

@@ -298,7 +298,7 @@ void seed_openings(OpeningSet<Dim> set, const std::vector<std::optional<Expressi
 }
 
 void number_on(const Scene&, World& world, SeedProblems&) {
-  world.resource<opening::NextId>().value = static_cast<std::int64_t>(world.rows<Particles>());
+  world.resource<opening::NextId>().value = sum_over_ranks(static_cast<std::int64_t>(world.rows<Particles>()));
 }
 
 void seed_with_openings(const OpeningsOfScene& openings, const std::vector<std::optional<Expression>>& where,
@@ -338,20 +338,20 @@ Contribution read_openings(Input& input, Scene& scene) {
 }  // namespace
 
 void add_openings(SystemRegistry& registry) {
-  registry.add<OpenFaces>("open_faces");
-  registry.add<HoldInflow>("hold_inflow");
-  registry.add<LetIn>("let_in");
-  registry.add<GiveGradient>("give_gradient");
-  registry.add<FillAtOpenings>("fill_at_openings");
-  registry.add<PassInflow>("pass_inflow");
-  registry.add<PrescribeInflow>("prescribe_inflow");
-  registry.add<PushAtOpenings>("push_at_openings");
-  registry.add<RequireOutlet>("require_outlet");
-  registry.add<TakeOpeningVelocities>("take_opening_velocities");
-  registry.add<MoveColumns>("move_columns");
-  registry.add<LetOut>("let_out");
-  registry.add<MeasureOpenings>("measure_openings");
-  registry.add<MeasureOpeningsAtStart>("measure_openings_at_start");
+  registry.add<OpenFaces>("open_faces", OnRanks::own);
+  registry.add<HoldInflow>("hold_inflow", OnRanks::own);
+  registry.add<LetIn>("let_in", OnRanks::alike_on_all);
+  registry.add<GiveGradient>("give_gradient", OnRanks::own);
+  registry.add<FillAtOpenings>("fill_at_openings", OnRanks::adds_up);
+  registry.add<PassInflow>("pass_inflow", OnRanks::own);
+  registry.add<PrescribeInflow>("prescribe_inflow", OnRanks::own);
+  registry.add<PushAtOpenings>("push_at_openings", OnRanks::own);
+  registry.add<RequireOutlet>("require_outlet", OnRanks::adds_up);
+  registry.add<TakeOpeningVelocities>("take_opening_velocities", OnRanks::adds_up);
+  registry.add<MoveColumns>("move_columns", OnRanks::alike_on_all);
+  registry.add<LetOut>("let_out", OnRanks::adds_up);
+  registry.add<MeasureOpenings>("measure_openings", OnRanks::adds_up);
+  registry.add<MeasureOpeningsAtStart>("measure_openings_at_start", OnRanks::adds_up);
   registry.add(Part{"openings", "where liquid comes in through sides of the box, or leaves", read_openings});
 }
 

@@ -2,6 +2,7 @@
 
 #include "systems/time/body_force.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace minamo {
@@ -285,8 +286,9 @@ std::size_t columns_of(const Opening<Dim>& opening, const Grid<Dim>& grid) {
 
 template <int Dim>
 void LetIn<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                            Read<BodyForce> b, Read<OpeningSet<Dim>> set, Resize<Particles> particles,
-                            Update<particle::Id> id, Update<particle::Mass> m_p, Update<particle::Volume> V_p,
+                            Read<BodyForce> b, Read<OpeningSet<Dim>> set, Optional<Read<Ranks>> ranks,
+                            Optional<Read<RankMap>> map, Resize<Particles> particles, Update<particle::Id> id,
+                            Update<particle::Mass> m_p, Update<particle::Volume> V_p,
                             Update<particle::Position<Dim>> x_p, Update<particle::Velocity<Dim>> v_p,
                             Write<opening::Arrivals<Dim>> arrivals, Update<opening::Front> front,
                             Read<opening::Speed> speed, Update<opening::Drift<Dim>> drift,
@@ -303,19 +305,26 @@ void LetIn<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Spline
   const std::size_t before = particles.rows();
   arrivals->first_row = before;
   arrivals->velocity_gradient.clear();
-  if (emission.arrivals().empty()) return;
-  particles.resize(before + emission.arrivals().size());
+  const auto comes_here = [&](const Arrival<Dim>& arrival) {
+    return !ranks || rank_at<Dim>(*map, *grid, *splines, arrival.x) == (*ranks)->rank();
+  };
+  const auto here = std::count_if(emission.arrivals().begin(), emission.arrivals().end(), comes_here);
+  if (here > 0) particles.resize(before + static_cast<std::size_t>(here));
   const Vec<Dim> force = constant_force<Dim>(*grid, *b);
   std::size_t p = before;
   for (const Arrival<Dim>& arrival : emission.arrivals()) {
-    id[p] = next_id->value++;
-    V_p[p] = std::pow(arrival.size, Dim);
-    m_p[p] = fluid->density * V_p[p];
+    const double volume = std::pow(arrival.size, Dim);
+    const double mass = fluid->density * volume;
+    mass_in[arrival.opening] += mass;
+    energy_in[arrival.opening] += energy_of<Dim>(mass, arrival.x - grid->low, arrival.velocity.value, force);
+    const std::int64_t own_id = next_id->value++;
+    if (!comes_here(arrival)) continue;
+    id[p] = own_id;
+    V_p[p] = volume;
+    m_p[p] = mass;
     x_p[p] = arrival.x;
     v_p[p] = arrival.velocity.value;
     arrivals->velocity_gradient.push_back(arrival.velocity.gradient);
-    mass_in[arrival.opening] += m_p[p];
-    energy_in[arrival.opening] += energy_of<Dim>(m_p[p], x_p[p] - grid->low, v_p[p], force);
     ++p;
   }
 }
@@ -357,21 +366,28 @@ void MoveColumns<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
 
 template <int Dim>
 void LetOut<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodyForce> b,
-                             Read<OpeningSet<Dim>> set, Resize<Particles> particles, Read<particle::Mass> m_p,
-                             Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
-                             Update<opening::MassIn> mass_in, Update<opening::EnergyIn> energy_in) const {
+                             Read<OpeningSet<Dim>> set, Optional<Read<Ranks>> ranks, Resize<Particles> particles,
+                             Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
+                             Read<particle::Velocity<Dim>> v_p, Update<opening::MassIn> mass_in,
+                             Update<opening::EnergyIn> energy_in) const {
   const Vec<Dim> force = constant_force<Dim>(*grid, *b);
   std::vector<std::optional<std::uint32_t>> stay;
   stay.reserve(x_p.size());
+  std::vector<std::array<double, 2>> out(set->openings.size(), {0, 0});  // mass, energy
   for (std::size_t p = 0; p < x_p.size(); ++p) {
     const int through = set->left_through(*grid, *splines, x_p[p]);
     if (through == no_opening) {
       stay.emplace_back(static_cast<std::uint32_t>(p));
       continue;
     }
-    const auto o = static_cast<std::size_t>(through);
-    mass_in[o] -= m_p[p];
-    energy_in[o] -= energy_of<Dim>(m_p[p], x_p[p] - grid->low, v_p[p], force);
+    auto& [mass, energy] = out[static_cast<std::size_t>(through)];
+    mass += m_p[p];
+    energy += energy_of<Dim>(m_p[p], x_p[p] - grid->low, v_p[p], force);
+  }
+  if (ranks) (*ranks)->sum({out.front().data(), 2 * out.size()});
+  for (std::size_t o = 0; o < out.size(); ++o) {
+    mass_in[o] -= out[o][0];
+    energy_in[o] -= out[o][1];
   }
   if (stay.size() < x_p.size()) particles.renumber(stay);
 }

@@ -11,8 +11,10 @@
 
 #include "components/particle.hpp"
 #include "engine/run/clock.hpp"
+#include "engine/run/communicator.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/openings/opening_set.hpp"
+#include "systems/ranks/rank_map.hpp"
 
 namespace minamo {
 
@@ -23,12 +25,14 @@ std::size_t columns_along(const Opening<Dim>& opening, const Grid<Dim>& grid, st
 template <int Dim>
 std::size_t columns_of(const Opening<Dim>& opening, const Grid<Dim>& grid);
 
-/// (E101)  The particles that this step carries into the box, V_p = a^d, m_p = rho V_p, v_p = w(x_p, t^n).
+/// (E101)  The particles that this step carries into the box, V_p = a^d, m_p = rho V_p, v_p = w(x_p, t^n). All ranks
+/// know of all of them; the one that has the block of a particle makes it.
 template <int Dim>
 struct LetIn {
   static constexpr std::string_view doc = "(E101) particles that come in through openings";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                  Read<BodyForce> b, Read<OpeningSet<Dim>> set, Resize<Particles> particles, Update<particle::Id> id,
+                  Read<BodyForce> b, Read<OpeningSet<Dim>> set, Optional<Read<Ranks>> ranks,
+                  Optional<Read<RankMap>> map, Resize<Particles> particles, Update<particle::Id> id,
                   Update<particle::Mass> m_p, Update<particle::Volume> V_p, Update<particle::Position<Dim>> x_p,
                   Update<particle::Velocity<Dim>> v_p, Write<opening::Arrivals<Dim>> arrivals,
                   Update<opening::Front> front, Read<opening::Speed> speed, Update<opening::Drift<Dim>> drift,
@@ -57,8 +61,8 @@ template <int Dim>
 struct LetOut {
   static constexpr std::string_view doc = "particles that have left through openings";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodyForce> b, Read<OpeningSet<Dim>> set,
-                  Resize<Particles> particles, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
-                  Read<particle::Velocity<Dim>> v_p, Update<opening::MassIn> mass_in,
+                  Optional<Read<Ranks>> ranks, Resize<Particles> particles, Read<particle::Mass> m_p,
+                  Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p, Update<opening::MassIn> mass_in,
                   Update<opening::EnergyIn> energy_in) const;
 };
 

@@ -79,7 +79,7 @@ void add_output(SystemRegistry& registry) {
   registry.add<FlushHistory>("flush_history", OnRanks::first_rank_writes);
   registry.add<SamplePressure>("sample_pressure");
   registry.add<WriteFrame>("write_frame", OnRanks::first_rank_writes);
-  registry.add<WriteBodies>("write_bodies");
+  registry.add<WriteBodies>("write_bodies", OnRanks::first_rank_writes);
   registry.add<WriteSurfaces>("write_surfaces", OnRanks::first_rank_writes);
   registry.add<WriteXdmf>("write_xdmf", OnRanks::first_rank_writes);
   registry.add(Part{"output", "what is written when", read_output});

@@ -53,6 +53,7 @@ class PressureMass {
         });
       });
     }
+    if (shared_ != nullptr) shared_->add_up(std::span(middle));
     for (std::size_t i = 0; i < middle.size(); ++i) {
       if (volume_[i] > 0) middle[i] /= volume_[i];
     }
@@ -320,10 +321,18 @@ void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
     std::vector<double> known(lambda.size(), 0);
     const PressureOfFewParticles<Dim> of_few(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),
                                              mass.volume(), open_share ? mass.middles() : std::vector<Vec<Dim>>());
+    std::vector<double> is_known(lambda.size(), 0);
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (!of_few.is_known(i)) continue;
       known[i] = of_few(i);
-      mass.know(i);
+      is_known[i] = 1;
+    }
+    if (shared) {
+      shared->copy_from_owner(std::span(known));
+      shared->copy_from_owner(std::span(is_known));
+    }
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (is_known[i] == 1) mass.know(i);
     }
     mass.take_known(known, force);
     std::vector<double> p =

@@ -12,6 +12,8 @@
 #include "systems/pressure/direct_solver.hpp"
 #include "systems/pressure/multigrid.hpp"
 
+#include <functional>
+
 namespace minamo {
 
 /// S^-1 of a step, for as many right-hand sides as come.
@@ -32,7 +34,16 @@ class MultiplierSolver {
   /// Of the matrix that was prepared.
   const ClosedComponents& closed() const { return closed_; }
 
+  /// solve() where ranks share the matrix: of right-hand sides, solutions by unknown, for a tolerance.
+  using SolveOnRanks = std::function<SolveReport(std::span<const Sources> b, std::span<Sources> x, double tolerance)>;
+  /// Lets others solve from now on. (tools/mpi)
+  void leave_to_ranks(ClosedComponents closed, SolveOnRanks solve) {
+    closed_ = std::move(closed);
+    on_ranks_ = std::move(solve);
+  }
+
  private:
+  SolveOnRanks on_ranks_;
   bool is_direct_ = true;
   ClosedComponents closed_;
   DirectSolver<Dim> direct_;

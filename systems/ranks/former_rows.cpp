@@ -11,28 +11,20 @@ namespace {
 
 /// The ranks that had particles in the blocks of the cells that touch a site.
 template <int Dim>
-std::set<int> ranks_at(const CellBlocks<Dim>& blocks, const Splines<Dim>& splines, const RankMap& map,
+std::set<int> ranks_at(const RankBlocks<Dim>& blocks, const Splines<Dim>& splines, const RankMap& map,
                        const Index<Dim>& site) {
   std::set<int> found;
-  for_each_corner_cell<Dim>(
+  for_each_touching_block<Dim>(
       splines, site, [&](const Index<Dim>& cell) { found.insert(map.owner(morton_key<Dim>(blocks.place_of(cell)))); });
   return found;
 }
-
-/// A row that its rank had, or not.
-template <int Dim>
-struct Answer {
-  double is_known = 0;
-  typename FormerRows<Dim>::Values values{};
-};
 
 }  // namespace
 
 template <int Dim>
 void KeepFormerRows<Dim>::operator()(Read<Ranks> ranks, Read<RankMap> map, Read<Splines<Dim>> splines,
                                      Read<staggered::Site<Dim>> site, Read<SiteExchange> shared,
-                                     Read<multiplier::Force> lambda, Read<face::ExactVolume<Dim>> volume,
-                                     Write<FormerRows<Dim>> former) const {
+                                     RowBytes<Staggered> table, Write<FormerRows<Dim>> former) const {
   former->map = (*ranks)->size() > 1 ? *map : RankMap{};
   if (former->map.begin.empty()) return;
   former->rows.start(splines->sites());
@@ -41,22 +33,22 @@ void KeepFormerRows<Dim>::operator()(Read<Ranks> ranks, Read<RankMap> map, Read<
   for (std::size_t i = 0; i < site.size(); ++i) {
     if (is_whole(i)) former->rows.add(site[i]);
   }
-  former->values.resize(former->rows.number_rows());
-  for (std::size_t i = 0; i < site.size(); ++i) {
-    if (!is_whole(i)) continue;
-    auto& values = former->values[*former->rows.find(site[i])];
-    for (std::size_t d = 0; d < Dim; ++d) values[d] = volume[i][static_cast<Eigen::Index>(d)];
-    values[Dim] = lambda[i];
+  std::vector<std::uint32_t> in_order(former->rows.number_rows());
+  // Of several rows of a site the first outlives the step.
+  for (std::size_t i = site.size(); i-- > 0;) {
+    if (is_whole(i)) in_order[*former->rows.find(site[i])] = static_cast<std::uint32_t>(i);
   }
+  former->row_bytes = table.packed_bytes();
+  former->values = table.pack(in_order);
 }
 
 template <int Dim>
 void AskForFormerRows<Dim>::operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                        Read<StaggeredIndex<Dim>> index, Read<staggered::Site<Dim>> site,
                                        Read<SiteExchange> shared, Read<FormerRows<Dim>> former,
-                                       Update<multiplier::Force> lambda, Update<face::ExactVolume<Dim>> volume) const {
+                                       RowBytes<Staggered> table) const {
   if (former->map.begin.empty()) return;
-  const CellBlocks<Dim> blocks(*grid, grid->cells);
+  const RankBlocks<Dim> blocks(*grid, grid->cells);
   std::map<int, std::vector<Index<Dim>>> wanted;
   for (std::size_t i = 0; i < site.size(); ++i) {
     if (shared->knows_in_part(i) || former->rows.find(site[i])) continue;
@@ -66,23 +58,26 @@ void AskForFormerRows<Dim>::operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, 
   }
   std::vector<Communicator::Message> asked;
   for (const auto& [rank, sites] : wanted) asked.push_back({rank, to_bytes(std::span<const Index<Dim>>(sites))});
+  // An answer is the sites that the rank had, and their rows.
   std::vector<Communicator::Message> answered;
   for (const auto& message : (*ranks)->exchange(asked)) {
-    std::vector<Answer<Dim>> answers;
+    std::vector<std::byte> bytes;
     for (const Index<Dim>& at : from_bytes<Index<Dim>>(message.bytes)) {
       const auto row = former->rows.find(at);
-      answers.push_back(row ? Answer<Dim>{1, former->values[*row]} : Answer<Dim>{});
+      if (!row) continue;
+      const auto site_bytes = std::as_bytes(std::span(&at, 1));
+      const auto values = std::span(former->values).subspan(*row * former->row_bytes, former->row_bytes);
+      bytes.insert(bytes.end(), site_bytes.begin(), site_bytes.end());
+      bytes.insert(bytes.end(), values.begin(), values.end());
     }
-    answered.push_back({message.rank, to_bytes(std::span<const Answer<Dim>>(answers))});
+    answered.push_back({message.rank, std::move(bytes)});
   }
   for (const auto& message : (*ranks)->exchange(answered)) {
-    const std::vector<Index<Dim>>& sites = wanted.at(message.rank);
-    const auto answers = from_bytes<Answer<Dim>>(message.bytes);
-    for (std::size_t k = 0; k < sites.size(); ++k) {
-      if (answers[k].is_known == 0) continue;
-      const std::size_t row = *index->find(sites[k]);
-      for (std::size_t d = 0; d < Dim; ++d) volume[row][static_cast<Eigen::Index>(d)] = answers[k].values[d];
-      lambda[row] = answers[k].values[Dim];
+    for (std::span<const std::byte> left = message.bytes; !left.empty();) {
+      const Index<Dim> at = from_bytes<Index<Dim>>(left.first(sizeof(Index<Dim>))).front();
+      left = left.subspan(sizeof(Index<Dim>));
+      table.unpack(std::array{*index->find(at)}, left.first(former->row_bytes));
+      left = left.subspan(former->row_bytes);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "components/cells.hpp"
 #include "components/grid.hpp"
+#include "components/staggered.hpp"
 #include "engine/run/communicator.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/grid/splines.hpp"
@@ -16,7 +17,8 @@ template <int Dim>
 struct GhostCells {
   struct Cell {
     Index<Dim> at;
-    int rank;  ///< that has its particles
+    int rank;                  ///< that has its particles
+    std::uint64_t hidden = 0;  ///< what is hidden from them, as HiddenSites::of_cell
   };
   std::vector<Cell> cells;             ///< by rank, in its order
   std::vector<std::uint64_t> covered;  ///< keys of the blocks all of whose occupied cells are known here, rising
@@ -25,15 +27,35 @@ struct GhostCells {
   bool covers(std::uint64_t key) const { return std::binary_search(covered.begin(), covered.end(), key); }
 };
 
-/// Blocks around an occupied one whose cells its rank has to know: a face is touched by cells up to K sites away, and
-/// what depends on it reaches two sites further.
-constexpr int layers_of_ghosts(int degree) { return (degree + 2 + 3) / 4; }
+/// How many sites further than the cells that touch a face what follows from it reaches.
+struct ReachOnRanks {
+  int sites = 2;
+  static constexpr ComponentInfo info{"ranks.reach", "", "1", Lifetime::constant};
+};
+
+/// A scene has something that reaches so far.
+inline void reach_on_ranks(World& world, int sites) {
+  if (all_ranks() == nullptr) return;
+  auto& reach = world.resource<ReachOnRanks>();
+  reach.sites = std::max(reach.sites, sites);
+}
+
+/// The blocks from which it reaches further, for a body is near.
+struct BlocksNearBodies {
+  int sites = 0;
+  std::vector<std::uint8_t> has_near;  ///< by CellBlocks::block_of()
+  static constexpr ComponentInfo info{"bodies.blocks_near", "", "1", Lifetime::scratch};
+};
+
+/// Blocks around an occupied one whose cells its rank has to know: a face is touched by cells up to K sites away.
+constexpr int layers_of_ghosts(int degree, int sites) { return (degree + sites + 3) / 4; }
 
 template <int Dim>
 struct FindGhostCells {
   static constexpr std::string_view doc = "occupied cells of other ranks around those of this one";
-  void operator()(Read<Ranks> ranks, Read<RankMap> map, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<GridCells<Dim>> cells, Write<GhostCells<Dim>> ghosts) const;
+  void operator()(Read<Ranks> ranks, Read<RankMap> map, Read<ReachOnRanks> reach, Read<Grid<Dim>> grid,
+                  Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Optional<Read<HiddenSites>> hidden,
+                  Optional<Read<BlocksNearBodies>> near, Write<GhostCells<Dim>> ghosts) const;
 };
 
 }  // namespace minamo

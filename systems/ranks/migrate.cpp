@@ -17,7 +17,7 @@ constexpr double worth_moving = 0.95;
 template <int Dim>
 std::vector<int> owners_of(const RankMap& map, const Grid<Dim>& grid, const Splines<Dim>& splines,
                            std::span<const Vec<Dim>> y_p) {
-  const CellBlocks<Dim> blocks(grid, grid.cells);
+  const RankBlocks<Dim> blocks(grid, grid.cells);
   std::vector<int> owner(y_p.size());
   for_each_row(y_p.size(), [&](std::size_t p) {
     owner[p] = map.owner(morton_key<Dim>(blocks.place_of(cell_around<Dim>(grid, splines, y_p[p]))));
@@ -69,6 +69,8 @@ void send_home(Communicator& ranks, const Grid<Dim>& grid, const Splines<Dim>& s
   for (const auto& [rank, rows] : leaving) sent.push_back({rank, particles.pack(rows)});
   if (!sent.empty()) particles.renumber(rows_of(owner, ranks.rank()));
   for (const auto& message : ranks.exchange(sent)) particles.append(message.bytes);
+  const double fullest_then = ranks.largest(static_cast<double>(particles.rows()));
+  map.largest_imbalance = std::max(map.largest_imbalance, fullest_then / mean);
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include "components/types.hpp"
 #include "engine/storage/component.hpp"
 #include "systems/grid/cell_blocks.hpp"
+#include "systems/grid/site_support.hpp"
 #include "systems/grid/splines.hpp"
 
 #include <algorithm>
@@ -14,6 +15,10 @@
 #include <vector>
 
 namespace minamo {
+
+/// What ranks own: so small that pieces of few particles can be as full as others.
+template <int Dim>
+using RankBlocks = CellBlocks<Dim, 2>;
 
 /// Place of a block on the curve: the bits of its coordinates in turn, x lowest. \pre coordinates below 2^21
 template <int Dim>
@@ -29,7 +34,8 @@ std::uint64_t morton_key(const Index<Dim>& place) {
 struct RankMap {
   std::vector<std::uint64_t> begin;  ///< of the pieces, the first one at the start of the curve
   std::vector<int> rank;
-  double most_imbalance = 1.2;  ///< with so many times the mean on a rank the curve is cut anew
+  double most_imbalance = 1.1;   ///< with so many times the mean on a rank the curve is cut anew
+  double largest_imbalance = 1;  ///< that was left so far
   static constexpr ComponentInfo info{"ranks.map", "", "1", Lifetime::cache};
 
   /// Every rank has the piece of its number.
@@ -39,13 +45,21 @@ struct RankMap {
   }
 };
 
+/// The rank that has the block of a point.
+template <int Dim>
+int rank_at(const RankMap& map, const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) {
+  const RankBlocks<Dim> blocks(grid, grid.cells);
+  return map.owner(morton_key<Dim>(blocks.place_of(cell_around<Dim>(grid, splines, x))));
+}
+
 /// A block with particles.
 struct BlockLoad {
   std::uint64_t key;
   std::uint64_t particles;
 };
 
-/// Cuts the curve so that every rank has about as many particles, in a piece of its own.
+/// Cuts the curve so that the fullest rank has as few particles as it can, in pieces of whole blocks (A. Pinar, C.
+/// Aykanat, J. Parallel Distrib. Comput. 64 (2004) 974), and the others about as many.
 /// \param loads  in the order of the curve; keys may come several times
 RankMap cut_curve(std::span<const BlockLoad> loads, int ranks);
 

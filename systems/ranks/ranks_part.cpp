@@ -1,4 +1,5 @@
 #include "systems/ranks/former_rows.hpp"
+#include "systems/ranks/ghost_cells.hpp"
 #include "systems/ranks/migrate.hpp"
 #include "systems/ranks/site_exchange.hpp"
 #include "systems/scene/parts.hpp"
@@ -14,6 +15,7 @@ Contribution read_ranks(Input&, Scene&) {
   return [](const Scene&, Recipe& recipe) {
     recipe.seed([](const Scene& scene, World& world, SeedProblems&) {
       world.resource<Ranks>().all = all_ranks();
+      world.resource<ReachOnRanks>();
       send_particles_home(scene.dimension, world);
     });
   };

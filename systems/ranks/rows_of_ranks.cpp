@@ -17,7 +17,10 @@ std::vector<std::uint32_t> owned_rows(Communicator& ranks, World& world) {
   std::vector<std::uint32_t> rows(world.rows<Staggered>());
   std::iota(rows.begin(), rows.end(), 0U);
   if (ranks.any(shared.rows() != rows.size())) return ranks.is_first() ? rows : std::vector<std::uint32_t>();
-  std::erase_if(rows, [&](std::uint32_t row) { return !shared.owns(row); });
+  // What stands for a hidden site does not outlive a step.
+  const std::size_t end =
+      world.has<HiddenSites>() ? std::size_t{world.resource<HiddenSites>().first_row} : world.rows<Staggered>();
+  std::erase_if(rows, [&](std::uint32_t row) { return row >= end || !shared.owns(row); });
   return rows;
 }
 

@@ -64,14 +64,19 @@ class SiteExchange {
   std::vector<std::uint32_t> summed_;  ///< rows that others touch, too
 };
 
-/// Calls use(cell) for the cells at the corners of those that touch a site; within a block of cells no others differ.
+/// Calls use(cell) for cells that touch a site, one at least of every block among them.
 template <int Dim, class Use>
-void for_each_corner_cell(const Splines<Dim>& splines, const Index<Dim>& site, const Use& use) {
-  for (unsigned corner = 0; corner < (1U << Dim); ++corner) {
+void for_each_touching_block(const Splines<Dim>& splines, const Index<Dim>& site, const Use& use) {
+  const int K = splines.degree;
+  const int steps = (K - 1) / RankBlocks<Dim>::width + 2;  // to both ends, and so that none is leapt over
+  for (std::size_t k = 0; k < power(steps, Dim); ++k) {
     Index<Dim> cell;
+    std::size_t rest = k;
     for (std::size_t d = 0; d < Dim; ++d) {
       const SplineAxis& axis = splines.axis[d];
-      const int touching = site[d] - ((corner >> d & 1U) != 0 ? splines.degree : 0);
+      const int back = std::min(static_cast<int>(rest % static_cast<std::size_t>(steps)) * RankBlocks<Dim>::width, K);
+      rest /= static_cast<std::size_t>(steps);
+      const int touching = site[d] - back;
       cell[d] = axis.periodic() ? (touching + axis.cells()) % axis.cells() : std::clamp(touching, 0, axis.cells() - 1);
     }
     use(cell);
@@ -88,12 +93,25 @@ inline const SiteExchange* of_ranks(const Optional<Read<SiteExchange>>& shared) 
 /// Whether this process answers for a row where every row counts once: for all, if it is alone.
 inline bool owns(const SiteExchange* shared, std::size_t row) { return shared == nullptr || shared->owns(row); }
 
+/// Sum over the ranks; of a process that is alone its own value.
+inline double on_all(const SiteExchange* shared, double value) {
+  return shared == nullptr ? value : shared->ranks().sum(value);
+}
+
+/// Sums over the ranks of values that are made of doubles.
+template <class T>
+void add_up_on_all(const SiteExchange* shared, std::span<T> values) {
+  static_assert(sizeof(T) % sizeof(double) == 0);
+  if (shared == nullptr) return;
+  shared->ranks().sum({reinterpret_cast<double*>(values.data()), values.size() * (sizeof(T) / sizeof(double))});
+}
+
 template <int Dim>
 struct PlanSiteExchange {
   static constexpr std::string_view doc = "which sums at sites ranks share";
   void operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                  Read<CellSites> sites, Read<GhostCells<Dim>> ghosts, Read<StaggeredIndex<Dim>> index,
-                  Read<staggered::Site<Dim>> site, Write<SiteExchange> exchange) const;
+                  Read<CellSites> sites, Read<GhostCells<Dim>> ghosts, Optional<Read<HiddenSites>> hidden,
+                  Read<StaggeredIndex<Dim>> index, Read<staggered::Site<Dim>> site, Write<SiteExchange> exchange) const;
 };
 
 }  // namespace minamo

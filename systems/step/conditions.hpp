@@ -112,6 +112,8 @@ inline constexpr Condition force_of_place{"body force of place",
 inline constexpr Condition some_force{"body force", [](const Scene& s) { return !s.facts.get<BodyForce>().is_zero(); }};
 
 inline constexpr Condition exact{"exact", [](const Scene& s) { return is_scheme(s, "quadrature", "exact"); }};
+inline constexpr Condition rows_remember{"exact, or separating walls",
+                                         [](const Scene& s) { return exact.holds(s) || separating.holds(s); }};
 inline constexpr Condition mixed_or_exact{"mixed, exact", [](const Scene& s) {
                                             return is_scheme(s, "quadrature", "mixed") ||
                                                    is_scheme(s, "quadrature", "exact");

@@ -21,17 +21,18 @@ const StepTable& table_of_faces() {
               {"configure", "store_kinetic_energy", step, {projection}},
               {"configure", "stop_at_plates", step, {bodies}},
 
-              {"sort", "keep_former_rows", both, {several_ranks, exact}},
+              {"sort", "keep_former_rows", both, {several_ranks, rows_remember}},
               {"sort", "migrate_particles", both, {several_ranks}},
               {"sort", "bin_by_cell"},
-              {"sort", "find_ghost_cells", both, {several_ranks}},
               {"sort", "place_bodies", start, {bodies}},
               {"sort", "find_dry_sides", both, {asked}},  // of bodies with a thin wall, as what it hides
               {"sort", "split_cells", both, {asked}},
+              {"sort", "find_blocks_near_bodies", both, {several_ranks, bodies}},
+              {"sort", "find_ghost_cells", both, {several_ranks}},
               {"sort", "number_sites"},
               {"sort", "number_hidden_sites", both, {asked}},
               {"sort", "plan_site_exchange", both, {several_ranks}},
-              {"sort", "ask_for_former_rows", both, {several_ranks, exact}},
+              {"sort", "ask_for_former_rows", both, {several_ranks, rows_remember}},
               // Bodies extend velocities to faces that no opening holds.
               {"sort", "open_faces", both, {openings}},
               {"sort", "cut_faces", both, {bodies}},

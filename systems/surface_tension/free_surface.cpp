@@ -34,6 +34,18 @@ bool belongs_to(const SurfaceLattice<Dim>& lattice, const Index<Dim>& base, std:
   return false;
 }
 
+/// What another rank counts: it pulls here, too.
+template <int Dim>
+void add_uncounted(const SurfaceCube<Dim>& cube, typename FreeSurface<Dim>::Piece& piece) {
+  const auto areas = piece.areas;
+  const std::size_t elements = piece.elements.size();
+  const std::size_t contacts = piece.contacts.size();
+  cube.add_to(piece);
+  piece.areas = areas;
+  for (std::size_t k = elements; k < piece.elements.size(); ++k) piece.elements[k].counts = false;
+  for (std::size_t k = contacts; k < piece.contacts.size(); ++k) piece.contacts[k].counts = false;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -41,7 +53,7 @@ void FindSurfaceDistance<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim
                                           Read<StaggeredIndex<Dim>> rows, Read<GridCells<Dim>> cells,
                                           Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                                           Read<particle::Volume> V_p, Read<staggered::Site<Dim>> site,
-                                          Write<surface::Distance> psi) const {
+                                          Optional<Read<SiteExchange>> shared, Write<surface::Distance> psi) const {
   for_each_row(psi.size(), [&](std::size_t i) { psi[i] = 0; });
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
@@ -58,6 +70,7 @@ void FindSurfaceDistance<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim
       for_each_quadratic<Dim, K>([&](std::size_t k, const Index<Dim>&) { psi[of_cell[k]] += volume[k]; });
     });
   });
+  add_up(shared, psi.span());
   const SurfaceLattice<Dim> lattice(*grid, *rows);
   for_each_row(psi.size(), [&](std::size_t i) {
     const double phi = lattice.has(site[i]) ? std::min(1.0, psi[i] / lattice.capacity(site[i])) : 0;
@@ -72,7 +85,7 @@ void FindFreeSurface<Dim>::operator()(
     Optional<Read<surface::OpenShare>> open, Optional<Read<surface::OpenCentroid<Dim>>> centroid,
     Optional<Read<surface::OpenDistance>> open_psi, Optional<Read<BodySet<Dim>>> set,
     Optional<Read<body::MiddlePosition<Dim>>> c_b, Optional<Read<body::MiddleRotation<Dim>>> R_b,
-    Write<FreeSurface<Dim>> surface) const {
+    Optional<Read<SiteExchange>> shared, Write<FreeSurface<Dim>> surface) const {
   const SurfaceLattice<Dim> lattice(*grid, *rows);
   std::optional<SurfaceBodies<Dim>> bodies;
   const DistanceAround<Dim> around{*grid, *splines, lattice, open.span(), centroid.span(), open_psi.span()};
@@ -88,7 +101,12 @@ void FindFreeSurface<Dim>::operator()(
       for (std::size_t d = 0; d < Dim; ++d)
         base[d] = lattice.axis(d).node_of(site[i][d]) - static_cast<int>(c >> d & 1U);
       if (!belongs_to<Dim>(lattice, base, i)) continue;
-      SurfaceCube<Dim>(lattice, psi.span(), outside, base, near, tension->cosine_of_contact_angle).add_to(piece);
+      const SurfaceCube<Dim> cube(lattice, psi.span(), outside, base, near, tension->cosine_of_contact_angle);
+      if (owns(of_ranks(shared), i)) {
+        cube.add_to(piece);
+      } else {
+        add_uncounted<Dim>(cube, piece);
+      }
     }
   };
   surface->pieces.resize(site.size() / rows_per_piece + 1);
@@ -108,6 +126,9 @@ void FindFreeSurface<Dim>::operator()(
       1);
   surface->areas = {};
   for (const auto& piece : surface->pieces) surface->areas += piece.areas;
+  static_assert(sizeof(surface->areas) % sizeof(double) == 0);
+  if (shared)
+    shared->ranks().sum({reinterpret_cast<double*>(&surface->areas), sizeof(surface->areas) / sizeof(double)});
 }
 
 template struct FindSurfaceDistance<2>;

@@ -10,6 +10,7 @@
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
 #include "systems/grid/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -23,7 +24,8 @@ struct FindSurfaceDistance {
   static constexpr std::string_view doc = "(E112) psi_i, distance from the free surface";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Volume> V_p, Read<staggered::Site<Dim>> site, Write<surface::Distance> psi) const;
+                  Read<particle::Volume> V_p, Read<staggered::Site<Dim>> site, Optional<Read<SiteExchange>> shared,
+                  Write<surface::Distance> psi) const;
 };
 
 /// (E112)  Where psi, linear in triangles or tetrahedra, is zero; (E121) outside of bodies.
@@ -35,7 +37,8 @@ struct FindFreeSurface {
                   Optional<Read<surface::SolidDistance>> solid, Optional<Read<surface::OpenShare>> open,
                   Optional<Read<surface::OpenCentroid<Dim>>> centroid, Optional<Read<surface::OpenDistance>> open_psi,
                   Optional<Read<BodySet<Dim>>> set, Optional<Read<body::MiddlePosition<Dim>>> c_b,
-                  Optional<Read<body::MiddleRotation<Dim>>> R_b, Write<FreeSurface<Dim>> surface) const;
+                  Optional<Read<body::MiddleRotation<Dim>>> R_b, Optional<Read<SiteExchange>> shared,
+                  Write<FreeSurface<Dim>> surface) const;
 };
 
 }  // namespace minamo

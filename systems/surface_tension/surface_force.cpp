@@ -71,9 +71,10 @@ double contact_lines_of(const FreeSurface<Dim>& surface) {
   double length = 0;
   for (const auto& piece : surface.pieces) {
     if constexpr (Dim == 2) {
-      length += static_cast<double>(piece.contacts.size());
+      for (const auto& contact : piece.contacts) length += contact.counts ? 1 : 0;
     } else {
-      for (const auto& contact : piece.contacts) length += (contact.corner[1].x - contact.corner[0].x).norm();
+      for (const auto& contact : piece.contacts)
+        length += contact.counts ? (contact.corner[1].x - contact.corner[0].x).norm() : 0;
     }
   }
   return length / FreeSurface<Dim>::covers;
@@ -82,15 +83,16 @@ double contact_lines_of(const FreeSurface<Dim>& surface) {
 /// (E59)  What the energy of the surface changes by when it passes the lattice that it is found on and keeps its shape.
 template <int Dim>
 double unresolved_of(const SurfaceTension& tension, const FreeSurface<Dim>& surface, double h,
-                     std::span<const double> V_p) {
+                     std::span<const double> V_p, const SiteExchange* shared) {
   constexpr double of_curvature = 1.0 / 16;  // up to 1/25 measured, of drops at rest
   constexpr double of_contact = 0.4;         // measured of drops that spread and draw back, 30 to 150 degrees
   const double area = surface.areas.free;
-  const double volume = reduce_rows(
+  const double own_volume = reduce_rows(
       V_p.size(), 0.0, [&](std::size_t p) { return V_p[p]; }, std::plus<>());
+  const double volume = on_all(shared, own_volume);
   const double per_radius = std::min(1.0, h * area / (Dim * volume));
-  return tension.coefficient *
-         (of_curvature * per_radius * per_radius * area + of_contact * h * contact_lines_of<Dim>(surface));
+  return tension.coefficient * (of_curvature * per_radius * per_radius * area +
+                                of_contact * h * on_all(shared, contact_lines_of<Dim>(surface)));
 }
 
 template <int Dim>
@@ -150,20 +152,24 @@ template <int Dim>
 void MeasureSurfaceEnergy<Dim>::operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface,
                                            Read<Grid<Dim>> grid, Read<particle::Volume> V_p,
                                            Read<face::SurfaceForce<Dim>> F_f, Read<face::Displacement<Dim>> u_f,
-                                           Update<measure::Energy> energy, Update<measure::Columns> columns) const {
+                                           Optional<Read<SiteExchange>> shared, Update<measure::Energy> energy,
+                                           Update<measure::Columns> columns) const {
   const double work = reduce_rows(
-      F_f.size(), 0.0, [&](std::size_t i) { return F_f[i].dot(u_f[i]); }, std::plus<>());
-  set_energy<Dim>(energy_of<Dim>(*tension, *surface) - 0.5 * work,
-                  unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span()), *energy, *columns);
+      F_f.size(), 0.0, [&](std::size_t i) { return owns(of_ranks(shared), i) ? F_f[i].dot(u_f[i]) : 0; },
+      std::plus<>());
+  set_energy<Dim>(energy_of<Dim>(*tension, *surface) - 0.5 * on_all(of_ranks(shared), work),
+                  unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span(), of_ranks(shared)), *energy,
+                  *columns);
 }
 
 template <int Dim>
 void MeasureSurfaceEnergyAtStart<Dim>::operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface,
                                                   Read<Grid<Dim>> grid, Read<particle::Volume> V_p,
-                                                  Update<measure::Energy> energy,
+                                                  Optional<Read<SiteExchange>> shared, Update<measure::Energy> energy,
                                                   Update<measure::Columns> columns) const {
-  set_energy<Dim>(energy_of<Dim>(*tension, *surface), unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span()),
-                  *energy, *columns);
+  set_energy<Dim>(energy_of<Dim>(*tension, *surface),
+                  unresolved_of<Dim>(*tension, *surface, grid->spacing, V_p.span(), of_ranks(shared)), *energy,
+                  *columns);
 }
 
 template struct AddSurfaceTension<2>;

@@ -1,4 +1,5 @@
 #include "systems/bodies/bodies_part.hpp"
+#include "systems/ranks/ghost_cells.hpp"
 #include "systems/scene/discretization.hpp"
 #include "systems/scene/parts.hpp"
 #include "systems/scene/schemes.hpp"
@@ -14,6 +15,10 @@
 namespace minamo {
 
 namespace {
+
+/// How far from a face the fill lies that its force follows from: points of the surface in the cells that touch it,
+/// tractions at the sites of these, elements around those, and the nodes of their cubes.
+constexpr int sites_of_surface_force = 6;
 
 /// Exactly zero at 90 degrees, where a contact line is without force.
 double cosine_of(double angle) { return angle == 90 ? 0 : std::cos(angle * std::numbers::pi / 180); }
@@ -88,6 +93,7 @@ Contribution read_surface_tension(Input& input, Scene& scene) {
   scene.facts.set(*tension);
   return [tension](const Scene& of, Recipe& recipe) {
     recipe.constant(*tension);
+    recipe.seed([](const Scene&, World& world, SeedProblems&) { reach_on_ranks(world, sites_of_surface_force); });
     if (const auto* bodies = of.facts.find<BodiesOfScene>()) seed_solids(*bodies, of, recipe);
   };
 }
@@ -95,14 +101,14 @@ Contribution read_surface_tension(Input& input, Scene& scene) {
 }  // namespace
 
 void add_surface_tension(SystemRegistry& registry) {
-  registry.add<FindSurfaceDistance>("find_surface_distance");
-  registry.add<ExtendSurfaceDistance>("extend_surface_distance");
-  registry.add<FindFreeSurface>("find_free_surface");
-  registry.add<MeasureSurfaceAround>("measure_surface_around");
-  registry.add<FindSurfaceTraction>("find_surface_traction");
-  registry.add<AddSurfaceTension>("add_surface_tension");
-  registry.add<MeasureSurfaceEnergy>("measure_surface_energy");
-  registry.add<MeasureSurfaceEnergyAtStart>("measure_surface_energy_at_start");
+  registry.add<FindSurfaceDistance>("find_surface_distance", OnRanks::adds_up);
+  registry.add<ExtendSurfaceDistance>("extend_surface_distance", OnRanks::own);
+  registry.add<FindFreeSurface>("find_free_surface", OnRanks::adds_up);
+  registry.add<MeasureSurfaceAround>("measure_surface_around", OnRanks::own);
+  registry.add<FindSurfaceTraction>("find_surface_traction", OnRanks::adds_up);
+  registry.add<AddSurfaceTension>("add_surface_tension", OnRanks::own);
+  registry.add<MeasureSurfaceEnergy>("measure_surface_energy", OnRanks::adds_up);
+  registry.add<MeasureSurfaceEnergyAtStart>("measure_surface_energy_at_start", OnRanks::adds_up);
   registry.add(Part{"surface_tension", "tension of the free surface, contact angle", read_surface_tension});
 }
 

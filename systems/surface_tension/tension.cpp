@@ -95,14 +95,16 @@ class CornerForces {
   double least_around_;
 };
 
-/// Calls use(corner, force on it) for the corners of a piece: (E113), then (E114) of its contact lines.
+/// Calls use(corner, force on it, body that it is pulled along or none, whether it counts for all ranks) for the
+/// corners of a piece: (E113), then (E114) of its contact lines.
 template <int Dim, class Use>
 void for_each_corner_force(const typename FreeSurface<Dim>::Piece& piece, const SurfaceTension& tension,
                            const Use& use) {
   const double sigma = tension.coefficient / FreeSurface<Dim>::covers;
   for (const auto& element : piece.elements) {
     const auto gradient = area_gradient<Dim>(element);
-    for (std::size_t k = 0; k < element.size(); ++k) use(element[k], Vec<Dim>(-sigma * gradient[k]), staggered::none);
+    for (std::size_t k = 0; k < element.size(); ++k)
+      use(element[k], Vec<Dim>(-sigma * gradient[k]), staggered::none, element.counts);
   }
   for (const auto& contact : piece.contacts) {
     double pull = sigma * (contact.body == staggered::none
@@ -110,7 +112,8 @@ void for_each_corner_force(const typename FreeSurface<Dim>::Piece& piece, const 
                                : tension.bodies[static_cast<std::size_t>(contact.body)].cosine_of_contact_angle);
     if (pull == 0) continue;
     if constexpr (Dim == 3) pull *= 0.5 * (contact.corner[1].x - contact.corner[0].x).norm();
-    for (const auto& corner : contact.corner) use(corner, Vec<Dim>(pull * contact.outward), contact.body);
+    for (const auto& corner : contact.corner)
+      use(corner, Vec<Dim>(pull * contact.outward), contact.body, contact.counts);
   }
 }
 
@@ -146,7 +149,8 @@ template <int Dim>
 void FindSurfaceTraction<Dim>::operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid, Read<Walls<Dim>> walls,
                                           Read<StaggeredIndex<Dim>> rows, Read<FreeSurface<Dim>> surface,
                                           Read<surface::Around> A_i, Optional<Read<body::MiddlePosition<Dim>>> c_b,
-                                          Update<PieceSums<Dim>> sums, Write<surface::Traction<Dim>> t_i,
+                                          Optional<Read<SiteExchange>> shared, Update<PieceSums<Dim>> sums,
+                                          Write<surface::Traction<Dim>> t_i,
                                           Write<surface::ForceOnBodies<Dim>> F_b) const {
   // What hardly reaches the surface would put its force on a point.
   const double least_around = 1e-3 * std::pow(grid->spacing, Dim - 1);
@@ -163,14 +167,14 @@ void FindSurfaceTraction<Dim>::operator()(Read<SurfaceTension> tension, Read<Gri
         at_corners.clear();
         on_bodies.clear();
         for_each_corner_force<Dim>(
-            piece, *tension, [&](const auto& corner, const Vec<Dim>& force, std::int32_t pulled) {
+            piece, *tension, [&](const auto& corner, const Vec<Dim>& force, std::int32_t pulled, bool counts) {
               const auto* on = corner.on_body == staggered::none
                                    ? nullptr
                                    : &piece.on_bodies[static_cast<std::size_t>(corner.on_body)];
               Vec<Dim> of_body = forces.hand_on(corner, on, force, [&](std::size_t i, const Vec<Dim>& share) {
                 at_corners.emplace_back(static_cast<std::uint32_t>(i), share);
               });
-              if (on == nullptr) return;
+              if (on == nullptr || !counts) return;
               // The wall is pulled against the liquid that spreads on it.
               if (pulled != staggered::none) of_body -= force;
               const auto b = static_cast<std::size_t>(on->body);
@@ -187,6 +191,7 @@ void FindSurfaceTraction<Dim>::operator()(Read<SurfaceTension> tension, Read<Gri
   for (const auto& of_piece : sums->on_bodies) {
     for (const auto& [b, force] : of_piece) F_b->of[b] += force;
   }
+  add_up_on_all(of_ranks(shared), std::span(F_b->of));
   for_each_row(t_i.size(), [&](std::size_t i) {
     if (A_i[i] > least_around) t_i[i] /= A_i[i];
   });

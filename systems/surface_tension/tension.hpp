@@ -12,6 +12,7 @@
 #include "engine/schedule/system.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/momentum/face_extension.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -36,8 +37,9 @@ struct FindSurfaceTraction {
   static constexpr std::string_view doc = "(E113) (E114) (E121) t_i of surface and contact lines";
   void operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid, Read<Walls<Dim>> walls,
                   Read<StaggeredIndex<Dim>> rows, Read<FreeSurface<Dim>> surface, Read<surface::Around> A_i,
-                  Optional<Read<body::MiddlePosition<Dim>>> c_b, Update<PieceSums<Dim>> sums,
-                  Write<surface::Traction<Dim>> t_i, Write<surface::ForceOnBodies<Dim>> F_b) const;
+                  Optional<Read<body::MiddlePosition<Dim>>> c_b, Optional<Read<SiteExchange>> shared,
+                  Update<PieceSums<Dim>> sums, Write<surface::Traction<Dim>> t_i,
+                  Write<surface::ForceOnBodies<Dim>> F_b) const;
 };
 
 /// (E113)  F_f = integral of N_f sum_i N_i t_i over the surface; v*_f gets tau F_f/m_f. (E121) Near bodies E^T F_f.
@@ -59,7 +61,8 @@ struct MeasureSurfaceEnergy {
   static constexpr std::string_view doc = "(E115) surface energy at the end of the step";
   void operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface, Read<Grid<Dim>> grid,
                   Read<particle::Volume> V_p, Read<face::SurfaceForce<Dim>> F_f, Read<face::Displacement<Dim>> u_f,
-                  Update<measure::Energy> energy, Update<measure::Columns> columns) const;
+                  Optional<Read<SiteExchange>> shared, Update<measure::Energy> energy,
+                  Update<measure::Columns> columns) const;
 };
 
 /// The same where nothing has moved yet.
@@ -67,7 +70,8 @@ template <int Dim>
 struct MeasureSurfaceEnergyAtStart {
   static constexpr std::string_view doc = "(E115) surface energy at the start";
   void operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface, Read<Grid<Dim>> grid,
-                  Read<particle::Volume> V_p, Update<measure::Energy> energy, Update<measure::Columns> columns) const;
+                  Read<particle::Volume> V_p, Optional<Read<SiteExchange>> shared, Update<measure::Energy> energy,
+                  Update<measure::Columns> columns) const;
 };
 
 }  // namespace minamo

@@ -51,6 +51,7 @@ void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Re
   const double tau = rates->velocity / rates->acceleration;
   const bool walls_rub = static_cast<bool>(cut);
   FrictionOf<Dim> of{*splines, *matrices, *cells, *sites, mu_c.span()};
+  of.shared = of_ranks(shared);
   if (walls_rub) {
     of.extension = &*extension;
     of.cut = &*cut;
@@ -92,8 +93,8 @@ void RubFaces<Dim>::operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Re
     on_walls->of.clear();
     apply_friction<Dim>(of, numbers<Dim>(std::span<const Vec<Dim>>(predictor.span())).data(),
                         numbers<Dim>(friction.span()).data());
+    add_up(shared, friction.span());
   }
-  add_up(shared, friction.span());
   for_each_row(predictor.size(), [&](std::size_t i) {
     for (Eigen::Index d = 0; d < Dim; ++d) predictor[i][d] -= tau * (per_mass(i, d) * friction[i][d]);
   });

@@ -5,6 +5,7 @@
 
 #include "components/cells.hpp"
 #include "systems/momentum/face_extension.hpp"
+#include "systems/ranks/site_exchange.hpp"
 #include "systems/viscosity/cut_friction.hpp"
 #include "systems/viscosity/friction_matrices.hpp"
 
@@ -24,6 +25,8 @@ struct FrictionOf {
   const FaceExtension<Dim>* extension = nullptr;
   const CutFriction<Dim>* cut = nullptr;
   const FrictionAtRest<Dim>* at_rest = nullptr;
+  /// With other ranks: theirs is what they have of their cells.
+  const SiteExchange* shared = nullptr;
 
   bool is_cut(std::size_t c) const { return cut != nullptr && cut->cuts(c); }
   const double* matrix_of(std::size_t c) const {
@@ -44,6 +47,12 @@ struct FrictionOf {
     });
   }
 };
+
+/// What every rank has of its cells becomes what all have, by face and direction.
+template <int Dim>
+void add_up_faces(const SiteExchange* shared, std::span<double> out) {
+  if (shared != nullptr) shared->add_up(Dim, [&](std::size_t i) { return &out[Dim * i]; });
+}
 
 /// out += K v by cells; at(f) of a face of row i and direction d is that of number Dim i + d.
 template <int Dim>

@@ -27,7 +27,6 @@ struct FrictionSystem {
   std::span<const std::int32_t> row;
   Passage<Dim> passage;
   FrictionWork<Dim>& work;
-  const SiteExchange* shared = nullptr;
   bool has_coarse = false;
 
   bool walls_rub() const { return friction.cut != nullptr; }
@@ -44,19 +43,14 @@ struct FrictionSystem {
     } else {
       std::fill(out.begin(), out.end(), 0.0);
       apply_friction<Dim>(friction, v.data(), out.data());
-      add_up_faces(out);
+      add_up_faces<Dim>(friction.shared, out);
     }
-  }
-  /// What every rank has of its cells.
-  void add_up_faces(Values& out) const {
-    if (shared != nullptr) shared->add_up(Dim, [&](std::size_t i) { return &out[Dim * i]; });
   }
   /// A sum over the faces of all ranks, each once.
   template <class Value>
   double sum_of_faces(const Value& value) const {
-    if (shared == nullptr) return reduce_rows(work.mass.size(), 0.0, value, std::plus<>());
-    return shared->ranks().sum(reduce_rows(
-        work.mass.size(), 0.0, [&](std::size_t f) { return shared->owns(f / Dim) ? value(f) : 0; }, std::plus<>()));
+    const auto counted = [&](std::size_t f) { return owns(friction.shared, f / Dim) ? value(f) : 0; };
+    return on_all(friction.shared, reduce_rows(work.mass.size(), 0.0, counted, std::plus<>()));
   }
   double product(const Values& x, const Values& y) const {
     return sum_of_faces([&](std::size_t f) { return x[f] * y[f]; });
@@ -74,10 +68,11 @@ struct FrictionSystem {
       });
     };
     add_diagonal(work.per_g, [&](std::size_t c) { return friction.matrix_of(c); });
-    add_up_faces(work.per_g);
+    add_up_faces<Dim>(friction.shared, work.per_g);
     if (walls_rub()) {
       add_diagonal(work.tie,
                    [&](std::size_t c) { return friction.matrices.of(friction.splines, friction.cells.cells[c].node); });
+      add_up_faces<Dim>(friction.shared, work.tie);
       // A face through which nothing passes has no velocity of its own.
       for_each_row(work.tie.size(), [&](std::size_t f) {
         if (work.mass[f] == 0) work.tie[f] = 0;
@@ -257,8 +252,8 @@ void SolveFriction<Dim>::operator()(
                              of_unknown.span(),
                              row.span(),
                              {open.span(), {}},
-                             *work,
-                             of_ranks(shared)};
+                             *work};
+  system.friction.shared = of_ranks(shared);
   if (walls_rub) {
     system.friction.extension = &*extension;
     system.friction.cut = &*cut;
@@ -276,10 +271,10 @@ void SolveFriction<Dim>::operator()(
   });
   system.precondition();
   if (walls_rub) system.subtract_moving_walls();
-  if (!work->multipliers) work->multipliers = new_multipliers<Dim>(system.shared);
+  if (!work->multipliers) work->multipliers = new_multipliers<Dim>(system.friction.shared);
   work->multipliers->prepare(
       *splines, system.incidence,
-      {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span(), system.shared},
+      {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span(), system.friction.shared},
       work->through);
   if (!shared && system.is_stiff()) {
     // Of faces that bodies cut coarser levels take no part.

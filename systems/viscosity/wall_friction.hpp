@@ -46,7 +46,7 @@ void add_sliding_walls(const FrictionOf<Dim>& of, WallsMove move, const double* 
 /// out = E^T K E v, or with moving walls what is affine in v.
 /// \param tie       of closed faces, by number; empty: none [kg/s]
 /// \param x         room, of the size of v
-/// \param on_walls  if not null, the forces on the bodies are added to it, by body
+/// \param on_walls  if not null, the forces on the bodies come into it, by body; zero before
 template <int Dim>
 void apply_wall_friction(const FrictionOf<Dim>& of, WallsMove move, std::span<const double> tie,
                          std::span<const double> v, std::span<double> x, std::span<double> out,
@@ -63,6 +63,7 @@ void apply_wall_friction(const FrictionOf<Dim>& of, WallsMove move, std::span<co
   std::fill(out.begin(), out.end(), 0.0);
   apply_friction<Dim>(of, x.data(), out.data());
   detail::add_sliding_walls<Dim>(of, move, x.data(), out.data(), on_walls);
+  add_up_faces<Dim>(of.shared, out);
   // One after the other: the same sums on any number of threads.
   for (const auto& at : extension.targets) {
     const std::size_t f = at.number();
@@ -70,8 +71,10 @@ void apply_wall_friction(const FrictionOf<Dim>& of, WallsMove move, std::span<co
     const double pull = out[f] - held;
     out[f] = held;
     extension.for_each_source(at, [&](std::size_t source, double e) { out[source] += e * pull; });
-    if (on_walls != nullptr && at.wall >= 0) (*on_walls)[static_cast<std::size_t>(at.wall)] -= pull * at.lever;
+    if (on_walls != nullptr && at.wall >= 0 && owns(of.shared, at.row))
+      (*on_walls)[static_cast<std::size_t>(at.wall)] -= pull * at.lever;
   }
+  if (on_walls != nullptr) add_up_on_all(of.shared, std::span(*on_walls));
 }
 
 /// Moves what a diagonal that bounds K has at closed faces to the open ones: of E^T D E it makes a diagonal that is no

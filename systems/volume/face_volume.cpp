@@ -95,8 +95,9 @@ void add_up_parts(const SiteExchange& shared, const Splines<Dim>& splines, const
     middle.fill(1);
     of_site[*index.find(splines.site(cell, middle))] = &fill[c * per_cell];
   };
-  for (std::size_t c = 0; c < cells.cells.size(); ++c) note(cells.cells[c].node, c);
-  for (std::size_t g = 0; g < ghosts.cells.size(); ++g) note(ghosts.cells[g].at, cells.cells.size() + g);
+  // Of the cells that walls part the first has the parts of all.
+  for (std::size_t c = cells.cells.size(); c-- > 0;) note(cells.cells[c].node, c);
+  for (std::size_t g = ghosts.cells.size(); g-- > 0;) note(ghosts.cells[g].at, cells.cells.size() + g);
   shared.add_up(per_cell, [&](std::size_t row) { return of_site[row]; });
 }
 
@@ -158,7 +159,7 @@ void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines
     if (hidden && hidden->is_hidden(lowest)) lowest = *index->find(splines->site(cells->cells[c].node, {}));
     parts->cell_of_site[lowest] = static_cast<std::int32_t>(c);
   }
-  for (std::size_t c = own; c < all; ++c) {
+  for (std::size_t c = all; c-- > own;) {
     const std::uint32_t lowest = *index->find(splines->site(ghosts->cells[c - own].at, {}));
     parts->cell_of_site[lowest] = static_cast<std::int32_t>(c);
   }
@@ -280,7 +281,8 @@ void LimitParticleShift<Dim>::operator()(Read<Clock> clock, Read<BodyForce> b, R
   const auto lift_of = [&](std::size_t p) { return -m_p[p] * (b_p ? b_p[p] : everywhere).dot(d_p[p] + s_p[p]); };
   const Lift lift = sum_lifts(m_p.size(), lift_of, of_ranks(shared));
   const double net = lift.up - lift.down;
-  if (net <= 0) return;
+  constexpr double rounding = 1e-12;
+  if (net <= rounding * lift.down) return;
   const auto work_at = [&](std::size_t i) { return m_f[i].cwiseProduct(b_f[i]).dot(u_f[i]); };
   const double work = reduce_rows(
       u_f.size(), 0.0, [&](std::size_t i) { return owns(of_ranks(shared), i) ? work_at(i) : 0; }, std::plus<>());
@@ -289,6 +291,8 @@ void LimitParticleShift<Dim>::operator()(Read<Clock> clock, Read<BodyForce> b, R
   if (W_b)
     given = std::reduce(W_b.span().begin(), W_b.span().end()) - std::reduce(W_old.span().begin(), W_old.span().end());
   if (W_o) given -= W_o->value;
+  // All ranks know that.
+  if (shared && !shared->ranks().is_first()) given = 0;
   double lost = work - given - (kinetic_energy<Dim>(m_p.span(), v_p.span()) - before->kinetic);
   if (shared) lost = shared->ranks().sum(lost);
   const double of_all = std::clamp(lost / net, 0.0, 1.0);

@@ -43,6 +43,8 @@ struct MatrixOfRanks {
   std::span<const typename unknown::Neighbour<Dim>::value_type> neighbour;
   std::span<const typename unknown::Conductance<Dim>::value_type> conductance;
   std::span<const double> diagonal, null_vector;
+
+  StaggeredLaplacian<Dim> laplacian() const { return {{}, neighbour, conductance, diagonal}; }
 };
 
 struct Solved {
@@ -62,6 +64,7 @@ struct PetscSolver::Impl {
   std::vector<std::size_t> own;  ///< unknowns that this rank answers for: its rows of the matrix and of vectors
   std::vector<PetscInt> number;  ///< of every unknown among those of all ranks; -1: no rank owns it
   PetscInt all = 0;              ///< unknowns of all ranks
+  ClosedComponents closed;
 
   Impl() {
     check(KSPCreate(PETSC_COMM_WORLD, &solver));
@@ -94,6 +97,7 @@ struct PetscSolver::Impl {
   void set(const MatrixOfRanks<Dim>& of) {
     forget();
     number_unknowns(of.shared, of.of_unknown);
+    closed = {};
     if (all == 0) return;
     const auto rows = static_cast<PetscInt>(own.size());
     check(MatCreateAIJ(PETSC_COMM_WORLD, rows, rows, all, all, 2 * Dim + 1, nullptr, 2 * Dim, nullptr, &matrix));
@@ -102,7 +106,9 @@ struct PetscSolver::Impl {
     check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
     check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
-    note_closed_box(of.shared, of.null_vector, of.diagonal);
+    const std::vector<std::int64_t> numbers(number.begin(), number.end());
+    closed.find_on_ranks(of.laplacian(), of.null_vector, of.of_unknown, numbers, of.shared);
+    set_null_space(of.null_vector);
     check(KSPSetOperators(solver, matrix, matrix));
   }
   /// \param b    of an unknown
@@ -160,27 +166,23 @@ struct PetscSolver::Impl {
       set_neighbour(of.neighbour[l][2 * d + 1], false);
     }
   }
-  /// Sets the null space where walls enclose the liquid all around: S n = 0.
-  void note_closed_box(const SiteExchange& shared, std::span<const double> null_vector,
-                       std::span<const double> diagonal) {
-    double* values = nullptr;
-    double largest = 0;
-    check(VecGetArray(right, &values));
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      values[k] = null_vector[own[k]];
-      largest = std::max(largest, diagonal[own[k]] * null_vector[own[k]]);
+  /// S n = 0 where walls enclose the liquid all around: a vector for every closed component.
+  void set_null_space(std::span<const double> null_vector) {
+    if (closed.count() == 0) return;
+    std::vector<::Vec> basis(closed.count());
+    for (std::size_t k = 0; k < basis.size(); ++k) {
+      check(VecDuplicate(right, &basis[k]));
+      double* values = nullptr;
+      check(VecGetArray(basis[k], &values));
+      for (std::size_t l = 0; l < own.size(); ++l) values[l] = closed.number(own[l]) == k + 1 ? null_vector[own[l]] : 0;
+      check(VecRestoreArray(basis[k], &values));
+      check(VecNormalize(basis[k], nullptr));
     }
-    check(VecRestoreArray(right, &values));
-    check(MatMult(matrix, right, solution));
-    double left = 0;
-    check(VecNorm(solution, NORM_INFINITY, &left));
-    if (left > 1e-10 * shared.ranks().largest(largest)) return;
-    check(VecNormalize(right, nullptr));
-    check(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, 1, &right, &null_space));
+    const auto count = static_cast<PetscInt>(basis.size());
+    check(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, count, basis.data(), &null_space));
     check(MatSetNullSpace(matrix, null_space));
-    // The space holds on to this vector.
-    check(VecDestroy(&right));
-    check(MatCreateVecs(matrix, nullptr, &right));
+    // The space holds on to the vectors.
+    for (::Vec& vector : basis) check(VecDestroy(&vector));
   }
 };
 
@@ -191,22 +193,30 @@ void SolveMultipliersPetsc<Dim>::operator()(Read<SiteExchange> shared, Read<Solv
                                             Read<unknown::Conductance<Dim>> conductance,
                                             Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector,
                                             Read<unknown::Source> source, Update<PetscSolver> solver,
-                                            Write<unknown::Solution> solution, Write<SolveReport> report) const {
+                                            Write<MultiplierSolver<Dim>> again, Write<unknown::Solution> solution,
+                                            Write<SolveReport> report) const {
   auto& petsc = solver->impl();
   petsc.set(MatrixOfRanks<Dim>{*shared, of_unknown.span(), neighbour.span(), conductance.span(), diagonal.span(),
                                null_vector.span()});
-  *report = {.unknowns = petsc.all, .active = petsc.all, .iterations = 0, .residual = 0};
-  for (auto& x : solution) x = {};
-  if (petsc.all == 0) return;
-  std::vector<Sources> of_site(row.size(), Sources{});
-  for (std::size_t s = 0; s < most_sources; ++s) {
-    const Solved solved = petsc.solve([&](std::size_t l) { return source[l][s]; }, tolerance->relative,
-                                      [&](std::size_t l, double x) { of_site[of_unknown[l]][s] = x; });
-    report->iterations = std::max(report->iterations, solved.iterations);
-    report->residual = std::max(report->residual, solved.residual);
-  }
-  shared->copy_from_owner(std::span(of_site));
-  for (std::size_t l = 0; l < solution.size(); ++l) solution[l] = of_site[of_unknown[l]];
+  // Of what follows in the step nothing changes these.
+  const auto solve = [&petsc, exchange = &*shared, rows = row.size(),
+                      of = of_unknown.span()](std::span<const Sources> b, std::span<Sources> x, double relative) {
+    SolveReport of_step{.unknowns = petsc.all, .active = petsc.all, .iterations = 0, .residual = 0};
+    std::fill(x.begin(), x.end(), Sources{});
+    if (petsc.all == 0) return of_step;
+    std::vector<Sources> of_site(rows, Sources{});
+    for (std::size_t s = 0; s < most_sources; ++s) {
+      const Solved solved = petsc.solve([&](std::size_t l) { return b[l][s]; }, relative,
+                                        [&](std::size_t l, double value) { of_site[of[l]][s] = value; });
+      of_step.iterations = std::max(of_step.iterations, solved.iterations);
+      of_step.residual = std::max(of_step.residual, solved.residual);
+    }
+    exchange->copy_from_owner(std::span(of_site));
+    for (std::size_t l = 0; l < x.size(); ++l) x[l] = of_site[of[l]];
+    return of_step;
+  };
+  again->leave_to_ranks(petsc.closed, solve);
+  *report = solve(source.span(), solution.span(), tolerance->relative);
 }
 
 template <int Dim>

@@ -8,6 +8,7 @@
 #include "engine/run/linear_solver.hpp"
 #include "engine/schedule/registry.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/pressure/solve.hpp"
 #include "systems/ranks/site_exchange.hpp"
 #include "systems/viscosity/multiplier_matrix.hpp"
 
@@ -39,7 +40,8 @@ struct SolveMultipliersPetsc {
                   Read<unknown::Staggered> of_unknown, Read<unknown::Neighbour<Dim>> neighbour,
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
                   Read<unknown::NullVector> null_vector, Read<unknown::Source> source, Update<PetscSolver> solver,
-                  Write<unknown::Solution> solution, Write<SolveReport> report) const;
+                  Write<MultiplierSolver<Dim>> again, Write<unknown::Solution> solution,
+                  Write<SolveReport> report) const;
 };
 
 /// What projects velocities of a stiff liquid on all ranks; every rank has the solutions of the unknowns that it knows.

@@ -113,7 +113,7 @@ void warn_of_idle_ranks(World& world) {
   if (all_ranks() == nullptr) return;
   const std::int64_t idle = sum_over_ranks(std::int64_t{world.rows<Particles>() == 0});
   if (idle == 0) return;
-  spdlog::warn("{} of {} ranks have no particles at the start: fewer blocks of 4 cells per direction have liquid", idle,
+  spdlog::warn("{} of {} ranks have no particles at the start: fewer blocks of 2 cells per direction have liquid", idle,
                all_ranks()->size());
 }
 

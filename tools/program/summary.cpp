@@ -9,6 +9,7 @@
 #include "engine/run/step_control.hpp"
 #include "systems/measure/acceptance.hpp"
 #include "systems/output/history.hpp"
+#include "systems/ranks/rank_map.hpp"
 #include "systems/time/body_force.hpp"
 #include "systems/time/turns.hpp"
 #include "tools/program/version.hpp"
@@ -119,6 +120,7 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
         {"count", ranks->size()},
         {"messages", ranks->sum(sent.messages)},
         {"bytes", ranks->sum(sent.bytes)},
+        {"imbalance", world.resource<RankMap>().largest_imbalance},
         {"peak_memory_bytes", static_cast<std::int64_t>(ranks->largest(static_cast<double>(peak_memory())))}};
   }
   Json conservation{{"mass", mass}};

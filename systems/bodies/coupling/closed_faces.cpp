@@ -32,13 +32,14 @@ void CountClosedFaces<Dim>::operator()(
     Read<face::OpenVolume<Dim>> open_volume, Read<face::Closer<Dim>> closer, Read<face::AttachedMass<Dim>> attached,
     Read<face::AttachedTo<Dim>> attached_to, Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
     Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-    Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Update<body::Force<Dim>> F_b,
-    Update<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
+    Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Optional<Read<SiteExchange>> shared,
+    Update<body::Force<Dim>> F_b, Update<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
   if (std::none_of(set->bodies.begin(), set->bodies.end(), counts<Dim>)) return;
   const SitePlaces<Dim> places(*grid, *splines);
   std::vector<RigidVector<Dim>> impulse(set->bodies.size(), RigidVector<Dim>::Zero());
   // Particles got momentum at a face; what moves with the body (E94) is part of its force already.
   const auto give = [&](std::size_t i, std::size_t d, double momentum) {
+    if (!owns(of_ranks(shared), i)) return;
     const int beside = body_beside<Dim>(attached_to[i], closer[i], d);
     if (beside < 0 || !counts<Dim>(set->bodies[static_cast<std::size_t>(beside)])) return;
     const auto b = static_cast<std::size_t>(beside);
@@ -67,6 +68,7 @@ void CountClosedFaces<Dim>::operator()(
       give(i, d, (m_f[i][axis] - in_balance) * (v_new[i][axis] - v_old[i][axis]));
     }
   }
+  add_up_on_all(of_ranks(shared), std::span(impulse));
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     F_b[b] += impulse[b].template head<Dim>() / clock->step;
     T_b[b] += impulse[b].template tail<rotations<Dim>>() / clock->step;

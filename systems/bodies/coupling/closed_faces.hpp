@@ -11,6 +11,7 @@
 #include "systems/bodies/body_set.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/momentum/face_extension.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -28,8 +29,9 @@ struct CountClosedFaces {
                   Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
                   Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
                   Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-                  Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Update<body::Force<Dim>> F_b,
-                  Update<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
+                  Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
+                  Optional<Read<SiteExchange>> shared, Update<body::Force<Dim>> F_b, Update<body::Torque<Dim>> T_b,
+                  Update<body::Work> W_b) const;
 };
 
 }  // namespace minamo

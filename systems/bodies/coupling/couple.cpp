@@ -43,10 +43,16 @@ class MotionColumns {
   std::vector<Block> blocks_;
 };
 
+template <class Matrix>
+std::span<double> numbers_of(Matrix& of) {
+  return {of.data(), static_cast<std::size_t>(of.size())};
+}
+
 /// U = B C: what a unit of every motion adds to the divergence around an unknown.
 struct Fluxes {
   MotionColumns columns;
-  std::vector<std::size_t> touched;  ///< unknowns near free bodies
+  std::vector<std::size_t> touched;  ///< unknowns near free bodies that this rank owns
+  const SiteExchange* shared = nullptr;
 
   /// U^T x, with x by unknown.
   template <class At>
@@ -55,6 +61,7 @@ struct Fluxes {
     for (const std::size_t l : touched) {
       for (Eigen::Index k = 0; k < columns.count(); ++k) product[k] += columns.at(k, l) * x(l);
     }
+    add_up_on_all(shared, numbers_of(product));
     return product;
   }
 };
@@ -119,8 +126,10 @@ struct Enclosures {
   Eigen::VectorXd sums(std::span<const double> n_l, const ClosedComponents& closed, const At& b) const {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(N.rows());
     for (std::size_t l = 0; any() && l < n_l.size(); ++l) {
+      if (!closed.counts(l)) continue;
       if (const auto row = row_of(closed.number(l))) sum[*row] += n_l[l] * b(l);
     }
+    closed.add_up(numbers_of(sum));
     return sum;
   }
 };
@@ -132,13 +141,15 @@ Enclosures enclosures_of(const Fluxes& fluxes, std::span<const double> n_l, cons
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(components, motions);
   Eigen::MatrixXd absolute = sum;
   for (const std::size_t l : fluxes.touched) {
-    if (!closed.contains(l) || !is_full[closed.number(l) - 1]) continue;
+    if (!closed.counts(l) || !is_full[closed.number(l) - 1]) continue;
     const auto row = static_cast<Eigen::Index>(closed.number(l) - 1);
     for (Eigen::Index k = 0; k < motions; ++k) {
       sum(row, k) += n_l[l] * fluxes.columns.at(k, l);
       absolute(row, k) += n_l[l] * std::abs(fluxes.columns.at(k, l));
     }
   }
+  closed.add_up(numbers_of(sum));
+  closed.add_up(numbers_of(absolute));
   sum = (sum.array().abs() > least_change_of_room * absolute.array()).select(sum, 0).eval();
   Enclosures enclosures;
   for (Eigen::Index row = 0; row < components; ++row) {
@@ -196,6 +207,7 @@ struct AttachedLiquid {
   std::span<const typename staggered::Site<Dim>::value_type> site;
   std::span<const Vec<Dim>> mass;
   std::span<const typename face::AttachedTo<Dim>::value_type> to;
+  const SiteExchange* shared = nullptr;
 };
 
 /// Calls use(site, axis, along) for the liquid that free bodies carry, with what every motion moves it along its axis.
@@ -204,6 +216,7 @@ void for_each_attached(const SitePlaces<Dim>& places, const FreeMotions<Dim>& mo
                        std::span<const Vec<Dim>> middle_position, const AttachedLiquid<Dim>& liquid, const Use& use) {
   Eigen::VectorXd along(motions.count());
   for (std::size_t i = 0; i < liquid.site.size(); ++i) {
+    if (!owns(liquid.shared, i)) continue;
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       if (liquid.to[i][d] < 0 || liquid.mass[i][axis] == 0) continue;
@@ -248,16 +261,16 @@ void CoupleFreeBodies<Dim>::operator()(
     Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::Conductance<Dim>> conductance,
     Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
     Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Optional<Read<FrictionOnWalls<Dim>>> friction,
-    Optional<Read<surface::ForceOnBodies<Dim>>> lines, Update<MultiplierSolver<Dim>> solver,
-    Update<unknown::Solution> solution, Update<SolveReport> report, Update<body::MeanVelocity<Dim>> V_mean,
-    Update<body::MeanSpin<Dim>> omega_mean, Update<body::Work> W_b, Write<body::EndVelocity<Dim>> V_end,
-    Write<body::EndSpin<Dim>> omega_end) const {
+    Optional<Read<surface::ForceOnBodies<Dim>>> lines, Optional<Read<SiteExchange>> shared,
+    Update<MultiplierSolver<Dim>> solver, Update<unknown::Solution> solution, Update<SolveReport> report,
+    Update<body::MeanVelocity<Dim>> V_mean, Update<body::MeanSpin<Dim>> omega_mean, Update<body::Work> W_b,
+    Write<body::EndVelocity<Dim>> V_end, Write<body::EndSpin<Dim>> omega_end) const {
   const FreeMotions<Dim> motions(*set);
   const std::vector<Vec<Dim>> V(V_mean.begin(), V_mean.end());
   const std::vector<Vec<rotations<Dim>>> omega(omega_mean.begin(), omega_mean.end());
   const BodyStates<Dim> at{c_b.span(), R_b.span(), V, omega};
 
-  Fluxes fluxes{MotionColumns(motions.count(), solution.size()), {}};
+  Fluxes fluxes{MotionColumns(motions.count(), solution.size()), {}, of_ranks(shared)};
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
   const auto add_flux = [&](std::size_t l, std::size_t f, std::size_t d, double per_width) {
@@ -279,7 +292,7 @@ void CoupleFreeBodies<Dim>::operator()(
       is_touched |= add_flux(l, incidence.above(of_unknown[l], d), d, per_width);
       is_touched |= add_flux(l, of_unknown[l], d, -per_width);
     }
-    if (is_touched) fluxes.touched.push_back(l);
+    if (is_touched && owns(of_ranks(shared), of_unknown[l])) fluxes.touched.push_back(l);
   }
   const ClosedComponents& closed_parts = solver->closed();
   const Enclosures enclosures =
@@ -318,11 +331,18 @@ void CoupleFreeBodies<Dim>::operator()(
   const double tau = rates->velocity / rates->acceleration;
   BodyBalances balances = balances_of<Dim>(*set, motions, at, R_middle.span(), body_force, tau);
   const Eigen::MatrixXd own = balances.mass;
-  for_each_attached<Dim>(places, motions, c_middle.span(), {site.span(), attached.span(), attached_to.span()},
+  Eigen::MatrixXd attached_mass = Eigen::MatrixXd::Zero(own.rows(), own.cols());
+  Eigen::VectorXd attached_impulse = Eigen::VectorXd::Zero(own.rows());
+  for_each_attached<Dim>(places, motions, c_middle.span(),
+                         {site.span(), attached.span(), attached_to.span(), of_ranks(shared)},
                          [&](std::size_t i, Eigen::Index axis, const Eigen::VectorXd& along) {
-                           balances.mass += attached[i][axis] * along * along.transpose();
-                           balances.impulse += tau * attached[i][axis] * b_f[i][axis] * along;
+                           attached_mass += attached[i][axis] * along * along.transpose();
+                           attached_impulse += tau * attached[i][axis] * b_f[i][axis] * along;
                          });
+  add_up_on_all(of_ranks(shared), numbers_of(attached_mass));
+  add_up_on_all(of_ranks(shared), numbers_of(attached_impulse));
+  balances.mass += attached_mass;
+  balances.impulse += attached_impulse;
   for (std::size_t b = 0; b < set->bodies.size(); ++b)
     motions.for_each_of(b, [&](Eigen::Index k, int c) { balances.impulse[k] += tau / clock->step * J_b[b][c]; });
   for (std::size_t b = 0; set->rubs && b < set->bodies.size(); ++b)

@@ -11,6 +11,7 @@
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
 #include "systems/pressure/solve.hpp"
+#include "systems/ranks/site_exchange.hpp"
 #include "systems/viscosity/cut_friction.hpp"
 
 namespace minamo {
@@ -34,8 +35,8 @@ struct CoupleFreeBodies {
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
                   Read<unknown::NullVector> null_vector, Read<unknown::Source> source, Read<multiplier::Volume> v_l,
                   Read<multiplier::Capacity> capacity, Optional<Read<FrictionOnWalls<Dim>>> friction,
-                  Optional<Read<surface::ForceOnBodies<Dim>>> lines, Update<MultiplierSolver<Dim>> solver,
-                  Update<unknown::Solution> solution, Update<SolveReport> report,
+                  Optional<Read<surface::ForceOnBodies<Dim>>> lines, Optional<Read<SiteExchange>> shared,
+                  Update<MultiplierSolver<Dim>> solver, Update<unknown::Solution> solution, Update<SolveReport> report,
                   Update<body::MeanVelocity<Dim>> V_mean, Update<body::MeanSpin<Dim>> omega_mean,
                   Update<body::Work> W_b, Write<body::EndVelocity<Dim>> V_end,
                   Write<body::EndSpin<Dim>> omega_end) const;

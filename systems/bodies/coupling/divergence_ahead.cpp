@@ -74,19 +74,17 @@ CutMultipliers find_cut(const Incidence<Dim>& incidence, const Splines<Dim>& spl
 }  // namespace
 
 template <int Dim>
-void FindDivergenceAhead<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                          Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b,
-                                          Read<body::MiddleRotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
-                                          Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells,
-                                          Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                          Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-                                          Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                                          Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                          Read<face::Mass<Dim>> m_f, Read<face::Open<Dim>> open,
-                                          Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
-                                          Read<multiplier::Volume> v_l, Update<multiplier::Curvature> curvature) const {
+void FindDivergenceAhead<Dim>::operator()(
+    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
+    Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells, Read<CellSites> sites,
+    Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+    Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Read<staggered::Site<Dim>> site,
+    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f, Read<face::Open<Dim>> open,
+    Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi, Read<multiplier::Volume> v_l,
+    Optional<Read<SiteExchange>> shared, Update<multiplier::Curvature> curvature) const {
   const auto gradient = grad_v_p.span();
-  if (gradient.empty()) return;
+  if (!grad_v_p) return;
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const WallMotion<Dim> walls{bodies, set->any_moves(), 3 * grid->spacing, c_b.span(), V_b.span(), omega_b.span()};
   const double half_step = 0.5 * clock->step;
@@ -122,6 +120,7 @@ void FindDivergenceAhead<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> gri
       }
     });
   });
+  add_up(shared, std::span(turn));
   divide_by_mass<Dim>(m_f.span(), turn);
 
   const Passage<Dim> passage{open.span(), {}};

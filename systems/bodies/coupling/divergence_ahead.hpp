@@ -15,6 +15,7 @@
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
 #include "systems/grid/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -30,7 +31,8 @@ struct FindDivergenceAhead {
                   Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
                   Read<face::Open<Dim>> open, Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
-                  Read<multiplier::Volume> v_l, Update<multiplier::Curvature> curvature) const;
+                  Read<multiplier::Volume> v_l, Optional<Read<SiteExchange>> shared,
+                  Update<multiplier::Curvature> curvature) const;
 };
 
 }  // namespace minamo

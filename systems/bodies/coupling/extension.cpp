@@ -248,9 +248,9 @@ void FindFaceExtension<Dim>::operator()(
     Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
     Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells,
     Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
-    Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site, Read<face::Held> held,
-    Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
-    Write<FaceExtension<Dim>> extension) const {
+    Optional<Read<SurfaceTension>> tension, Optional<Read<SiteExchange>> shared, Read<staggered::Site<Dim>> site,
+    Read<face::Held> held, Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
+    Read<multiplier::OpenShare> share, Write<FaceExtension<Dim>> extension) const {
   constexpr std::size_t most = power(rows_across, Dim);
   const SitePlaces<Dim> places(*grid, *splines);
   const WallsAround<Dim> walls{*set, {*set, c_b.span(), R_b.span()}};
@@ -295,6 +295,7 @@ void FindFaceExtension<Dim>::operator()(
   } else {
     filled = filled_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), is_near_target);
   }
+  add_up(shared, std::span(filled));
   extension->source.resize(extension->targets.size() * most);
   extension->weight.resize(extension->targets.size() * most);
   for_each_row(extension->targets.size(), [&](std::size_t t) {

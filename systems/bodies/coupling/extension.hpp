@@ -22,6 +22,7 @@
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/momentum/face_extension.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -37,9 +38,10 @@ struct FindFaceExtension {
                   Optional<Read<HiddenSites>> hidden, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells, Read<CellSites> cell_sites,
                   Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Optional<Read<SurfaceTension>> tension, Read<staggered::Site<Dim>> site, Read<face::Held> held,
-                  Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
-                  Read<multiplier::OpenShare> share, Write<FaceExtension<Dim>> extension) const;
+                  Optional<Read<SurfaceTension>> tension, Optional<Read<SiteExchange>> shared,
+                  Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Open<Dim>> open,
+                  Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
+                  Write<FaceExtension<Dim>> extension) const;
 };
 
 /// (E87) of the velocity at the start of the step.

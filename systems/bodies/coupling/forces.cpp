@@ -52,18 +52,16 @@ void set_columns(measure::Columns& columns, const std::string& name, const BodyR
 }  // namespace
 
 template <int Dim>
-void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                 Read<BodySet<Dim>> set, Read<staggered::Site<Dim>> site,
-                                 Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
-                                 Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
-                                 Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
-                                 Read<multiplier::Row> row, Read<unknown::Solution> solution,
-                                 Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
-                                 Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old,
-                                 Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
-                                 Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
-                                 Optional<Read<surface::ForceOnBodies<Dim>>> lines, Write<body::Force<Dim>> F_b,
-                                 Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
+void PushBodies<Dim>::operator()(
+    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
+    Read<Rates> rates, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
+    Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
+    Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
+    Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
+    Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
+    Optional<Read<surface::ForceOnBodies<Dim>>> lines, Optional<Read<SiteExchange>> shared, Write<body::Force<Dim>> F_b,
+    Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const SitePlaces<Dim> places(*grid, *splines);
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
@@ -84,6 +82,7 @@ void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<S
   std::vector<RigidVector<Dim>> impulse(set->bodies.size(), RigidVector<Dim>::Zero());
   // One after the other: the same sums on any number of threads.
   for (std::size_t i = 0; i < site.size(); ++i) {
+    if (!owns(of_ranks(shared), i)) continue;
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       if (attached_to[i][d] >= 0) {
@@ -107,6 +106,9 @@ void PushBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<S
       }
     }
   }
+  add_up_on_all(of_ranks(shared), F_b.span());
+  add_up_on_all(of_ranks(shared), T_b.span());
+  add_up_on_all(of_ranks(shared), std::span(impulse));
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     if (lines) {
       F_b[b] += lines->of[b].template head<Dim>();

@@ -11,6 +11,7 @@
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
 #include "systems/grid/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 #include "systems/viscosity/cut_friction.hpp"
 
 namespace minamo {
@@ -29,7 +30,8 @@ struct PushBodies {
                   Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old,
                   Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
                   Optional<Read<FrictionOnWalls<Dim>>> friction, Optional<Read<surface::ForceOnBodies<Dim>>> lines,
-                  Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
+                  Optional<Read<SiteExchange>> shared, Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
+                  Update<body::Work> W_b) const;
 };
 
 /// (E90)  What particles that a body stops, (E89), give it: force, torque and work of their impulse. A free body takes

@@ -353,8 +353,8 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                                      Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
                                      Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l,
-                                     Read<multiplier::Capacity> capacity, Update<face::ExactShare<Dim>> share,
-                                     Update<multiplier::SurfaceDistance> psi,
+                                     Read<multiplier::Capacity> capacity, Optional<Read<SiteExchange>> shared,
+                                     Update<face::ExactShare<Dim>> share, Update<multiplier::SurfaceDistance> psi,
                                      Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
                                      Write<ContinuedLiquid<Dim>> continued) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
@@ -394,8 +394,7 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     n_l[*row] = known->normal;
     if (fill[*row] > 0) fill[*row] = known->fill;  // without particles not all of its faces have rows
   }
-  if (is_all_told && !continued->any_parted) return;
-  for_each_row(site.size(), [&](std::size_t i) {
+  for_each_row(is_all_told && !continued->any_parted ? 0 : site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       double& of_face = share[i][static_cast<Eigen::Index>(d)];
       if (of_face == 0) continue;
@@ -408,6 +407,11 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
       });
     }
   });
+  if (!shared) return;
+  shared->copy_from_owner(psi.span());
+  shared->copy_from_owner(n_l.span());
+  shared->copy_from_owner(fill.span());
+  shared->copy_from_owner(share.span());
 }
 
 template struct ContinueLiquid<2>;

@@ -5,6 +5,7 @@
 
 #include "components/liquid.hpp"
 #include "systems/bodies/geometry/cut.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -18,9 +19,9 @@ struct ContinueLiquid {
                   Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
                   Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                  Update<face::ExactShare<Dim>> share, Update<multiplier::SurfaceDistance> psi,
-                  Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
-                  Write<ContinuedLiquid<Dim>> continued) const;
+                  Optional<Read<SiteExchange>> shared, Update<face::ExactShare<Dim>> share,
+                  Update<multiplier::SurfaceDistance> psi, Update<multiplier::SurfaceNormal<Dim>> n_l,
+                  Update<multiplier::ContinuedFill> fill, Write<ContinuedLiquid<Dim>> continued) const;
 };
 
 }  // namespace minamo

@@ -137,7 +137,7 @@ template <int Dim>
 void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                                    Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
                                    Read<body::MiddleRotation<Dim>> R_b, Read<particle::QuadraturePosition<Dim>> y_p,
-                                   Update<DrySides<Dim>> dry) const {
+                                   Optional<Read<Ranks>> ranks, Update<DrySides<Dim>> dry) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), &*dry);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   dry->sites = splines->sites();
@@ -152,6 +152,7 @@ void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
       for_each_image<Dim>(*grid, y_p[p],
                           [&](const Vec<Dim>& y) { walls.light(shape, bodies.placement(b).to_body(y)); });
     });
+    if (ranks) walls.share_light(*ranks->all);
     const bool has_changed = walls.find_dry();
     const bool moves = set->bodies[b].moves();
     if (!has_changed && !(moves && walls.may_hide_any())) continue;

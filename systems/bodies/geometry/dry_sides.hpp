@@ -3,6 +3,7 @@
 /// (E136) Which side of a thin wall is dry: it counts as part of the body.
 
 #include "components/particle.hpp"
+#include "engine/run/communicator.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 
@@ -19,7 +20,7 @@ struct FindDrySides {
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
                   Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MiddleRotation<Dim>> R_b, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Update<DrySides<Dim>> dry) const;
+                  Optional<Read<Ranks>> ranks, Update<DrySides<Dim>> dry) const;
 };
 
 }  // namespace minamo

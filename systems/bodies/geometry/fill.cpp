@@ -59,7 +59,7 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
     return false;
   };
   for_each_row(phi.size(), [&](std::size_t i) {
-    if (v_l[i] == 0) {  // not all of its faces have rows
+    if (!splines->has_multiplier(site[i]) || v_l[i] == 0) {  // not all of its faces have rows
       phi[i] = around[i] = 0;
       return;
     }
@@ -107,7 +107,7 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
                                     Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
                                     Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least,
                                     Read<face::Mass<Dim>> m_f, Optional<Read<face::Density<Dim>>> rho_f,
-                                    Write<face::UncutMass<Dim>> uncut) const {
+                                    Optional<Read<SiteExchange>> shared, Write<face::UncutMass<Dim>> uncut) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
@@ -176,6 +176,7 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
                              std::pow(grid->spacing, Dim), density},
                             std::move(cut), uncut.span());
   }
+  if (shared) shared->copy_from_owner(uncut.span());
 }
 
 template struct FindUncutMass<2>;

@@ -8,6 +8,7 @@
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/splines.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
 
@@ -37,7 +38,8 @@ struct FindUncutMass {
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open,
                   Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
                   Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
-                  Optional<Read<face::Density<Dim>>> rho_f, Write<face::UncutMass<Dim>> uncut) const;
+                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+                  Write<face::UncutMass<Dim>> uncut) const;
 };
 
 }  // namespace minamo

@@ -6,6 +6,7 @@
 #include "systems/grid/sites_around.hpp"
 
 #include <numeric>
+#include <tuple>
 
 namespace minamo {
 
@@ -127,23 +128,58 @@ std::vector<std::uint64_t> hidden_from_particles(const Grid<Dim>& grid, const Sp
   return hidden;
 }
 
+/// The occupied cells, and behind them those of other ranks around, each with what is hidden from its particles and the
+/// rows of its sites.
+template <int Dim>
+struct AllCells {
+  std::vector<Index<Dim>> node;
+  std::vector<std::uint64_t> hidden;
+  CellSites sites;
+  /// Cells that share a site in the order in which one process goes over them, colour by colour of their blocks.
+  std::vector<std::uint32_t> order;
+
+  AllCells(const OccupiedCells<Dim>& cells, const CellSites& of_cells, std::span<const std::uint64_t> hidden_here)
+      : hidden(hidden_here.begin(), hidden_here.end()), sites(of_cells) {
+    for (const auto& cell : cells.cells) node.push_back(cell.node);
+  }
+  template <int K>
+  void add(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows, const GhostCells<Dim>& ghosts) {
+    for (const auto& cell : ghosts.cells) {
+      node.push_back(cell.at);
+      hidden.push_back(cell.hidden);
+      for_each_site<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
+        sites.rows.push_back(*rows.find(splines.site(cell.at, offset)));
+      });
+    }
+  }
+  void put_in_order(const Grid<Dim>& grid) {
+    const CellBlocks<Dim> blocks(grid, grid.cells);
+    std::vector<std::tuple<std::size_t, std::uint32_t, std::uint32_t, std::uint64_t, std::uint32_t>> keys;
+    for (std::uint32_t c = 0; c < node.size(); ++c) {
+      const std::uint32_t block = blocks.block_of(node[c]);
+      keys.emplace_back(blocks.colour(block), block, blocks.within(node[c]), hidden[c], c);
+    }
+    std::sort(keys.begin(), keys.end());
+    for (const auto& key : keys) order.push_back(std::get<4>(key));
+  }
+  /// Rows of the multipliers that the particles of a cell see, rising.
+  template <int K>
+  std::vector<std::uint32_t> multipliers_seen_from(std::size_t c) const {
+    std::vector<std::uint32_t> seen;
+    for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) {
+      if ((hidden[c] >> k & 1U) == 0) seen.push_back(sites.of(c)[k]);
+    });
+    std::sort(seen.begin(), seen.end());
+    return seen;
+  }
+};
+
 /// The hidden site of a cell: the row of the site, and where it stands in the cell.
 struct HiddenSite {
   std::uint32_t row;
   std::uint32_t cell;
   std::uint32_t place;
 };
-
-/// Rows of the multipliers that the particles of a cell see, rising.
-template <int Dim, int K>
-std::vector<std::uint32_t> multipliers_seen_from(const CellSites& sites, const HiddenSites& hidden, std::size_t cell) {
-  std::vector<std::uint32_t> seen;
-  for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) {
-    if ((hidden.of_cell[cell] >> k & 1U) == 0) seen.push_back(sites.of(cell)[k]);
-  });
-  std::sort(seen.begin(), seen.end());
-  return seen;
-}
 
 bool have_common(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
   std::vector<std::uint32_t> common;
@@ -155,9 +191,9 @@ bool have_common(const std::vector<std::uint32_t>& a, const std::vector<std::uin
 /// \param at  the cells of one site
 /// \param use  use(cells that share a row)
 template <int Dim, int K, class Use>
-void for_each_side(std::span<const HiddenSite> at, const CellSites& sites, const HiddenSites& hidden, const Use& use) {
+void for_each_side(std::span<const HiddenSite> at, const AllCells<Dim>& cells, const Use& use) {
   std::vector<std::vector<std::uint32_t>> seen;
-  for (const HiddenSite& of : at) seen.push_back(multipliers_seen_from<Dim, K>(sites, hidden, of.cell));
+  for (const HiddenSite& of : at) seen.push_back(cells.template multipliers_seen_from<K>(of.cell));
   std::vector<std::uint8_t> is_done(at.size(), 0);
   for (std::size_t first = 0; first < at.size(); ++first) {
     if (is_done[first] != 0) continue;
@@ -176,15 +212,16 @@ void for_each_side(std::span<const HiddenSite> at, const CellSites& sites, const
 
 /// Finds HiddenSites::seen.
 template <int Dim, int K>
-void find_seen(const DrySides<Dim>& dry, const Splines<Dim>& splines, const OccupiedCells<Dim>& cells,
-               const CellSites& sites, std::size_t rows, HiddenSites& hidden) {
-  std::vector<std::uint8_t> is_near(cells.cells.size(), 0);
-  std::vector<std::uint8_t> is_torn(cells.cells.size(), 0);
-  for_each_row(cells.cells.size(), [&](std::size_t c) {
-    const Index<Dim>& cell = cells.cells[c].node;
+void find_seen(const DrySides<Dim>& dry, const Splines<Dim>& splines, const AllCells<Dim>& cells, std::size_t rows,
+               HiddenSites& hidden) {
+  const std::size_t count = cells.node.size();
+  std::vector<std::uint8_t> is_near(count, 0);
+  std::vector<std::uint8_t> is_torn(count, 0);
+  for_each_row(count, [&](std::size_t c) {
+    const Index<Dim>& cell = cells.node[c];
     if (views_of_cell<Dim, K>(dry, splines, cell).empty()) return;
     is_near[c] = 1;
-    is_torn[c] = hidden.of_cell[c] != 0 ? 1 : 0;
+    is_torn[c] = cells.hidden[c] != 0 ? 1 : 0;
     for_each_site<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
       const Index<Dim> site = splines.site(cell, offset);
       for (std::size_t d = 0; d < Dim && is_torn[c] == 0; ++d) {
@@ -194,15 +231,15 @@ void find_seen(const DrySides<Dim>& dry, const Splines<Dim>& splines, const Occu
     });
   });
   std::vector<std::uint8_t> is_wanted(rows, 0);
-  for (std::size_t c = 0; c < cells.cells.size(); ++c) {
+  for (std::size_t c = 0; c < count; ++c) {
     if (is_torn[c] == 0) continue;
-    for (std::size_t k = 0; k < sites.per_cell; ++k) is_wanted[sites.of(c)[k]] = 1;
+    for (std::size_t k = 0; k < cells.sites.per_cell; ++k) is_wanted[cells.sites.of(c)[k]] = 1;
   }
-  std::vector<std::vector<HiddenSites::Sight>> of_cell(cells.cells.size());
-  for_each_row(cells.cells.size(), [&](std::size_t c) {
+  std::vector<std::vector<HiddenSites::Sight>> of_cell(count);
+  for_each_row(count, [&](std::size_t c) {
     if (is_near[c] == 0) return;
-    const auto seen = multipliers_seen_from<Dim, K>(sites, hidden, c);
-    const std::uint32_t* of = sites.of(c);
+    const auto seen = cells.template multipliers_seen_from<K>(c);
+    const std::uint32_t* of = cells.sites.of(c);
     const auto add = [&](std::size_t from) {
       for (const std::uint32_t row : seen) of_cell[c].push_back({from, row});
     };
@@ -223,23 +260,23 @@ void find_seen(const DrySides<Dim>& dry, const Splines<Dim>& splines, const Occu
 /// Sites that share a cell know each other, those of which one is hidden if the cell has the face between them; a site
 /// that is seen from any of their cells comes before one in its place.
 template <int Dim, int K>
-void join_seen_sites(const OccupiedCells<Dim>& cells, const CellSites& sites, const HiddenSites& hidden,
+void join_seen_sites(const AllCells<Dim>& cells, const HiddenSites& hidden,
                      std::span<typename staggered::Neighbour<Dim>::value_type> neighbour) {
   for_each_row(neighbour.size(), [&](std::size_t i) { neighbour[i].fill(staggered::none); });
   const auto join = [&](std::uint32_t row, std::uint32_t above, std::size_t d) {
     neighbour[row][2 * d + 1] = static_cast<std::int32_t>(above);
     neighbour[above][2 * d] = static_cast<std::int32_t>(row);
   };
-  for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto&) {
-    const std::uint32_t* rows = sites.of(c);
+  for (const std::uint32_t c : cells.order) {
+    const std::uint32_t* rows = cells.sites.of(c);
     for_each_direction<Dim>([&](auto d) {
       for_each_face<Dim, K, d()>([&](std::size_t k, const Index<Dim>& offset) {
         if (offset[d()] > 0) join(rows[k - power(K + 1, d())], rows[k], d());
       });
     });
-  });
-  for_each_cell_coloured<Dim>(cells, [&](std::size_t c, const auto&) {
-    const std::uint32_t* rows = sites.of(c);
+  }
+  for (const std::uint32_t c : cells.order) {
+    const std::uint32_t* rows = cells.sites.of(c);
     for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>& offset) {
       for (std::size_t d = 0; d < Dim; ++d) {
         if (offset[d] == K) continue;
@@ -247,7 +284,7 @@ void join_seen_sites(const OccupiedCells<Dim>& cells, const CellSites& sites, co
         if (!hidden.is_hidden(rows[k]) && !hidden.is_hidden(above)) join(rows[k], above, d);
       }
     });
-  });
+  }
 }
 
 }  // namespace
@@ -293,42 +330,50 @@ void SplitCells<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spline
 }
 
 template <int Dim>
-void NumberHiddenSites<Dim>::operator()(Read<Splines<Dim>> splines, Read<DrySides<Dim>> dry, Read<GridCells<Dim>> cells,
-                                        Resize<Staggered> table, Update<CellSites> sites,
-                                        Update<staggered::Site<Dim>> site, Write<staggered::Neighbour<Dim>> neighbour,
-                                        Write<face::Held> held, Write<multiplier::Capacity> capacity,
-                                        Update<HiddenSites> hidden) const {
+void NumberHiddenSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<DrySides<Dim>> dry,
+                                        Read<GridCells<Dim>> cells, Optional<Read<GhostCells<Dim>>> ghosts,
+                                        Read<StaggeredIndex<Dim>> rows, Resize<Staggered> table,
+                                        Update<CellSites> sites, Update<staggered::Site<Dim>> site,
+                                        Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
+                                        Write<multiplier::Capacity> capacity, Update<HiddenSites> hidden) const {
   hidden->first_row = static_cast<std::uint32_t>(table.rows());
   hidden->seen.clear();
+  hidden->rows_of_ghosts.clear();
   if (!dry->hides_any()) return;
-  std::vector<HiddenSite> all;
-  for (std::uint32_t c = 0; c < hidden->of_cell.size(); ++c) {
-    for (std::uint32_t k = 0; k < sites->per_cell; ++k) {
-      if ((hidden->of_cell[c] >> k & 1U) != 0) all.push_back({sites->of(c)[k], c, k});
-    }
-  }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
-  const CellSites before = *sites;
-  std::vector<std::uint32_t> row_of_site;
-  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-    while (end < all.size() && all[end].row == all[begin].row) ++end;
-    const auto at = std::span<const HiddenSite>(all).subspan(begin, end - begin);
-    const auto add_row = [&](const auto& side) {
-      const auto row = static_cast<std::uint32_t>(hidden->first_row + row_of_site.size());
-      for (const std::size_t k : side) sites->rows[at[k].cell * sites->per_cell + at[k].place] = row;
-      row_of_site.push_back(at.front().row);
-    };
-    with_degree(splines->degree, [&](auto degree) { for_each_side<Dim, degree()>(at, before, *hidden, add_row); });
-  }
-  table.resize(hidden->first_row + row_of_site.size());
-  for (std::size_t k = 0; k < row_of_site.size(); ++k) {
-    site[hidden->first_row + k] = site[row_of_site[k]];
-    held[hidden->first_row + k] = held[row_of_site[k]];
-    capacity[hidden->first_row + k] = capacity[row_of_site[k]];
-  }
+  AllCells<Dim> all(*cells, *sites, hidden->of_cell);
   with_degree(splines->degree, [&](auto degree) {
-    join_seen_sites<Dim, degree()>(*cells, *sites, *hidden, neighbour.span());
-    find_seen<Dim, degree()>(*dry, *splines, *cells, *sites, table.rows(), *hidden);
+    constexpr int K = degree();
+    if (ghosts) all.template add<K>(*splines, *rows, *ghosts);
+    all.put_in_order(*grid);
+    std::vector<HiddenSite> at_sites;
+    for (const std::uint32_t c : all.order) {
+      for (std::uint32_t k = 0; k < sites->per_cell && all.hidden[c] != 0; ++k) {
+        if ((all.hidden[c] >> k & 1U) != 0) at_sites.push_back({all.sites.of(c)[k], c, k});
+      }
+    }
+    std::stable_sort(at_sites.begin(), at_sites.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
+    AllCells<Dim> numbered = all;
+    std::vector<std::uint32_t> row_of_site;
+    for (std::size_t begin = 0, end = 0; begin < at_sites.size(); begin = end) {
+      while (end < at_sites.size() && at_sites[end].row == at_sites[begin].row) ++end;
+      const auto at = std::span<const HiddenSite>(at_sites).subspan(begin, end - begin);
+      for_each_side<Dim, K>(at, all, [&](const auto& side) {
+        const auto row = static_cast<std::uint32_t>(hidden->first_row + row_of_site.size());
+        for (const std::size_t k : side) numbered.sites.rows[at[k].cell * sites->per_cell + at[k].place] = row;
+        row_of_site.push_back(at.front().row);
+      });
+    }
+    table.resize(hidden->first_row + row_of_site.size());
+    for (std::size_t k = 0; k < row_of_site.size(); ++k) {
+      site[hidden->first_row + k] = site[row_of_site[k]];
+      held[hidden->first_row + k] = held[row_of_site[k]];
+      capacity[hidden->first_row + k] = capacity[row_of_site[k]];
+    }
+    join_seen_sites<Dim, K>(numbered, *hidden, neighbour.span());
+    find_seen<Dim, K>(*dry, *splines, numbered, table.rows(), *hidden);
+    const auto own = numbered.sites.rows.begin() + static_cast<std::ptrdiff_t>(sites->rows.size());
+    hidden->rows_of_ghosts.assign(own, numbered.sites.rows.end());
+    std::copy(numbered.sites.rows.begin(), own, sites->rows.begin());
   });
 }
 

@@ -6,6 +6,7 @@
 #include "components/particle.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/geometry/cut.hpp"
+#include "systems/ranks/ghost_cells.hpp"
 
 namespace minamo {
 
@@ -23,8 +24,9 @@ struct SplitCells {
 template <int Dim>
 struct NumberHiddenSites {
   static constexpr std::string_view doc = "(E136) rows for sites that thin walls hide from the particles of a cell";
-  void operator()(Read<Splines<Dim>> splines, Read<DrySides<Dim>> dry, Read<GridCells<Dim>> cells,
-                  Resize<Staggered> table, Update<CellSites> sites, Update<staggered::Site<Dim>> site,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<DrySides<Dim>> dry, Read<GridCells<Dim>> cells,
+                  Optional<Read<GhostCells<Dim>>> ghosts, Read<StaggeredIndex<Dim>> rows, Resize<Staggered> table,
+                  Update<CellSites> sites, Update<staggered::Site<Dim>> site,
                   Write<staggered::Neighbour<Dim>> neighbour, Write<face::Held> held,
                   Write<multiplier::Capacity> capacity, Update<HiddenSites> hidden) const;
 };

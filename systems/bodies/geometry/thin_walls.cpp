@@ -3,6 +3,7 @@
 #include "engine/schedule/parallel.hpp"
 #include "systems/bodies/geometry/clip.hpp"
 #include "systems/bodies/geometry/cut.hpp"
+#include "systems/ranks/gathered.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -343,6 +344,15 @@ void ThinWalls<Dim>::light(const Shape<Dim>& shape, const Vec<Dim>& x) {
   const std::int32_t small = telling(shape, x, distance);
   if (small == none) return;
   std::atomic_ref<std::uint8_t>(is_lit_[static_cast<std::size_t>(small)]).store(1, std::memory_order_relaxed);
+}
+
+template <int Dim>
+void ThinWalls<Dim>::share_light(Communicator& ranks) {
+  std::vector<std::uint32_t> own;
+  for (std::size_t s = 0; s < is_lit_.size(); ++s) {
+    if (is_lit_[s] != 0) own.push_back(static_cast<std::uint32_t>(s));
+  }
+  for (const std::uint32_t s : gathered_on_all(ranks, std::span<const std::uint32_t>(own))) is_lit_[s] = 1;
 }
 
 template <int Dim>

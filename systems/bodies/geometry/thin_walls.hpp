@@ -4,6 +4,7 @@
 /// hide of a wet one.
 
 #include "components/grid.hpp"
+#include "engine/run/communicator.hpp"
 #include "systems/shapes/shape.hpp"
 
 #include <algorithm>
@@ -29,6 +30,8 @@ class ThinWalls {
 
   /// From any thread: there is liquid at a point.
   void light(const Shape<Dim>& shape, const Vec<Dim>& x);
+  /// What any rank has lit all have lit.
+  void share_light(Communicator& ranks);
   /// Finds what is dry by the light since the last call.
   /// \return whether that has changed, or where walls are wet on both sides
   bool find_dry();

@@ -146,7 +146,8 @@ void StopAtPlates<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
                                    Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle,
                                    Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
                                    Update<particle::QuadraturePosition<Dim>> y_p, Update<particle::Velocity<Dim>> v_p,
-                                   Write<body::PlateImpulse<Dim>> J_b, Update<body::Work> W_b) const {
+                                   Optional<Read<Ranks>> ranks, Write<body::PlateImpulse<Dim>> J_b,
+                                   Update<body::Work> W_b) const {
   const PlacedBodies<Dim> at_start(*set, c_b.span(), R_b.span());
   const PlacedBodies<Dim> in_middle(*set, c_middle.span(), R_middle.span());
   const double move = farthest_move<Dim>(*grid, set->bodies.size(), at_start, in_middle);
@@ -167,7 +168,7 @@ void StopAtPlates<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
     y_p[p] = fold<Dim>(*grid, back_along_wall<Dim>(*grid, n, middle.to_world(*end)).x);
     stops.stop(p, b, x_p[p], n, v_p[p]);
   });
-  stops.give(m_p.span(), J_b.span());
+  stops.give(m_p.span(), J_b.span(), ranks);
   for (std::size_t b = 0; b < J_b.size(); ++b) {
     if (set->bodies[b].free() != nullptr) J_b[b].setZero();
     W_b[b] += J_b[b].dot(rigid_vector<Dim>(V_b[b], omega_b[b]));
@@ -182,7 +183,7 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
                                       Read<body::Spin<Dim>> omega_b, Read<particle::Mass> m_p,
                                       Read<particle::QuadraturePosition<Dim>> y_p, Update<particle::Position<Dim>> x_p,
                                       Update<particle::Velocity<Dim>> v_p, Update<Clamped> clamped,
-                                      Write<body::StopImpulse<Dim>> J_b) const {
+                                      Optional<Read<Ranks>> ranks, Write<body::StopImpulse<Dim>> J_b) const {
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const PlacedBodies<Dim> in_middle(*set, c_middle.span(), R_middle.span());
   const double move = farthest_move<Dim>(*grid, set->bodies.size(), in_middle, bodies);
@@ -242,8 +243,8 @@ void KeepOutOfBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> s
     }
   });
   clamped->count += count;
-  stops.share(m_p.span(), v_p.span());
-  stops.give(m_p.span(), J_b.span());
+  stops.share(m_p.span(), v_p.span(), ranks);
+  stops.give(m_p.span(), J_b.span(), ranks);
 }
 
 template struct StopAtPlates<2>;

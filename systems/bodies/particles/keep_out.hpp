@@ -7,6 +7,7 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
+#include "engine/run/communicator.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 
@@ -25,7 +26,7 @@ struct StopAtPlates {
                   Read<body::Spin<Dim>> omega_b, Read<body::MiddlePosition<Dim>> c_middle,
                   Read<body::MiddleRotation<Dim>> R_middle, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
                   Update<particle::QuadraturePosition<Dim>> y_p, Update<particle::Velocity<Dim>> v_p,
-                  Write<body::PlateImpulse<Dim>> J_b, Update<body::Work> W_b) const;
+                  Optional<Read<Ranks>> ranks, Write<body::PlateImpulse<Dim>> J_b, Update<body::Work> W_b) const;
 };
 
 /// (E89)  A particle less than 1e-3 h from a body goes to that distance, along the normal; one that was inside loses
@@ -42,7 +43,7 @@ struct KeepOutOfBodies {
                   Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,
                   Read<particle::Mass> m_p, Read<particle::QuadraturePosition<Dim>> y_p,
                   Update<particle::Position<Dim>> x_p, Update<particle::Velocity<Dim>> v_p, Update<Clamped> clamped,
-                  Write<body::StopImpulse<Dim>> J_b) const;
+                  Optional<Read<Ranks>> ranks, Write<body::StopImpulse<Dim>> J_b) const;
 };
 
 }  // namespace minamo

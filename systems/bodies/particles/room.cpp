@@ -28,9 +28,10 @@ std::vector<bool> full_components(const ClosedComponents& closed, std::span<cons
   std::vector<double> missing(closed.count(), 0);
   if (missing.empty()) return {};
   for (std::size_t l = 0; l < of_unknown.size(); ++l) {
-    if (closed.contains(l))
+    if (closed.counts(l))
       missing[closed.number(l) - 1] += full_enclosure * capacity[of_unknown[l]] - v_l[of_unknown[l]];
   }
+  closed.add_up(missing);
   std::vector<bool> is_full;
   for (const double volume : missing) is_full.push_back(volume <= 0);
   return is_full;
@@ -58,7 +59,7 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
   std::vector<Change> changes(components.count());
   // One after the other: the same sums on any number of threads.
   for (std::size_t l = 0; l < of_unknown.size() && !changes.empty(); ++l) {
-    if (!components.contains(l) || !is_full[components.number(l) - 1]) continue;
+    if (!components.counts(l) || !is_full[components.number(l) - 1]) continue;
     Change& change = changes[components.number(l) - 1];
     change.room += n_l[l];
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -68,6 +69,8 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
       change.absolute += std::abs(out);
     }
   }
+  static_assert(sizeof(Change) == 3 * sizeof(double));
+  components.add_up({reinterpret_cast<double*>(changes.data()), 3 * changes.size()});
   for (const Change& change : changes) {
     const double rate = std::abs(change.sum) / std::max(change.room, 1.0);
     if (std::abs(change.sum) <= least_change_of_room * change.absolute || rate * clock->step <= least_squeeze) continue;

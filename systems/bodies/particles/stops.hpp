@@ -2,6 +2,8 @@
 /// \file
 /// (E89) What bodies take of the velocity of particles, and the impulses that they get for it.
 
+#include "engine/run/communicator.hpp"
+#include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
 
 #include <algorithm>
@@ -59,25 +61,27 @@ class Stops {
   }
   /// A free body that particles push away itself takes a share of what they lose, the rest they keep: with it they and
   /// the body go on together.
-  void share(std::span<const double> m_p, std::span<Vec<Dim>> v_p) {
+  void share(std::span<const double> m_p, std::span<Vec<Dim>> v_p, const Optional<Read<Ranks>>& ranks) {
     put_in_order();
     std::vector<double> yields(set_.bodies.size(), 0);
     for (const auto& [p, b, r, lost] : stops_)
       yields[b] += m_p[p] * yielding<Dim>(set_.bodies[b], R_b_[b], r, lost.stableNormalized());
+    if (ranks) (*ranks)->sum(yields);
     for (auto& [p, b, r, lost] : stops_) {
       const Vec<Dim> taken = lost / (1 + yields[b]);
       v_p[p] += lost - taken;
       lost = taken;
     }
   }
-  /// Impulses of bodies.
-  void give(std::span<const double> m_p, std::span<RigidVector<Dim>> J_b) {
+  /// Impulses of bodies, of all ranks.
+  void give(std::span<const double> m_p, std::span<RigidVector<Dim>> J_b, const Optional<Read<Ranks>>& ranks) {
     put_in_order();
     for (RigidVector<Dim>& J : J_b) J.setZero();
     for (const auto& [p, b, r, lost] : stops_) {
       const Vec<Dim> impulse = m_p[p] * lost;
       J_b[b] += rigid_vector<Dim>(impulse, moment_of(r, impulse));
     }
+    if (ranks) (*ranks)->sum({J_b.front().data(), J_b.size() * RigidVector<Dim>::SizeAtCompileTime});
   }
 
  private:

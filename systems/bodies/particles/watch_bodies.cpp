@@ -3,6 +3,7 @@
 #include "components/vector_text.hpp"
 #include "engine/schedule/parallel.hpp"
 #include "systems/grid/lattice.hpp"
+#include "systems/ranks/gathered.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -35,7 +36,7 @@ template <int Dim>
 void WatchBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set,
                                   Read<StaticCut<Dim>> at_rest, Read<body::Position<Dim>> c_b,
                                   Read<body::Rotation<Dim>> R_b, Read<particle::Position<Dim>> x_p,
-                                  Update<Warnings> warnings) const {
+                                  Optional<Read<Ranks>> ranks, Update<Warnings> warnings) const {
   if (warnings->has("particles in bodies")) return;
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
   const auto of_particle = [&](std::size_t p) -> Trapped {
@@ -45,13 +46,18 @@ void WatchBodies<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<
   const Trapped trapped = reduce_rows(x_p.size(), Trapped{}, of_particle, [](const Trapped& a, const Trapped& b) {
     return Trapped{a.count + b.count, a.count > 0 ? a.first : b.first};
   });
-  if (trapped.count == 0) return;
-  const Vec<Dim>& x = x_p[trapped.first];
+  const auto own = static_cast<std::int64_t>(trapped.count);
+  const std::int64_t all = ranks ? (*ranks)->sum(own) : own;
+  if (all == 0) return;
+  std::optional<Vec<Dim>> first;
+  if (own > 0) first = x_p[trapped.first];
+  if (ranks) first = of_lowest_rank(*ranks->all, first);
+  const Vec<Dim>& x = *first;
   const auto body = body_at<Dim>(*grid, *at_rest, bodies, x);
   warnings->add("particles in bodies",
                 fmt::format("{} particles lie in bodies at t = {:.6g} s, one of them {:.3g} m deep in \"{}\" at {}; a "
                             "shorter step or more cells may keep them out",
-                            trapped.count, clock->end_of_step, -body.distance,
+                            all, clock->end_of_step, -body.distance,
                             set->bodies[static_cast<std::size_t>(body.body)].name, place_text<Dim>(x)));
 }
 

@@ -6,6 +6,7 @@
 #include "components/grid.hpp"
 #include "components/particle.hpp"
 #include "engine/run/clock.hpp"
+#include "engine/run/communicator.hpp"
 #include "engine/run/warnings.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/geometry/cut.hpp"
@@ -18,7 +19,7 @@ struct WatchBodies {
   static constexpr std::string_view doc = "(E127) warnings of particles in bodies";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
                   Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<particle::Position<Dim>> x_p,
-                  Update<Warnings> warnings) const;
+                  Optional<Read<Ranks>> ranks, Update<Warnings> warnings) const;
 };
 
 }  // namespace minamo
