@@ -6,10 +6,12 @@
 #include "engine/run/step_control.hpp"
 #include "engine/schedule/schedule.hpp"
 #include "support/rows.hpp"
+#include "systems/ranks/site_exchange.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <numeric>
+#include <random>
 #include <set>
 
 using namespace minamo;
@@ -37,6 +39,19 @@ TEST_CASE("the curve is cut into pieces of as many particles, in whole blocks", 
     // The mean is 120 over the ranks; a block has 5 at most, of which a cut may give half to the wrong side.
     for (const std::uint64_t of_rank : particles) CHECK(std::abs(static_cast<double>(of_rank) - 120.0 / ranks) <= 5);
   }
+}
+
+TEST_CASE("no other cut of the curve leaves the fullest rank less", "[unit]") {
+  std::mt19937 random(GENERATE(range(1U, 21U)));
+  std::vector<BlockLoad> loads;
+  for (std::uint64_t k = 0; k < 9; ++k) loads.push_back({2 * k, 1 + random() % 50});
+  constexpr int ranks = 3;
+  std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+  for (std::uint64_t second = 0; second < 18; ++second) {
+    for (std::uint64_t third = second; third < 18; ++third)
+      least = std::min<std::uint64_t>(least, fullest({.begin = {0, second, third}, .rank = {0, 1, 2}}, loads));
+  }
+  CHECK(fullest(cut_curve(loads, ranks), loads) == least);
 }
 
 TEST_CASE("the fullest rank has the most particles", "[unit]") {
@@ -125,6 +140,55 @@ TEST_CASE("rows go from world to world with all that outlives a step", "[unit]")
   CHECK(std::vector<std::int64_t>(id.begin(), id.end()) == std::vector<std::int64_t>{7, 13, 11});
   CHECK(to.column<particle::Position<2>>()[1] == Vec<2>(3, -3));
   CHECK(to.column<particle::BodyForce<2>>().size() == 3);
+
+  SECTION("or into rows that are there") {
+    const std::vector<std::uint32_t> rows{2, 0};
+    const auto packed = from.pack(Particles::name, rows);
+    CHECK(packed.size() == 2 * from.packed_bytes(Particles::name));
+    // A row is in one piece.
+    const auto row_bytes = static_cast<std::ptrdiff_t>(from.packed_bytes(Particles::name));
+    CHECK(std::vector(packed.begin() + row_bytes, packed.end()) ==
+          from.pack(Particles::name, std::vector<std::uint32_t>{0}));
+    to.mark();
+    to.unpack(Particles::name, std::vector<std::uint32_t>{0, 1}, packed);
+    CHECK(std::vector<std::int64_t>(id.begin(), id.end()) == std::vector<std::int64_t>{12, 10, 11});
+    CHECK(to.column<particle::Position<2>>()[0] == Vec<2>(2, -2));
+    to.roll_back();
+    const auto before = to.column<particle::Id>();
+    CHECK(std::vector<std::int64_t>(before.begin(), before.end()) == std::vector<std::int64_t>{7, 13, 11});
+  }
+}
+
+TEMPLATE_TEST_CASE_SIG("no block whose cells touch a site is leapt over", "[unit]",
+                       ((int Dim, int Degree), Dim, Degree), (2, 2), (2, 3), (3, 2), (3, 3)) {
+  Grid<Dim> grid;
+  grid.cells.fill(9);
+  grid.periodic[0] = GENERATE(false, true);
+  const Splines<Dim> splines = make_splines(grid, Degree);
+  const RankBlocks<Dim> blocks(grid, grid.cells);
+  for (int x = 0; x < splines.axis[0].sites(); ++x) {
+    for (int y = 0; y < splines.axis[1].sites(); ++y) {
+      Index<Dim> site{};
+      site.fill(4);
+      site[0] = x;
+      site[1] = y;
+      std::set<Index<Dim>> all;
+      for (std::size_t k = 0; k < power(Degree + 1, Dim); ++k) {
+        Index<Dim> cell;
+        std::size_t rest = k;
+        bool is_cell = true;
+        for (std::size_t d = 0; d < Dim; ++d, rest /= Degree + 1) {
+          cell[d] = site[d] - static_cast<int>(rest % (Degree + 1));
+          if (grid.periodic[d]) cell[d] = (cell[d] + grid.cells[d]) % grid.cells[d];
+          is_cell = is_cell && cell[d] >= 0 && cell[d] < grid.cells[d];
+        }
+        if (is_cell) all.insert(blocks.place_of(cell));
+      }
+      std::set<Index<Dim>> found;
+      for_each_touching_block<Dim>(splines, site, [&](const Index<Dim>& cell) { found.insert(blocks.place_of(cell)); });
+      CHECK(found == all);
+    }
+  }
 }
 
 namespace {
