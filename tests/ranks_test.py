@@ -295,7 +295,7 @@ class Scenes(unittest.TestCase):
                    "/grid/high=[2.2, 0.4]", "--set",
                    '/particles/0/shape={"box": {"low": [0, 0], "high": [2.2, 0.4]}}', "--set", "/time/step=0.01", "--steps", "10",
                    columns=("cylinder_force_x", "cylinder_friction_x"))
-        self.check("sticky_slope", "mould", "--steps", "20", ranks=2)
+        self.check("mould", "mould", "--steps", "4", ranks=8)
 
     def test_contact_lines_on_bodies(self):
         self.check("slope", "drop_on_slope", "--steps", "10", columns=("slope_force_y", "surface_energy"))
