@@ -50,7 +50,7 @@ opening::SideVelocity<Dim> velocity_on(const Side<Dim>& side, const Splines<Dim>
       const auto axis = static_cast<Eigen::Index>(d);
       of[side.index(site[i], d)] = (d == side.axis() ? passage.share(i, axis) : 1) * v_f[i][axis];
     });
-    if (shared != nullptr) shared->ranks().sum(of);
+    add_up_on_all(shared, std::span(of));
   }
   return velocity;
 }
@@ -336,7 +336,7 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
       done[o] += impulse * v_f[i][axis];
     }
   }
-  if (shared) shared->ranks().sum(done);
+  add_up_on_all(of_ranks(shared), std::span(done));
   work->value = done.back();
   for (std::size_t o = 0; o < set->openings.size(); ++o) energy[o] += done[o];
 }

@@ -72,14 +72,17 @@ void AskForFormerRows<Dim>::operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, 
     }
     answered.push_back({message.rank, std::move(bytes)});
   }
+  std::vector<std::uint32_t> rows;
+  std::vector<std::byte> packed;
   for (const auto& message : (*ranks)->exchange(answered)) {
     for (std::span<const std::byte> left = message.bytes; !left.empty();) {
-      const Index<Dim> at = from_bytes<Index<Dim>>(left.first(sizeof(Index<Dim>))).front();
-      left = left.subspan(sizeof(Index<Dim>));
-      table.unpack(std::array{*index->find(at)}, left.first(former->row_bytes));
-      left = left.subspan(former->row_bytes);
+      rows.push_back(*index->find(from_bytes<Index<Dim>>(left.first(sizeof(Index<Dim>))).front()));
+      const auto values = left.subspan(sizeof(Index<Dim>), former->row_bytes);
+      packed.insert(packed.end(), values.begin(), values.end());
+      left = left.subspan(sizeof(Index<Dim>) + former->row_bytes);
     }
   }
+  table.unpack(rows, packed);
 }
 
 template struct KeepFormerRows<2>;

@@ -126,9 +126,7 @@ void FindFreeSurface<Dim>::operator()(
       1);
   surface->areas = {};
   for (const auto& piece : surface->pieces) surface->areas += piece.areas;
-  static_assert(sizeof(surface->areas) % sizeof(double) == 0);
-  if (shared)
-    shared->ranks().sum({reinterpret_cast<double*>(&surface->areas), sizeof(surface->areas) / sizeof(double)});
+  add_up_on_all(of_ranks(shared), std::span(&surface->areas, 1));
 }
 
 template struct FindSurfaceDistance<2>;

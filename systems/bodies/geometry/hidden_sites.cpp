@@ -352,14 +352,14 @@ void NumberHiddenSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
       }
     }
     std::stable_sort(at_sites.begin(), at_sites.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
-    AllCells<Dim> numbered = all;
+    std::vector<std::uint32_t> numbered = all.sites.rows;
     std::vector<std::uint32_t> row_of_site;
     for (std::size_t begin = 0, end = 0; begin < at_sites.size(); begin = end) {
       while (end < at_sites.size() && at_sites[end].row == at_sites[begin].row) ++end;
       const auto at = std::span<const HiddenSite>(at_sites).subspan(begin, end - begin);
       for_each_side<Dim, K>(at, all, [&](const auto& side) {
         const auto row = static_cast<std::uint32_t>(hidden->first_row + row_of_site.size());
-        for (const std::size_t k : side) numbered.sites.rows[at[k].cell * sites->per_cell + at[k].place] = row;
+        for (const std::size_t k : side) numbered[at[k].cell * sites->per_cell + at[k].place] = row;
         row_of_site.push_back(at.front().row);
       });
     }
@@ -369,11 +369,12 @@ void NumberHiddenSites<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
       held[hidden->first_row + k] = held[row_of_site[k]];
       capacity[hidden->first_row + k] = capacity[row_of_site[k]];
     }
-    join_seen_sites<Dim, K>(numbered, *hidden, neighbour.span());
-    find_seen<Dim, K>(*dry, *splines, numbered, table.rows(), *hidden);
-    const auto own = numbered.sites.rows.begin() + static_cast<std::ptrdiff_t>(sites->rows.size());
-    hidden->rows_of_ghosts.assign(own, numbered.sites.rows.end());
-    std::copy(numbered.sites.rows.begin(), own, sites->rows.begin());
+    all.sites.rows = std::move(numbered);
+    join_seen_sites<Dim, K>(all, *hidden, neighbour.span());
+    find_seen<Dim, K>(*dry, *splines, all, table.rows(), *hidden);
+    const auto own = all.sites.rows.begin() + static_cast<std::ptrdiff_t>(sites->rows.size());
+    hidden->rows_of_ghosts.assign(own, all.sites.rows.end());
+    std::copy(all.sites.rows.begin(), own, sites->rows.begin());
   });
 }
 
