@@ -5,7 +5,8 @@
 
 PROGRAM is minamo, MPI_PROGRAM minamo-mpi; every scene of scenes/ by default, in so many steps with a tolerance of the
 solver of 1e-12. For every scene and number of ranks a line: largest difference of positions [h], of velocities [h per
-step], of energies [of the largest energy]. Particles and their numbers have to be the same. With --twice every
+step], of energies [of the largest energy], and until which time energies and steps agree within what --within
+says: where flow is chaotic, they do not for ever. Particles and their numbers have to be the same. With --twice every
 number of ranks runs twice, and the columns of the two checkpoints have to be the same, bit for bit. Scenes that are
 refused on ranks are named. Ends with 0 if nothing differs by more, 1 if something does or fails, 2 if nothing was
 compared.
@@ -69,20 +70,27 @@ def spacing_of(folder):
     return (grid["high"][0] - grid["low"][0]) / grid["cells"][0]
 
 
-def differences(alone, ranks):
-    """Of positions, velocities and energies; text if the runs cannot be compared."""
+def apart(ours, theirs, within):
+    """Largest difference of energies of two histories, and the time to which energies and steps are the same."""
+    names = [name for name in ENERGIES if name in theirs]
+    energy = max(size_of(theirs[name]) for name in names) or 1.0
+    rows = min(len(ours["time"]), len(theirs["time"]))
+    scales = dict.fromkeys(names, energy) | {"time": theirs["time"][-1]}
+    of_row = np.max([np.abs(ours[name][:rows] - theirs[name][:rows]) / scale for name, scale in scales.items()], axis=0)
+    same = rows if not np.any(of_row > within) else int(np.argmax(of_row > within))
+    return size_of(of_row), theirs["time"][max(same - 1, 0)]
+
+
+def differences(alone, ranks, within):
+    """Of positions, velocities and energies, and until when the runs agree; text if the particles are not the same."""
     ours, theirs = history(ranks), history(alone)
-    if not np.array_equal(ours["time"], theirs["time"]) and size_of(ours["time"] - theirs["time"]) > 1e-12:
-        return "other steps"
     mine, expected = particles(ranks), particles(alone)
     if not np.array_equal(mine["id"], expected["id"]):
         return f"{len(mine['id'])} particles, {len(expected['id'])} of one process, or other numbers"
-    names = [name for name in ENERGIES if name in theirs]
-    energy = max(size_of(theirs[name]) for name in names) or 1.0
     h = spacing_of(alone)
     return (size_of(mine["position"] - expected["position"]) / h,
             size_of(mine["velocity"] - expected["velocity"]) * theirs["dt"][-1] / h,
-            max(size_of(ours[name] - theirs[name]) for name in names) / energy)
+            *apart(ours, theirs, within))
 
 
 def compare(scene, arguments, folder):
@@ -101,12 +109,12 @@ def compare(scene, arguments, folder):
         if code != 0:
             yield ranks, False, f"exit code {code}: {said.strip()}"
             continue
-        found = differences(f"{folder}/alone", f"{folder}/{ranks}")
+        found = differences(f"{folder}/alone", f"{folder}/{ranks}", arguments.within)
         if isinstance(found, str):
             yield ranks, False, found
             continue
-        text = "{:.1e} h, {:.1e} h per step, {:.1e} of the energy".format(*found)
-        alike = max(found) <= arguments.within
+        text = "{:.1e} h, {:.1e} h per step, {:.1e} of the energy, alike until {:g} s".format(*found)
+        alike = max(found[:3]) <= arguments.within
         if arguments.twice:
             run(program, scene, arguments, f"{folder}/{ranks}_again")
             others = same_bits.differences(f"{folder}/{ranks}", f"{folder}/{ranks}_again")

@@ -36,21 +36,10 @@ std::string described(const std::exception_ptr& failure) {
 Communicator* all_ranks() { return communicator_of_process(); }
 void set_all_ranks(Communicator* communicator) { communicator_of_process() = communicator; }
 
-void Communicator::count(const std::vector<Message>& sent) {
-  traffic_.messages += static_cast<std::int64_t>(sent.size());
-  for (const Message& message : sent) traffic_.bytes += static_cast<std::int64_t>(message.bytes.size());
-}
-
 std::vector<Communicator::Message> Communicator::exchange(const std::vector<Message>& sent) {
-  count(sent);
   std::vector<Message> received = exchange_between_strangers(sent);
   std::sort(received.begin(), received.end(), [](const Message& a, const Message& b) { return a.rank < b.rank; });
   return received;
-}
-
-void Communicator::exchange(const std::vector<Message>& sent, std::vector<Message>& received) {
-  count(sent);
-  exchange_between_friends(sent, received);
 }
 
 void agree_on_failure(Communicator& ranks, const std::exception_ptr& failure) {

@@ -3,6 +3,7 @@
 /// Talk between the processes, ranks, of a run that is spread over several machines. All ranks call the same functions
 /// in the same order; who does not call waits for ever. A run of one process has no communicator.
 
+#include "engine/run/effort.hpp"
 #include "engine/storage/component.hpp"
 
 #include <algorithm>
@@ -32,11 +33,6 @@ class Communicator {
     std::size_t row_bytes;
     std::span<const std::byte> rows;
   };
-  /// What this rank has sent to others so far.
-  struct Traffic {
-    std::int64_t messages = 0;
-    std::int64_t bytes = 0;
-  };
 
   virtual ~Communicator() = default;
   virtual int rank() const = 0;
@@ -44,7 +40,8 @@ class Communicator {
   /// How many of the ranks share the memory of this one, itself among them.
   virtual int on_this_machine() const = 0;
   bool is_first() const { return rank() == 0; }
-  const Traffic& traffic() const { return traffic_; }
+  /// Of this rank so far, with libraries that talk on their own.
+  virtual Effort effort() const = 0;
 
   /// Every entry becomes its sum over the ranks, the same bits on all of them.
   virtual void sum(std::span<double> values) = 0;
@@ -66,7 +63,7 @@ class Communicator {
   std::vector<Message> exchange(const std::vector<Message>& sent);
   /// The same between ranks that know of each other, and of the sizes.
   /// \param received  with a rank and bytes of the right size each
-  void exchange(const std::vector<Message>& sent, std::vector<Message>& received);
+  virtual void exchange(const std::vector<Message>& sent, std::vector<Message>& received) = 0;
 
   double sum(double value) {
     sum(std::span(&value, 1));
@@ -79,11 +76,6 @@ class Communicator {
 
  protected:
   virtual std::vector<Message> exchange_between_strangers(const std::vector<Message>& sent) = 0;
-  virtual void exchange_between_friends(const std::vector<Message>& sent, std::vector<Message>& received) = 0;
-
- private:
-  void count(const std::vector<Message>& sent);
-  Traffic traffic_;
 };
 
 /// The ranks of this process; null if it is alone. (mpi_communicator.hpp sets it.)
@@ -97,6 +89,7 @@ inline double sum_over_ranks(double value) { return all_ranks() == nullptr ? val
 inline std::int64_t sum_over_ranks(std::int64_t value) {
   return all_ranks() == nullptr ? value : all_ranks()->sum(value);
 }
+inline Effort effort_so_far() { return all_ranks() == nullptr ? Effort{} : all_ranks()->effort(); }
 inline double largest_over_ranks(double value) { return all_ranks() == nullptr ? value : all_ranks()->largest(value); }
 
 /// What another rank has failed with, and told.

@@ -64,14 +64,15 @@ std::runtime_error unwritable(const std::string& path) {
 Profiler::Profiler(bool keep_events) : keep_events_(keep_events), origin_(std::chrono::steady_clock::now()) {}
 
 std::size_t Profiler::add_row(std::string name) {
-  lines_.push_back({{std::move(name), 0, 0}, {}});
+  lines_.push_back({{std::move(name), 0, 0, {}}, {}});
   return lines_.size() - 1;
 }
 
-void Profiler::record(std::size_t row, Time begin, Time end) {
+void Profiler::record(std::size_t row, Time begin, Time end, const Effort& effort) {
   Line& line = lines_[row];
   ++line.row.calls;
   line.row.seconds += seconds_between(begin, end);
+  line.row.effort += effort;
   if (keep_events_) line.events.push_back({begin, end, thread_number()});
 }
 
@@ -85,6 +86,7 @@ std::vector<Profiler::Row> Profiler::rows() const {
     } else {
       rows[place->second].calls += line.row.calls;
       rows[place->second].seconds += line.row.seconds;
+      rows[place->second].effort += line.row.effort;
     }
   }
   return rows;

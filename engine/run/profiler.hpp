@@ -2,6 +2,8 @@
 /// \file
 /// Wall time per system: as a table, as rows for a summary, and as a Chrome trace (chrome://tracing, Perfetto).
 
+#include "engine/run/communicator.hpp"
+
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +24,7 @@ class Profiler {
     std::string name;
     std::int64_t calls = 0;
     double seconds = 0;  ///< sum over calls [s]
+    Effort effort;       ///< of this rank, where there are several
   };
 
   /// \param keep_events  store every call for write_trace(): 24 bytes per call.
@@ -32,7 +35,7 @@ class Profiler {
   std::size_t add_row(std::string name);
 
   /// One call. Calls of one row do not overlap; different rows may be recorded at the same time.
-  void record(std::size_t row, Time begin, Time end);
+  void record(std::size_t row, Time begin, Time end, const Effort& effort = {});
 
   /// Rows of the same name added up, in the order in which the names came.
   std::vector<Row> rows() const;
@@ -66,10 +69,11 @@ class Profiler {
 /// Records the time from `begin` to its own end, which is then the new `begin`.
 class Lap {
  public:
-  Lap(Profiler& profiler, std::size_t row, Profiler::Time& begin) : profiler_(&profiler), row_(row), begin_(&begin) {}
+  Lap(Profiler& profiler, std::size_t row, Profiler::Time& begin)
+      : profiler_(&profiler), row_(row), begin_(&begin), effort_(effort_so_far()) {}
   ~Lap() {
     const Profiler::Time end = std::chrono::steady_clock::now();
-    profiler_->record(row_, *begin_, end);
+    profiler_->record(row_, *begin_, end, effort_so_far() - effort_);
     *begin_ = end;
   }
   Lap(const Lap&) = delete;
@@ -79,6 +83,7 @@ class Lap {
   Profiler* profiler_;
   std::size_t row_;
   Profiler::Time* begin_;
+  Effort effort_;
 };
 
 }  // namespace minamo

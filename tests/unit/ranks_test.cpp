@@ -197,10 +197,12 @@ namespace {
 class WithAnother final : public Communicator {
  public:
   explicit WithAnother(std::string failure_of_other = {}) : failure_(std::move(failure_of_other)) {}
+  using Communicator::exchange;
   using Communicator::sum;
   int on_this_machine() const override { return 2; }
   int rank() const override { return 1; }
   int size() const override { return 2; }
+  Effort effort() const override { return {}; }
   void sum(std::span<double>) override {}
   std::int64_t sum(std::int64_t value) override { return value; }
   std::int64_t sum_below(std::int64_t) override { return 0; }
@@ -211,10 +213,10 @@ class WithAnother final : public Communicator {
   void abort(int) override {}
   std::vector<std::vector<std::byte>> gather(std::vector<std::byte> own) override { return {own, own}; }
   bool write(const std::string&, std::span<const Piece>) override { return true; }
+  void exchange(const std::vector<Message>&, std::vector<Message>&) override {}
 
  private:
   std::vector<Message> exchange_between_strangers(const std::vector<Message>&) override { return {}; }
-  void exchange_between_friends(const std::vector<Message>&, std::vector<Message>&) override {}
   std::string failure_;
 };
 

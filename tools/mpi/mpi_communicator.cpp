@@ -1,5 +1,7 @@
 #include "tools/mpi/mpi_communicator.hpp"
 
+#include "tools/mpi/mpi_effort.hpp"
+
 #include <petscsys.h>
 
 #include <cstdlib>
@@ -55,6 +57,7 @@ class MpiCommunicator final : public Communicator {
   int on_this_machine() const override { return on_this_machine_; }
   int rank() const override { return rank_; }
   int size() const override { return size_; }
+  Effort effort() const override { return mpi_effort(); }
 
   /// Gathered and added up by rank: MPI_Allreduce may add in another order on every rank.
   void sum(std::span<double> values) override {
@@ -116,6 +119,20 @@ class MpiCommunicator final : public Communicator {
     is_written &= MPI_File_sync(file) == MPI_SUCCESS;
     return (MPI_File_close(&file) == MPI_SUCCESS) && is_written;
   }
+  using Communicator::exchange;
+  void exchange(const std::vector<Message>& sent, std::vector<Message>& received) override {
+    std::vector<MPI_Request> requests(sent.size() + received.size());
+    std::size_t k = 0;
+    for (Message& message : received) {
+      MPI_Irecv(message.bytes.data(), count_of(message.bytes.size()), MPI_BYTE, message.rank, tag_of_friends, comm_,
+                &requests[k++]);
+    }
+    for (const Message& message : sent) {
+      MPI_Isend(message.bytes.data(), count_of(message.bytes.size()), MPI_BYTE, message.rank, tag_of_friends, comm_,
+                &requests[k++]);
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  }
 
  protected:
   /// Hoefler, Siebert, Lumsdaine (2010), NBX: all messages have arrived when all ranks know that theirs have.
@@ -151,19 +168,6 @@ class MpiCommunicator final : public Communicator {
         }
       }
     }
-  }
-  void exchange_between_friends(const std::vector<Message>& sent, std::vector<Message>& received) override {
-    std::vector<MPI_Request> requests(sent.size() + received.size());
-    std::size_t k = 0;
-    for (Message& message : received) {
-      MPI_Irecv(message.bytes.data(), count_of(message.bytes.size()), MPI_BYTE, message.rank, tag_of_friends, comm_,
-                &requests[k++]);
-    }
-    for (const Message& message : sent) {
-      MPI_Isend(message.bytes.data(), count_of(message.bytes.size()), MPI_BYTE, message.rank, tag_of_friends, comm_,
-                &requests[k++]);
-    }
-    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   }
 
  private:

@@ -39,6 +39,14 @@ const char* status(Ending ending) {
   return "";
 }
 
+/// Sums over the ranks.
+Json of_all(Communicator& ranks, const Effort& effort) {
+  return {{"compute_s", ranks.sum(effort.compute)},
+          {"messages", ranks.sum(effort.messages)},
+          {"bytes", ranks.sum(effort.bytes)},
+          {"collectives", ranks.sum(effort.collectives)}};
+}
+
 Json system_rows(const Profiler& profiler, double wall_seconds) {
   Json rows = Json::array();
   for (const Profiler::Row& row : profiler.rows()) {
@@ -46,6 +54,7 @@ Json system_rows(const Profiler& profiler, double wall_seconds) {
                     {"calls", row.calls},
                     {"seconds", row.seconds},
                     {"share", wall_seconds > 0 ? row.seconds / wall_seconds : 0}});
+    if (Communicator* ranks = all_ranks()) rows.back().update(of_all(*ranks, row.effort));
   }
   return rows;
 }
@@ -115,13 +124,13 @@ Json make_summary(const std::string& scene, const Outcome& outcome, int threads,
   if (world.has<Turns>()) summary["pressure_turns"] = world.resource<Turns>().longest;
   const bool in_plane = world.has<Grid<2>>();
   if (Communicator* ranks = all_ranks()) {
-    const auto sent = ranks->traffic();
-    summary["ranks"] = {
-        {"count", ranks->size()},
-        {"messages", ranks->sum(sent.messages)},
-        {"bytes", ranks->sum(sent.bytes)},
-        {"imbalance", world.resource<RankMap>().largest_imbalance},
-        {"peak_memory_bytes", static_cast<std::int64_t>(ranks->largest(static_cast<double>(peak_memory())))}};
+    const Effort effort = ranks->effort();
+    Json of_ranks{{"count", ranks->size()}};
+    of_ranks.update(of_all(*ranks, effort));
+    of_ranks["most_compute_s"] = ranks->largest(effort.compute);
+    of_ranks["imbalance"] = world.resource<RankMap>().largest_imbalance;
+    of_ranks["peak_memory_bytes"] = static_cast<std::int64_t>(ranks->largest(static_cast<double>(peak_memory())));
+    summary["ranks"] = of_ranks;
   }
   Json conservation{{"mass", mass}};
   conservation.update(conserved(totals.last, in_plane));
