@@ -406,6 +406,14 @@ class Files(unittest.TestCase):
             alone, ours = [layout(folder / name) for folder in self.folders]
             self.assertEqual(ours, alone)
 
+    def test_ranks_cut_the_same_particles(self):
+        for scene in ("elliptical_drop", "drop_3d", "obstacle"):
+            options = ["--steps", "0"] if scene == "obstacle" else ["--steps", "0", "--set", "/particles/0/per_cell=1"]
+            alone = last_frame(run("cut_alone", 0, SCENES / f"{scene}.json", *options)[0])
+            shared = last_frame(run("cut_shared", 5, SCENES / f"{scene}.json", *options)[0])
+            for name in ("id", "position"):
+                np.testing.assert_array_equal(shared[name], alone[name], scene)
+
     def test_the_first_frame_is_the_same(self):
         frames = []
         for folder in self.folders:

@@ -70,7 +70,9 @@ ParticleScene read_particles(Input& input, const Scene& scene, CutRegions& cut) 
       "per_cell", {.doc = "particles per cell and direction", .fallback = 3, .at_least = 1, .at_most = 16}));
   if (input.sound("shape") && input.sound("per_cell")) check_particle_count(input, particles, scene.grid);
   bool is_cut = false;
-  input.variant("arrangement", "where in a cell the particles start", "lattice",
+  const bool is_where = std::holds_alternative<Where>(particles.shape);
+  input.variant("arrangement", "where in a cell the particles start; \"lattice\" if the shape is a \"where\"",
+                !input.describing() && is_where ? "lattice" : "cut",
                 {{"lattice", [](Input&) {}},
                  {"jittered",
                   [&](Input& in) {
@@ -78,7 +80,7 @@ ParticleScene read_particles(Input& input, const Scene& scene, CutRegions& cut) 
                         in.integer("seed", {.doc = "of the random numbers", .fallback = 1, .at_least = 0}));
                   }},
                  {"cut", [&](Input&) { is_cut = true; }}});
-  if (is_cut && !input.describing() && input.sound("shape") && std::holds_alternative<Where>(particles.shape)) {
+  if (is_cut && !input.describing() && input.sound("shape") && is_where) {
     input.problem("arrangement", "\"where\" has no distance to cut parts at", "another shape, or \"lattice\"",
                   "\"cut\"");
     is_cut = false;
@@ -121,14 +123,28 @@ Vec<Dim> moved_at_walls(const Scene& scene, const Grid<Dim>& grid, int per_cell,
   }
 }
 
+/// A particle for a part of a cell.
+template <int Dim>
+void add_seed(const Scene& scene, const Grid<Dim>& grid, std::size_t r, const Vec<Dim>& part, Seeds<Dim>& seeds) {
+  const ParticleScene& region = scene.particles[r];
+  seeds.position.push_back(region.jitter ? part : moved_at_walls<Dim>(scene, grid, region.per_cell, part));
+  seeds.part.push_back(part);
+  seeds.region.push_back(r);
+  seeds.share.push_back(1);
+}
+
+void note_empty(const Scene& scene, std::size_t r, SeedProblems& problems) {
+  problems.note(fmt::format("/particles/{}/shape", r), "no particle inside", "a shape that holds at least one particle",
+                fmt::format("none at {} per cell and direction", scene.particles[r].per_cell));
+}
+
 /// Whether any rank has any.
 template <int Dim>
 bool is_any(const Seeds<Dim>& seeds) {
   return sum_over_ranks(static_cast<std::int64_t>(seeds.position.size())) > 0;
 }
 
-/// Layers that this rank fills: its share of those with liquid. Whoever cuts parts looks at the cells around; that is
-/// left to the first rank.
+/// Layers that this rank fills: its share of those with liquid.
 template <int Dim>
 Layers own_layers(const Scene& scene, const Grid<Dim>& grid) {
   Layers all{grid.cells[Dim - 1], 0};
@@ -138,8 +154,6 @@ Layers own_layers(const Scene& scene, const Grid<Dim>& grid) {
   }
   const Communicator* ranks = all_ranks();
   if (ranks == nullptr) return all;
-  const bool cuts = scene.facts.find<BodiesOfScene>() != nullptr || scene.facts.get<CutRegions>().any();
-  if (cuts) return ranks->is_first() ? all : Layers{0, 0};
   const auto begin = [&](int rank) {
     return all[0] + static_cast<int>(std::int64_t{rank} * (all[1] - all[0]) / ranks->size());
   };
@@ -159,14 +173,16 @@ void cut_seeds(const Scene& scene, const Grid<Dim>& grid, World& world, Seeds<Di
     regions.push_back({grid.spacing / region.per_cell, shape ? *shape : nullptr, cut_regions.is_cut[r]});
   }
   const bool any = is_any(seeds);
-  const LiquidCut cut = cut_away<Dim>(bodies ? bodies->of<Dim>() : BodySet<Dim>{}, grid, regions, seeds);
+  LiquidCut cut = cut_away<Dim>(bodies ? bodies->of<Dim>() : BodySet<Dim>{}, grid, regions, seeds);
+  cut.volume = sum_over_ranks(cut.volume);
+  cut.of = sum_over_ranks(cut.of);
   if (bodies != nullptr) world.resource<LiquidCut>() = cut;
-  if (!any || is_any(seeds)) return;
-  if (bodies != nullptr) {
-    problems.note("/bodies", "no liquid is left", "bodies with liquid next to them", "all of it lies in bodies");
-  } else {
-    problems.note("/particles", "no liquid in them", "a shape that fills a part of a cell", "less than 0.3 of any");
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const bool is_empty = sum_over_ranks(static_cast<std::int64_t>(cut.particles[r])) == 0;
+    if (cut_regions.is_cut[r] && is_empty) note_empty(scene, r, problems);
   }
+  if (bodies != nullptr && any && !is_any(seeds))
+    problems.note("/bodies", "no liquid is left", "bodies with liquid next to them", "all of it lies in bodies");
 }
 
 /// The shape of a region if it has a distance and its particles are in the middle of parts; else null.
@@ -195,49 +211,71 @@ void add_parts_beyond(const Scene& scene, const Grid<Dim>& grid, const Layers& l
     if (next < inside.size() && inside[next] == x) {
       ++next;
     } else if (!is_elsewhere(x)) {
-      seeds.position.push_back(moved_at_walls<Dim>(scene, grid, region.per_cell, x));
-      seeds.region.push_back(r);
-      seeds.share.push_back(1);
+      add_seed<Dim>(scene, grid, r, x, seeds);
       seeds.is_beyond.push_back(1);
     }
   }
+}
+
+/// With the layers around them that matter where parts are cut: what is less than a particle goes to one in the next
+/// cell, which may be one only because none is in the cell after that.
+template <int Dim>
+Layers with_guests(const Layers& own, const Grid<Dim>& grid) {
+  constexpr int reach = 3;
+  return {std::max(own[0] - reach, 0), std::min(own[1] + reach, grid.cells[Dim - 1])};
+}
+
+/// Middles of the parts that a region takes.
+template <int Dim>
+std::vector<Vec<Dim>> parts_of(const Scene& scene, const Grid<Dim>& grid, const Layers& layers, std::size_t r) {
+  const bool is_cut = scene.facts.get<CutRegions>().is_cut[r];
+  return lattice<Dim>(scene.particles[r], grid, scene.start,
+                      is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside, layers,
+                      std::span(scene.particles).first(r));
+}
+
+/// Whether a part counts where regions must not overlap: a cut one shares those with the middle on its surface.
+template <int Dim>
+bool fills(const Scene& scene, const Grid<Dim>& grid, std::size_t r, const Vec<Dim>& part) {
+  if (!scene.facts.get<CutRegions>().is_cut[r]) return true;
+  const ParticleScene& region = scene.particles[r];
+  return std::get<SharedShape<Dim>>(region.shape)->distance(part) < -1e-9 * grid.spacing / region.per_cell;
 }
 
 template <int Dim>
 Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, SeedProblems& problems) {
   Seeds<Dim> seeds;
   std::unordered_map<std::size_t, double> filled;
-  const Layers layers = own_layers<Dim>(scene, grid);
   const bool has_bodies = scene.facts.find<BodiesOfScene>() != nullptr;
+  const bool cuts = has_bodies || scene.facts.get<CutRegions>().any();
+  const Layers own = own_layers<Dim>(scene, grid);
+  const Layers layers = cuts ? with_guests(own, grid) : own;
   for (std::size_t r = 0; r < scene.particles.size(); ++r) {
     const ParticleScene& region = scene.particles[r];
-    const bool is_cut = scene.facts.get<CutRegions>().is_cut[r];
-    const auto positions =
-        lattice<Dim>(region, grid, scene.start, is_cut ? PartsTaken::within_reach : PartsTaken::middle_inside, layers,
-                     std::span(scene.particles).first(r));
-    const std::string pointer = fmt::format("/particles/{}", r);
-    if (sum_over_ranks(static_cast<std::int64_t>(positions.size())) == 0) {
-      problems.note(pointer + "/shape", "no particle inside", "a shape that holds at least one particle",
-                    fmt::format("none at {} per cell and direction", region.per_cell));
-    }
+    const auto parts = parts_of<Dim>(scene, grid, layers, r);
+    if (sum_over_ranks(static_cast<std::int64_t>(parts.size())) == 0) note_empty(scene, r, problems);
     const double share = std::pow(region.per_cell, -Dim);
     const Vec<Dim>* overlap = nullptr;
-    for (const Vec<Dim>& x : positions) {
-      double& cell = filled[grid.row(cell_of<Dim>(grid, x))];
-      if (!is_cut || std::get<SharedShape<Dim>>(region.shape)->contains(x)) cell += share;
-      if (cell > 1 + 1e-9 && !overlap) overlap = &x;
-      seeds.position.push_back(region.jitter ? x : moved_at_walls<Dim>(scene, grid, region.per_cell, x));
-      seeds.region.push_back(r);
-      seeds.share.push_back(1);
+    for (const Vec<Dim>& x : parts) {
+      if (fills<Dim>(scene, grid, r, x)) {
+        double& cell = filled[grid.row(cell_of<Dim>(grid, x))];
+        cell += share;
+        if (cell > 1 + 1e-9 && !overlap) overlap = &x;
+      }
+      add_seed<Dim>(scene, grid, r, x, seeds);
     }
-    if (has_bodies && !is_cut && shape_with_distance<Dim>(region) != nullptr)
-      add_parts_beyond<Dim>(scene, grid, layers, r, positions, seeds);
+    if (has_bodies && !scene.facts.get<CutRegions>().is_cut[r] && shape_with_distance<Dim>(region) != nullptr)
+      add_parts_beyond<Dim>(scene, grid, layers, r, parts, seeds);
     if (overlap) {
-      problems.note(pointer + "/shape", "overlaps an earlier one", "no cell more than full",
+      problems.note(fmt::format("/particles/{}/shape", r), "overlaps an earlier one", "no cell more than full",
                     "more than a full cell at " + place_text<Dim>(*overlap));
     }
   }
   if (!seeds.is_beyond.empty()) seeds.is_beyond.resize(seeds.position.size(), 0);
+  for (const Vec<Dim>& x : seeds.part) {
+    const int layer = cell_of<Dim>(grid, x)[Dim - 1];
+    seeds.is_guest.push_back(layer < own[0] || layer >= own[1] ? 1 : 0);
+  }
   cut_seeds<Dim>(scene, grid, world, seeds, problems);
   return seeds;
 }

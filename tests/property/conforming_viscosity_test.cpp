@@ -158,7 +158,8 @@ Json scattered(int dimension, int degree, double number) {
     "particles": [
       {"shape": {"box": {"low": [-1, 2], "high": [0.75, 2.5]}}, "per_cell": 3,
        "arrangement": "jittered", "seed": 3, "velocity": ["sin(3*x)*y", "x*x - y"]},
-      {"shape": {"box": {"low": [0.11, 3.11], "high": [0.125, 3.125]}}, "per_cell": 16, "velocity": [1, 2]}],
+      {"shape": {"box": {"low": [0.11, 3.11], "high": [0.125, 3.125]}}, "per_cell": 16,
+       "arrangement": "lattice", "velocity": [1, 2]}],
     "volume": {"scheme": "none"}, "solver": {"tolerance": 1e-12}, "time": {"end": 1, "step": 0.01}})json"
                                           : R"json({
     "dimension": 3,
@@ -169,7 +170,7 @@ Json scattered(int dimension, int degree, double number) {
       {"shape": {"box": {"low": [-1, 2, 0], "high": [0, 2.5, 0.5]}}, "per_cell": 2,
        "arrangement": "jittered", "seed": 3, "velocity": ["sin(3*x)*y", "x*x - y", "z*x"]},
       {"shape": {"box": {"low": [-0.5, 2.76, 0.75], "high": [-0.484, 2.776, 0.766]}}, "per_cell": 16,
-       "velocity": [1, 2, 3]}],
+       "arrangement": "lattice", "velocity": [1, 2, 3]}],
     "volume": {"scheme": "none"}, "solver": {"tolerance": 1e-12}, "time": {"end": 1, "step": 0.01}})json");
   scene["discretization"] = {{"scheme", "conforming"}, {"degree", degree}};
   constexpr double h = 0.25;

@@ -3,6 +3,7 @@
 #include "systems/bodies/geometry/cut.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 
 namespace minamo {
@@ -51,6 +52,99 @@ Piece<Dim> piece_of(const Vec<Dim>& x, double size, bool bounded, const Distance
   return piece;
 }
 
+/// Of a part that a region cuts: exactly 1 or 0 where it lies inside or outside, whatever rounding says. Where one
+/// distance tells nothing of a neighbourhood, corners and middles of edges and sides tell whether anything is cut.
+template <int Dim>
+double share_within(const Vec<Dim>& x, const CutRegion<Dim>& region) {
+  const auto depth = [&](const Vec<Dim>& y) { return -region.shape->distance(y); };
+  const bool bounded = region.shape->is_bounded_by_distance();
+  if (!bounded) {
+    std::size_t inside = 0;
+    constexpr std::size_t points = power(3, Dim);
+    for (std::size_t k = 0; k < points; ++k) {
+      Vec<Dim> y = x;
+      std::size_t rest = k;
+      for (int d = 0; d < Dim; ++d, rest /= 3)
+        y[d] += (static_cast<double>(rest % 3) - 1) * (0.5 - rounding) * region.size;
+      if (depth(y) > 0) ++inside;
+    }
+    if (inside == 0 || inside == points) return inside == 0 ? 0 : 1;
+  }
+  const double share = piece_of<Dim>(x, region.size, bounded, depth).share;
+  if (share < rounding || share > 1 - rounding) return std::round(share);
+  return share;
+}
+
+template <int Dim>
+bool holds_middle(const Vec<Dim>& x, const CutRegion<Dim>& region) {
+  return region.shape->distance(x) <= rounding * region.size;
+}
+
+/// Particles that are made, by cell.
+template <int Dim>
+class Kept {
+ public:
+  Seeds<Dim> seeds;  ///< of it position, region, share and guest
+
+  explicit Kept(const Grid<Dim>& grid) : grid_(grid) {}
+  void add(std::size_t from, const Vec<Dim>& x, std::size_t region, double share, bool is_guest) {
+    from_.push_back(from);
+    in_cell_[cell_of(x, {})].push_back(seeds.position.size());
+    seeds.position.push_back(x);
+    seeds.region.push_back(region);
+    seeds.share.push_back(share);
+    seeds.is_guest.push_back(is_guest ? 1 : 0);
+  }
+  /// Those of a region in the cells around that are as near as the nearest, whatever rounding says: each has its part.
+  std::vector<std::size_t> nearest(const Vec<Dim>& x, std::size_t region, double alike) const {
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < power(3, Dim); ++k) {
+      Index<Dim> aside;
+      std::size_t rest = k;
+      for (std::size_t d = 0; d < Dim; ++d, rest /= 3) aside[d] = static_cast<int>(rest % 3) - 1;
+      const auto there = in_cell_.find(cell_of(x, aside));
+      if (there == in_cell_.end()) continue;
+      for (const std::size_t q : there->second) {
+        const double distance = (seeds.position[q] - x).norm();
+        if (seeds.region[q] != region || distance > least + alike) continue;
+        if (distance < least - alike) found.clear();
+        found.push_back(q);
+        least = std::min(least, distance);
+      }
+    }
+    return found;
+  }
+  /// All but guests, in the order of the parts that they are from.
+  Seeds<Dim> own() const {
+    std::vector<std::size_t> order(from_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return from_[a] < from_[b]; });
+    Seeds<Dim> all;
+    for (const std::size_t q : order) {
+      if (seeds.is_guest[q] != 0) continue;
+      all.position.push_back(seeds.position[q]);
+      all.region.push_back(seeds.region[q]);
+      all.share.push_back(seeds.share[q]);
+    }
+    return all;
+  }
+
+ private:
+  std::size_t cell_of(const Vec<Dim>& x, const Index<Dim>& aside) const {
+    std::size_t row = 0;
+    for (int d = Dim; d-- > 0;) {
+      const auto cell = static_cast<int>((x[d] - grid_.low[d]) / grid_.spacing) + aside[static_cast<std::size_t>(d)];
+      row = row * 1'000'003 + static_cast<std::size_t>(cell + 1);
+    }
+    return row;
+  }
+
+  const Grid<Dim>& grid_;
+  std::vector<std::size_t> from_;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell_;
+};
+
 }  // namespace
 
 template <int Dim>
@@ -67,73 +161,68 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
       pieces[p] =
           piece_of<Dim>(x, region.size, bodies.bounded(), [&](const Vec<Dim>& y) { return bodies.distance(y); });
       if (seeds.is_beyond.empty() || seeds.is_beyond[p] == 0) return;
-      const bool is_inside = region.shape->distance(pieces[p].middle) <= rounding * region.size;
-      if (pieces[p].share == 1 || !is_inside) pieces[p].share = 0;
+      if (pieces[p].share == 1 || !holds_middle<Dim>(pieces[p].middle, region)) pieces[p].share = 0;
       within[p] = pieces[p].share;
       return;
     }
-    const bool bounded = region.shape->is_bounded_by_distance();
-    const auto depth = [&](const Vec<Dim>& y) { return -region.shape->distance(y); };
-    within[p] = piece_of<Dim>(x, region.size, bounded, depth).share;
-    pieces[p] = piece_of<Dim>(x, region.size, bounded && bodies.bounded(),
-                              [&](const Vec<Dim>& y) { return std::min(depth(y), bodies.distance(y)); });
+    const Vec<Dim>& part = seeds.part[p];
+    within[p] = share_within<Dim>(part, region);
+    if (within[p] == 0) {
+      pieces[p].share = 0;
+    } else if (within[p] == 1) {
+      pieces[p] =
+          piece_of<Dim>(x, region.size, bodies.bounded(), [&](const Vec<Dim>& y) { return bodies.distance(y); });
+    } else {
+      pieces[p] = piece_of<Dim>(part, region.size, false, [&](const Vec<Dim>& y) {
+        return std::min(-region.shape->distance(y), bodies.distance(y));
+      });
+      pieces[p].middle += x - part;
+    }
   });
 
   const auto volume_of = [&](std::size_t p) { return seeds.share[p] * std::pow(regions[seeds.region[p]].size, Dim); };
-  LiquidCut cut;
+  const auto is_guest = [&](std::size_t p) { return !seeds.is_guest.empty() && seeds.is_guest[p] != 0; };
+  LiquidCut cut{0, 0, std::vector<std::size_t>(regions.size(), 0)};
   for (std::size_t p = 0; p < parts; ++p) {
+    if (is_guest(p)) continue;
+    if (within[p] >= least_share) ++cut.particles[seeds.region[p]];
     cut.volume += (within[p] - pieces[p].share) * volume_of(p);
     cut.of += within[p] * volume_of(p);
   }
 
-  Seeds<Dim> kept;
-  std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell;
-  const auto cell_of = [&](const Vec<Dim>& x, const Index<Dim>& aside) {
-    std::size_t row = 0;
-    for (int d = Dim; d-- > 0;) {
-      const auto cell = static_cast<int>((x[d] - grid.low[d]) / grid.spacing) + aside[static_cast<std::size_t>(d)];
-      row = row * 1'000'003 + static_cast<std::size_t>(cell + 1);
-    }
-    return row;
+  Kept<Dim> kept(grid);
+  const auto keep = [&](std::size_t p) {
+    kept.add(p, pieces[p].middle, seeds.region[p], seeds.share[p] * pieces[p].share, is_guest(p));
   };
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    if (pieces[p].share < least_share) continue;
-    in_cell[cell_of(pieces[p].middle, {})].push_back(kept.position.size());
-    kept.position.push_back(pieces[p].middle);
-    kept.region.push_back(seeds.region[p]);
-    kept.share.push_back(seeds.share[p] * pieces[p].share);
+  std::vector<std::size_t> small;
+  for (std::size_t p = 0; p < parts; ++p) {
+    if (pieces[p].share >= least_share) keep(p);
+    if (pieces[p].share > 0 && pieces[p].share < least_share) small.push_back(p);
   }
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    if (pieces[p].share <= 0 || pieces[p].share >= least_share) continue;
-    // As near as the nearest, whatever rounding says: each has its part.
-    const double alike = rounding * regions[seeds.region[p]].size;
-    double nearest = std::numeric_limits<double>::infinity();
-    std::vector<std::size_t> heirs;
-    for (std::size_t k = 0; k < power(3, Dim); ++k) {
-      Index<Dim> aside;
-      std::size_t rest = k;
-      for (std::size_t d = 0; d < Dim; ++d) {
-        aside[d] = static_cast<int>(rest % 3) - 1;
-        rest /= 3;
-      }
-      const auto found = in_cell.find(cell_of(pieces[p].middle, aside));
-      if (found == in_cell.end()) continue;
-      for (const std::size_t q : found->second) {
-        const double distance = (kept.position[q] - pieces[p].middle).norm();
-        if (kept.region[q] != seeds.region[p] || distance > nearest + alike) continue;
-        if (distance < nearest - alike) heirs.clear();
-        heirs.push_back(q);
-        nearest = std::min(nearest, distance);
-      }
-    }
-    if (!heirs.empty()) {
-      for (const std::size_t heir : heirs)
-        kept.share[heir] += seeds.share[p] * pieces[p].share / static_cast<double>(heirs.size());
-    } else {
-      cut.volume += pieces[p].share * volume_of(p);
-    }
+  const auto heirs_of = [&](std::size_t p) {
+    return kept.nearest(pieces[p].middle, seeds.region[p], rounding * regions[seeds.region[p]].size);
+  };
+  // Small as it is, what has its middle in a region and nothing near is a particle: else small shapes were nothing.
+  std::vector<std::size_t> lonely;
+  for (const std::size_t p : small) {
+    if (regions[seeds.region[p]].is_cut && holds_middle<Dim>(seeds.part[p], regions[seeds.region[p]]) &&
+        heirs_of(p).empty())
+      lonely.push_back(p);
   }
-  seeds = std::move(kept);
+  for (const std::size_t p : lonely) {
+    keep(p);
+    pieces[p].share = 0;
+    if (!is_guest(p)) ++cut.particles[seeds.region[p]];
+  }
+  for (const std::size_t p : small) {
+    if (pieces[p].share == 0) continue;
+    const double share = pieces[p].share;
+    const auto heirs = heirs_of(p);
+    for (const std::size_t heir : heirs)
+      kept.seeds.share[heir] += seeds.share[p] * share / static_cast<double>(heirs.size());
+    if (heirs.empty() && !is_guest(p)) cut.volume += share * volume_of(p);
+  }
+  seeds = kept.own();
   return cut;
 }
 
