@@ -16,6 +16,9 @@ constexpr double least_mass = 1e-3;
 constexpr double near_from = 0.8;
 constexpr double near_to = 0.95;
 constexpr int liquid_reach = 2;
+/// Steps along a wall in which the liquid may become thinner than a cell and still is no spray: the edge of a pool on a
+/// beach.
+constexpr int reach_along_walls = 6;
 /// Open share of a multiplier from which on its particles tell whether there is liquid.
 constexpr double least_open_share = 0.05;
 /// Largest rho V^_f/m_f: a face that no particle is near has next to no inertia.
@@ -86,6 +89,23 @@ double size_at_face(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, s
     if (count > 0) squares += sum * sum / (count * count);
   }
   return std::sqrt(squares);
+}
+
+/// The larger value of the multipliers next to each, among those that bodies cut and particles touch.
+template <int Dim>
+void spread_along_walls(const RowsOfSites<Dim>& of, std::span<const double> open, std::span<const double> v_l,
+                        std::span<double> value, std::span<double> buffer) {
+  const auto is_cut = [&](std::size_t i) { return open[i] < 1 && v_l[i] > 0; };
+  for_each_row(value.size(), [&](std::size_t i) {
+    buffer[i] = value[i];
+    if (!is_cut(i)) return;
+    for (const std::int32_t j : of.neighbour[i]) {
+      const auto other = static_cast<std::size_t>(j);
+      if (j == staggered::none || !is_cut(other) || of.parts(i, static_cast<std::uint32_t>(j))) continue;
+      buffer[i] = std::max(buffer[i], value[other]);
+    }
+  });
+  for_each_row(value.size(), [&](std::size_t i) { value[i] = buffer[i]; });
 }
 
 }  // namespace
@@ -175,6 +195,11 @@ void FindExactShare<Dim>::operator()(
   spread_largest<Dim, liquid_reach>(of, near.span(), buffer.span(),
                                     [&](std::size_t i) { return v_l[i] > 0 && near[i] < near_to; });
   if (shared) shared->copy_from_owner(near.span());
+  if (open) {
+    for (int step = 0; step < reach_along_walls; ++step)
+      spread_along_walls<Dim>(of, open.span(), v_l.span(), near.span(), buffer.span());
+    if (shared) shared->copy_from_owner(near.span());
+  }
   for_each_row(near.size(), [&](std::size_t i) {
     const double t = std::clamp((near[i] - near_from) / (near_to - near_from), 0.0, 1.0);
     near[i] = t * t * (3 - 2 * t);

@@ -342,6 +342,7 @@ void find_versions(const OpenSites<Dim>& open, bool has_sides, ContinuedLiquid<D
   }
   continued.psi.assign(versions, -farthest);
   continued.fill.assign(versions, 0);
+  continued.open_fill.assign(versions, 0);
 }
 
 }  // namespace
@@ -385,6 +386,15 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     continued->psi[v] = known->psi;
     continued->fill[v] = known->fill;
   }
+  for_each_row(continued->site.size(), [&](std::size_t c) {
+    const auto row = rows->find(continued->site[c]);
+    if (row && v_l[*row] > 0) return;
+    for (std::size_t v = continued->first[c]; v < continued->first[c] + continued->versions(c); ++v) {
+      const Known<Dim>* known = continuation.told(v);
+      if (known != nullptr && is_cut(known->fill))
+        continued->open_fill[v] = cuts.open_below(known->site, known->psi, known->normal);
+    }
+  });
   for (std::size_t c = 0; c < continued->site.size(); ++c) {
     const auto version = continued->version(c, here);
     const Known<Dim>* known = version ? continuation.told(*version) : nullptr;
