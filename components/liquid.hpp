@@ -128,7 +128,9 @@ struct ContinuedLiquid {
   bool any_parted = false;              ///< whether any has two
   std::vector<double> psi;              ///< by version, in units of h
   std::vector<double> fill;             ///< by version, phi_l of the whole spline [1]
-  std::vector<double> open_fill;  ///< of it what bodies leave open; of multipliers at the surface without particles
+  /// By version, of multipliers at the surface that no particle touches: fill of what is open over that of the whole
+  /// [1]
+  std::vector<double> wetness;
   static constexpr ComponentInfo info{"continued_liquid", "psi_l", "1", Lifetime::scratch};
 
   /// How many versions a multiplier has.

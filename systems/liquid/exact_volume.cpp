@@ -29,8 +29,9 @@ constexpr double at_rest_from = 0.9;
 /// Fill that particles may not see: the surface reaches so far into the spline of a multiplier before a lattice of
 /// 2 x 2 touches it. Were faces let go from less on, small waves would meet walls that do not answer.
 constexpr double unseen = 0.03;
-/// Part of the fill that bodies leave open, up to which there is nothing to answer: the edge of a pool on a beach.
-constexpr double nothing_open = 2e-3;
+/// Fill of what is open over that of the whole spline up to which there is nothing to answer: the edge of a pool on a
+/// beach has its liquid in the body, and open what is above.
+constexpr double dry = 0.3;
 
 /// Calls use(cell, offset, place) for the cells of the grid that a spline of a site reaches, `extent` cells along every
 /// axis; `offset` is that of the site from the first one of the cell, `place` its number among as many, x fastest.
@@ -291,7 +292,7 @@ bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d, const Inde
     const auto version = of.continued_version(site, from);
     if (!version) return false;
     const double fill = of.continued->fill[*version];
-    return fill > unseen || (liquid::is_cut(fill) && of.continued->open_fill[*version] < nothing_open);
+    return fill > unseen || (liquid::is_cut(fill) && of.continued->wetness[*version] < dry);
   };
   if (lacks_particles(of.site[i], static_cast<std::int32_t>(i))) return true;
   const auto below = site_beside(of.splines, of.site[i], 2 * d);

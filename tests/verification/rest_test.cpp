@@ -103,7 +103,7 @@ TEST_CASE("the edge of a pool on a beach rests, wherever it is in the grid", "[v
   const Pool pool = GENERATE(Pool{0.027, 0.0285, 0.3, 0.5, 1, 3, 1.5}, Pool{0, 0, 0.31, 0.7, 1.013, 2, 6});
   Json scene = Json::parse(R"({"dimension": 2, "fluid": {"density": 1000, "viscosity": 1e-3},
     "body_force": [0, -9.81], "particles": [{"shape": {"half_space": {"normal": [0, 1]}}}],
-    "bodies": [{"name": "beach", "shape": {"half_space": {}}}], "time": {"end": 9}})");
+    "bodies": [{"name": "beach", "shape": {"half_space": {}}}], "time": {"end": 9, "step": 0.0119}})");
   scene["grid"] = {
       {"low", {-pool.right, -pool.up}}, {"high", {2.05 - pool.right, 0.65 - pool.up}}, {"cells", {41, 13}}};
   scene["bodies"][0]["shape"]["half_space"] = {{"point", {pool.foot, 0}}, {"normal", {-pool.slope, 1}}};

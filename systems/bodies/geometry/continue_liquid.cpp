@@ -342,7 +342,7 @@ void find_versions(const OpenSites<Dim>& open, bool has_sides, ContinuedLiquid<D
   }
   continued.psi.assign(versions, -farthest);
   continued.fill.assign(versions, 0);
-  continued.open_fill.assign(versions, 0);
+  continued.wetness.assign(versions, 0);
 }
 
 }  // namespace
@@ -391,8 +391,10 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     if (row && v_l[*row] > 0) return;
     for (std::size_t v = continued->first[c]; v < continued->first[c] + continued->versions(c); ++v) {
       const Known<Dim>* known = continuation.told(v);
-      if (known != nullptr && is_cut(known->fill))
-        continued->open_fill[v] = cuts.open_below(known->site, known->psi, known->normal);
+      if (known == nullptr || !is_cut(known->fill)) continue;
+      typename SiteRows<Dim>::Finder find(*rows);
+      const double whole = known->fill * open_sites.share(known->site, find);
+      if (whole > 0) continued->wetness[v] = cuts.open_below(known->site, known->psi, known->normal) / whole;
     }
   });
   for (std::size_t c = 0; c < continued->site.size(); ++c) {
