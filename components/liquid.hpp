@@ -128,7 +128,7 @@ struct ContinuedLiquid {
   bool any_parted = false;              ///< whether any has two
   std::vector<double> psi;              ///< by version, in units of h
   std::vector<double> fill;             ///< by version, phi_l of the whole spline [1]
-  /// By version, of multipliers at the surface that no particle touches: fill of what is open over that of the whole
+  /// By version: fill of what is open over that of the whole spline, of multipliers at the surface without particles
   /// [1]
   std::vector<double> wetness;
   static constexpr ComponentInfo info{"continued_liquid", "psi_l", "1", Lifetime::scratch};

@@ -89,11 +89,15 @@ class Kept {
   explicit Kept(const Grid<Dim>& grid) : grid_(grid) {}
   void add(std::size_t from, const Vec<Dim>& x, std::size_t region, double share, bool is_guest) {
     from_.push_back(from);
-    in_cell_[cell_of(x, {})].push_back(seeds.position.size());
     seeds.position.push_back(x);
     seeds.region.push_back(region);
     seeds.share.push_back(share);
     seeds.is_guest.push_back(is_guest ? 1 : 0);
+  }
+  /// Lets nearest() find all that were added.
+  void index() {
+    for (; indexed_ < seeds.position.size(); ++indexed_)
+      in_cell_[cell_of(seeds.position[indexed_], {})].push_back(indexed_);
   }
   /// Those of a region in the cells around that are as near as the nearest, whatever rounding says: each has its part.
   std::vector<std::size_t> nearest(const Vec<Dim>& x, std::size_t region, double alike) const {
@@ -119,7 +123,8 @@ class Kept {
   Seeds<Dim> own() const {
     std::vector<std::size_t> order(from_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return from_[a] < from_[b]; });
+    if (!std::is_sorted(from_.begin(), from_.end()))
+      std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return from_[a] < from_[b]; });
     Seeds<Dim> all;
     for (const std::size_t q : order) {
       if (seeds.is_guest[q] != 0) continue;
@@ -142,6 +147,7 @@ class Kept {
 
   const Grid<Dim>& grid_;
   std::vector<std::size_t> from_;
+  std::size_t indexed_ = 0;
   std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell_;
 };
 
@@ -199,6 +205,7 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
     if (pieces[p].share >= least_share) keep(p);
     if (pieces[p].share > 0 && pieces[p].share < least_share) small.push_back(p);
   }
+  if (!small.empty()) kept.index();
   const auto heirs_of = [&](std::size_t p) {
     return kept.nearest(pieces[p].middle, seeds.region[p], rounding * regions[seeds.region[p]].size);
   };
@@ -214,6 +221,7 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
     pieces[p].share = 0;
     if (!is_guest(p)) ++cut.particles[seeds.region[p]];
   }
+  if (!lonely.empty()) kept.index();
   for (const std::size_t p : small) {
     if (pieces[p].share == 0) continue;
     const double share = pieces[p].share;
