@@ -35,6 +35,27 @@ Region read_region(Input& input, const Scene& scene) {
   });
 }
 
+/// Whether the surface lies along the grid: as far apart as particles are, it may be told by whole ones.
+template <int Dim>
+bool is_along_grid(const Shape<Dim>& shape) {
+  const auto parts = shape.convex_parts();
+  if (!parts) return false;
+  return std::all_of(parts->begin(), parts->end(), [](const ConvexPart<Dim>& part) {
+    return std::all_of(part.begin(), part.end(), [](const Facet<Dim>& facet) {
+      return facet.face == Facet<Dim>::inner || facet.normal.cwiseAbs().maxCoeff() > 1 - 1e-12;
+    });
+  });
+}
+
+/// Whether whole particles stand for a region unless the scene says otherwise. Those that an oblique or curved surface
+/// cuts would make steps of it; of an expression nothing tells how its surface lies.
+bool is_told_by_lattice(const Region& region) {
+  if (std::holds_alternative<Where>(region)) return true;
+  const auto of_shape = [](const auto& shape) { return !shape->is_bounded_by_distance() || is_along_grid(*shape); };
+  const auto* plane = std::get_if<SharedShape<2>>(&region);
+  return plane != nullptr ? of_shape(*plane) : of_shape(std::get<SharedShape<3>>(region));
+}
+
 /// Which of several liquids every region is filled with.
 struct FluidsOfRegions {
   std::vector<std::size_t> of;
@@ -71,8 +92,10 @@ ParticleScene read_particles(Input& input, const Scene& scene, CutRegions& cut) 
   if (input.sound("shape") && input.sound("per_cell")) check_particle_count(input, particles, scene.grid);
   bool is_cut = false;
   const bool is_where = std::holds_alternative<Where>(particles.shape);
-  input.variant("arrangement", "where in a cell the particles start; \"lattice\" if the shape is a \"where\"",
-                !input.describing() && is_where ? "lattice" : "cut",
+  input.variant("arrangement",
+                "where in a cell the particles start; \"lattice\" of a \"where\", of a \"distance\", and if all of the "
+                "shape lies along the grid",
+                !input.describing() && is_told_by_lattice(particles.shape) ? "lattice" : "cut",
                 {{"lattice", [](Input&) {}},
                  {"jittered",
                   [&](Input& in) {

@@ -156,7 +156,7 @@ TEST_CASE("liquid that the surface of its shape cuts has the volume and the midd
   CHECK((moment / total_mass(run.world()) - middle).norm() < 1e-3);
 }
 
-TEST_CASE("the surface of a shape cuts its liquid unless the scene says otherwise", "[unit]") {
+TEST_CASE("an oblique or curved surface cuts its liquid unless the scene says otherwise", "[unit]") {
   const auto mass = [](const std::string& more) {
     SceneRun run(staggered_box(R"([{"per_cell": 2, )" + more + "}]"));
     return total_mass(run.world());
@@ -166,8 +166,13 @@ TEST_CASE("the surface of a shape cuts its liquid unless the scene says otherwis
   CHECK(mass(ball) == Approx(exact).epsilon(1e-3));
   CHECK(mass(ball) == mass(ball + R"(, "arrangement": "cut")"));
   CHECK(std::abs(mass(ball + R"(, "arrangement": "lattice")") - exact) > 5e-3 * exact);
-  const std::string where = R"("shape": {"where": "y < 0.333"})";
-  CHECK(mass(where) == mass(where + R"(, "arrangement": "lattice")"));
+  const std::string told_by_lattice = GENERATE(
+      R"("shape": {"where": "y < 0.333"})", R"("shape": {"distance": "y - 0.333"})",
+      R"("shape": {"half_space": {"point": [0, 0.333], "normal": [0, 2]}})",
+      R"("shape": {"difference": [{"box": {"low": [0, 0], "high": [1, 0.333]}}, {"box": {"low": [0, 0], "high": [0.3, 0.2]}}]})");
+  CHECK(mass(told_by_lattice) == mass(told_by_lattice + R"(, "arrangement": "lattice")"));
+  const std::string oblique = R"("shape": {"half_space": {"point": [0, 0.333], "normal": [0.1, 1]}})";
+  CHECK(mass(oblique) == mass(oblique + R"(, "arrangement": "cut")"));
 }
 
 TEST_CASE("liquid that lies along parts of cells is that of a lattice, bit for bit", "[unit]") {

@@ -108,6 +108,7 @@ TEST_CASE("the edge of a pool on a beach rests, wherever it is in the grid", "[v
       {"low", {-pool.right, -pool.up}}, {"high", {2.05 - pool.right, 0.65 - pool.up}}, {"cells", {41, 13}}};
   scene["bodies"][0]["shape"]["half_space"] = {{"point", {pool.foot, 0}}, {"normal", {-pool.slope, 1}}};
   scene["particles"][0]["per_cell"] = pool.per_cell;
+  scene["particles"][0]["arrangement"] = "cut";
   scene["particles"][0]["shape"]["half_space"]["point"] = {0, pool.level};
   CAPTURE(pool.slope, pool.level);
   SceneRun run(scene);
