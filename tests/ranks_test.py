@@ -407,8 +407,8 @@ class Files(unittest.TestCase):
             self.assertEqual(ours, alone)
 
     def test_ranks_cut_the_same_particles(self):
-        for scene in ("elliptical_drop", "drop_3d", "obstacle"):
-            options = ["--steps", "0"] if scene == "obstacle" else ["--steps", "0", "--set", "/particles/0/per_cell=1"]
+        for scene in ("elliptical_drop", "drop_3d", "obstacle", "tilted_tank"):
+            options = ["--steps", "0"] if scene in ("obstacle", "tilted_tank") else ["--steps", "0", "--set", "/particles/0/per_cell=1"]
             alone = last_frame(run("cut_alone", 0, SCENES / f"{scene}.json", *options)[0])
             shared = last_frame(run("cut_shared", 5, SCENES / f"{scene}.json", *options)[0])
             for name in ("id", "position"):

@@ -310,10 +310,15 @@ double density_of(const Scene& scene, std::size_t region) {
                            : fluids->of[scene.facts.get<FluidsOfRegions>().of[region]].density;
 }
 
-/// Numbers of particles, region by region, as if one process had laid them out.
-std::vector<std::int64_t> numbers_of(std::span<const std::size_t> region, std::size_t regions) {
-  std::vector<std::int64_t> next(regions, 0);
-  for (const std::size_t r : region) ++next[r];
+/// Numbers of particles, region by region, as if one process had laid them out: those with their middle inside, then
+/// those beyond.
+template <int Dim>
+std::vector<std::int64_t> numbers_of(const Seeds<Dim>& seeds, std::size_t regions) {
+  std::vector<std::size_t> group(seeds.region.size());
+  for (std::size_t p = 0; p < group.size(); ++p)
+    group[p] = 2 * seeds.region[p] + (seeds.is_beyond.empty() ? 0U : seeds.is_beyond[p]);
+  std::vector<std::int64_t> next(2 * regions, 0);
+  for (const std::size_t g : group) ++next[g];
   std::int64_t before = 0;
   for (std::int64_t& count : next) {
     const std::int64_t own = count;
@@ -321,7 +326,7 @@ std::vector<std::int64_t> numbers_of(std::span<const std::size_t> region, std::s
     before += sum_over_ranks(own);
   }
   std::vector<std::int64_t> numbers;
-  for (const std::size_t r : region) numbers.push_back(next[r]++);
+  for (const std::size_t g : group) numbers.push_back(next[g]++);
   return numbers;
 }
 
@@ -335,7 +340,7 @@ void set_particles(const Scene& scene, const Grid<Dim>& grid, const Seeds<Dim>& 
   const auto v_p = world.column<particle::Velocity<Dim>>();
   const auto m_p = world.column<particle::Mass>();
   const auto V_p = world.column<particle::Volume>();
-  const auto numbers = numbers_of(seeds.region, scene.particles.size());
+  const auto numbers = numbers_of<Dim>(seeds, scene.particles.size());
   std::copy(numbers.begin(), numbers.end(), world.column<particle::Id>().begin());
   const auto grad_v_p = with_gradient ? world.column<particle::VelocityGradient<Dim>>() : std::span<Mat<Dim>>{};
   const Instant start = scene.start;

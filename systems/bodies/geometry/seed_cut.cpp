@@ -84,15 +84,16 @@ bool holds_middle(const Vec<Dim>& x, const CutRegion<Dim>& region) {
 template <int Dim>
 class Kept {
  public:
-  Seeds<Dim> seeds;  ///< of it position, region, share and guest
+  Seeds<Dim> seeds;  ///< all but parts
 
   explicit Kept(const Grid<Dim>& grid) : grid_(grid) {}
-  void add(std::size_t from, const Vec<Dim>& x, std::size_t region, double share, bool is_guest) {
+  void add(std::size_t from, const Vec<Dim>& x, double share, const Seeds<Dim>& of) {
     from_.push_back(from);
     seeds.position.push_back(x);
-    seeds.region.push_back(region);
+    seeds.region.push_back(of.region[from]);
     seeds.share.push_back(share);
-    seeds.is_guest.push_back(is_guest ? 1 : 0);
+    seeds.is_beyond.push_back(of.is_beyond.empty() ? 0 : of.is_beyond[from]);
+    seeds.is_guest.push_back(of.is_guest.empty() ? 0 : of.is_guest[from]);
   }
   /// Lets nearest() find all that were added.
   void index() {
@@ -131,6 +132,7 @@ class Kept {
       all.position.push_back(seeds.position[q]);
       all.region.push_back(seeds.region[q]);
       all.share.push_back(seeds.share[q]);
+      all.is_beyond.push_back(seeds.is_beyond[q]);
     }
     return all;
   }
@@ -197,9 +199,7 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
   }
 
   Kept<Dim> kept(grid);
-  const auto keep = [&](std::size_t p) {
-    kept.add(p, pieces[p].middle, seeds.region[p], seeds.share[p] * pieces[p].share, is_guest(p));
-  };
+  const auto keep = [&](std::size_t p) { kept.add(p, pieces[p].middle, seeds.share[p] * pieces[p].share, seeds); };
   std::vector<std::size_t> small;
   for (std::size_t p = 0; p < parts; ++p) {
     if (pieces[p].share >= least_share) keep(p);
