@@ -60,16 +60,14 @@ def run(program: Path, case: Case, steps: int, folder: Path) -> dict[str, Any]:
 
 
 def efforts(summary: dict[str, Any]) -> dict[str, dict[str, float]]:
-    """Of all ranks: the solver's, and that of everything else."""
-    keys = ("compute_s", *COUNTS)
-    if "ranks" in summary:
-        every = {key: summary["ranks"][key] for key in keys}
-        of_solver = {key: sum(row[key] for row in summary["systems"] if row["name"] in SOLVER) for key in keys}
-    else:
-        every = dict.fromkeys(keys, 0.0) | {"compute_s": summary["cpu_s"]}
-        of_solver = dict.fromkeys(keys, 0.0)
-        of_solver["compute_s"] = sum(row["seconds"] for row in summary["systems"] if row["name"] in SOLVER)
-    return {"solver": of_solver, "rest": {key: every[key] - of_solver[key] for key in keys}}
+    """Of all ranks: the solver's, and that of everything else. Compute is that of systems: what a start takes varies."""
+    systems = summary["systems"]
+    if "ranks" not in summary:
+        systems = [dict.fromkeys(COUNTS, 0.0) | row | {"compute_s": row["seconds"]} for row in systems]
+    every = {"compute_s": sum(row["compute_s"] for row in systems)}
+    every |= {key: summary.get("ranks", {}).get(key, 0.0) for key in COUNTS}
+    of_solver = {key: sum(row[key] for row in systems if row["name"] in SOLVER) for key in every}
+    return {"solver": of_solver, "rest": {key: every[key] - of_solver[key] for key in every}}
 
 
 def iterations(folder: Path) -> float:
@@ -89,5 +87,4 @@ def measure(program: Path, case: Case) -> dict[str, Any]:
         found = {part: {key: (after[part][key] - before[part][key]) * shares for key in after[part]} for part in after}
         return asdict(case) | found | {"particles": long["particles"], "unknowns": long["unknowns_max"],
                                        "iterations": iterations(folder / "long"),
-                                       "imbalance": long.get("ranks", {}).get("imbalance", 1.0),
                                        "version": long["version"], "cpu_model": long["cpu_model"]}

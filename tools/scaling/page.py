@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import cache
 
 import numpy as np
 
@@ -71,6 +71,7 @@ def terms(model: Model) -> list[str]:
     return ["| term | a rank and step |", "|---|---|", *[f"| {name} | {text} |" for name, text in rows]]
 
 
+@cache  # seconds, for many ranks
 def row_of(model: Model, machine: Machine, side: int, particles: float) -> dict[str, float]:
     ranks = side ** 3
     parts = steps_of(model, ranks, particles)
