@@ -91,21 +91,27 @@ double size_at_face(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, s
   return std::sqrt(squares);
 }
 
-/// The larger value of the multipliers next to each, among those that bodies cut and particles touch.
+/// The largest value within some steps along walls: over multipliers that bodies cut and particles touch.
 template <int Dim>
 void spread_along_walls(const RowsOfSites<Dim>& of, std::span<const double> open, std::span<const double> v_l,
                         std::span<double> value, std::span<double> buffer) {
   const auto is_cut = [&](std::size_t i) { return open[i] < 1 && v_l[i] > 0; };
-  for_each_row(value.size(), [&](std::size_t i) {
-    buffer[i] = value[i];
-    if (!is_cut(i)) return;
-    for (const std::int32_t j : of.neighbour[i]) {
-      const auto other = static_cast<std::size_t>(j);
-      if (j == staggered::none || !is_cut(other) || of.parts(i, static_cast<std::uint32_t>(j))) continue;
-      buffer[i] = std::max(buffer[i], value[other]);
-    }
-  });
-  for_each_row(value.size(), [&](std::size_t i) { value[i] = buffer[i]; });
+  std::vector<std::uint32_t> cut;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (is_cut(i)) cut.push_back(static_cast<std::uint32_t>(i));
+  }
+  for (int step = 0; step < reach_along_walls; ++step) {
+    for_each_row(cut.size(), [&](std::size_t k) {
+      const std::uint32_t i = cut[k];
+      buffer[i] = value[i];
+      for (const std::int32_t j : of.neighbour[i]) {
+        const auto other = static_cast<std::size_t>(j);
+        if (j == staggered::none || !is_cut(other) || of.parts(i, static_cast<std::uint32_t>(j))) continue;
+        buffer[i] = std::max(buffer[i], value[other]);
+      }
+    });
+    for_each_row(cut.size(), [&](std::size_t k) { value[cut[k]] = buffer[cut[k]]; });
+  }
 }
 
 }  // namespace
@@ -196,8 +202,7 @@ void FindExactShare<Dim>::operator()(
                                     [&](std::size_t i) { return v_l[i] > 0 && near[i] < near_to; });
   if (shared) shared->copy_from_owner(near.span());
   if (open) {
-    for (int step = 0; step < reach_along_walls; ++step)
-      spread_along_walls<Dim>(of, open.span(), v_l.span(), near.span(), buffer.span());
+    spread_along_walls<Dim>(of, open.span(), v_l.span(), near.span(), buffer.span());
     if (shared) shared->copy_from_owner(near.span());
   }
   for_each_row(near.size(), [&](std::size_t i) {

@@ -148,12 +148,14 @@ Vec<Dim> moved_at_walls(const Scene& scene, const Grid<Dim>& grid, int per_cell,
 
 /// A particle for a part of a cell.
 template <int Dim>
-void add_seed(const Scene& scene, const Grid<Dim>& grid, std::size_t r, const Vec<Dim>& part, Seeds<Dim>& seeds) {
+void add_seed(const Scene& scene, const Grid<Dim>& grid, std::size_t r, const Vec<Dim>& part, bool is_beyond,
+              Seeds<Dim>& seeds) {
   const ParticleScene& region = scene.particles[r];
   seeds.position.push_back(region.jitter ? part : moved_at_walls<Dim>(scene, grid, region.per_cell, part));
   seeds.part.push_back(part);
   seeds.region.push_back(r);
   seeds.share.push_back(1);
+  seeds.is_beyond.push_back(is_beyond ? 1 : 0);
 }
 
 void note_empty(const Scene& scene, std::size_t r, SeedProblems& problems) {
@@ -228,14 +230,12 @@ void add_parts_beyond(const Scene& scene, const Grid<Dim>& grid, const Layers& l
       return &other != &region && (shape == nullptr || shape->distance(x) < grid.spacing / other.per_cell);
     });
   };
-  seeds.is_beyond.resize(seeds.position.size(), 0);
   std::size_t next = 0;
   for (const Vec<Dim>& x : lattice<Dim>(region, grid, scene.start, PartsTaken::within_reach, layers)) {
     if (next < inside.size() && inside[next] == x) {
       ++next;
     } else if (!is_elsewhere(x)) {
-      add_seed<Dim>(scene, grid, r, x, seeds);
-      seeds.is_beyond.push_back(1);
+      add_seed<Dim>(scene, grid, r, x, true, seeds);
     }
   }
 }
@@ -285,7 +285,7 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
         cell += share;
         if (cell > 1 + 1e-9 && !overlap) overlap = &x;
       }
-      add_seed<Dim>(scene, grid, r, x, seeds);
+      add_seed<Dim>(scene, grid, r, x, false, seeds);
     }
     if (has_bodies && !scene.facts.get<CutRegions>().is_cut[r] && shape_with_distance<Dim>(region) != nullptr)
       add_parts_beyond<Dim>(scene, grid, layers, r, parts, seeds);
@@ -294,7 +294,6 @@ Seeds<Dim> lay_out(const Scene& scene, const Grid<Dim>& grid, World& world, Seed
                     "more than a full cell at " + place_text<Dim>(*overlap));
     }
   }
-  if (!seeds.is_beyond.empty()) seeds.is_beyond.resize(seeds.position.size(), 0);
   for (const Vec<Dim>& x : seeds.part) {
     const int layer = cell_of<Dim>(grid, x)[Dim - 1];
     seeds.is_guest.push_back(layer < own[0] || layer >= own[1] ? 1 : 0);
@@ -315,8 +314,7 @@ double density_of(const Scene& scene, std::size_t region) {
 template <int Dim>
 std::vector<std::int64_t> numbers_of(const Seeds<Dim>& seeds, std::size_t regions) {
   std::vector<std::size_t> group(seeds.region.size());
-  for (std::size_t p = 0; p < group.size(); ++p)
-    group[p] = 2 * seeds.region[p] + (seeds.is_beyond.empty() ? 0U : seeds.is_beyond[p]);
+  for (std::size_t p = 0; p < group.size(); ++p) group[p] = 2 * seeds.region[p] + seeds.is_beyond[p];
   std::vector<std::int64_t> next(2 * regions, 0);
   for (const std::size_t g : group) ++next[g];
   std::int64_t before = 0;

@@ -17,6 +17,17 @@ constexpr double rounding = 1e-9;
 /// Samples of a part per direction.
 constexpr int samples = 8;
 
+/// The k-th of `across`^Dim places, x fastest.
+template <int Dim>
+Index<Dim> place_in_cube(std::size_t k, std::size_t across) {
+  Index<Dim> place;
+  for (int& along : place) {
+    along = static_cast<int>(k % across);
+    k /= across;
+  }
+  return place;
+}
+
 template <int Dim>
 struct Piece {
   double share = 1;
@@ -37,12 +48,10 @@ Piece<Dim> piece_of(const Vec<Dim>& x, double size, bool bounded, const Distance
   double open = 0;
   Vec<Dim> moment = Vec<Dim>::Zero();
   for (std::size_t k = 0; k < power(samples, Dim); ++k) {
+    const Index<Dim> place = place_in_cube<Dim>(k, samples);
     Vec<Dim> offset;
-    std::size_t rest = k;
-    for (int d = 0; d < Dim; ++d) {
-      offset[d] = (static_cast<double>(rest % samples) + 0.5 - 0.5 * samples) * step;
-      rest /= samples;
-    }
+    for (std::size_t d = 0; d < Dim; ++d)
+      offset[static_cast<Eigen::Index>(d)] = (place[d] + 0.5 - 0.5 * samples) * step;
     const double share = std::clamp(0.5 + distance(Vec<Dim>(x + offset)) / step, 0.0, 1.0);
     open += share;
     moment += share * offset;
@@ -62,10 +71,10 @@ double share_within(const Vec<Dim>& x, const CutRegion<Dim>& region) {
     std::size_t inside = 0;
     constexpr std::size_t points = power(3, Dim);
     for (std::size_t k = 0; k < points; ++k) {
+      const Index<Dim> place = place_in_cube<Dim>(k, 3);
       Vec<Dim> y = x;
-      std::size_t rest = k;
-      for (int d = 0; d < Dim; ++d, rest /= 3)
-        y[d] += (static_cast<double>(rest % 3) - 1) * (0.5 - rounding) * region.size;
+      for (std::size_t d = 0; d < Dim; ++d)
+        y[static_cast<Eigen::Index>(d)] += (place[d] - 1) * (0.5 - rounding) * region.size;
       if (depth(y) > 0) ++inside;
     }
     if (inside == 0 || inside == points) return inside == 0 ? 0 : 1;
@@ -92,8 +101,8 @@ class Kept {
     seeds.position.push_back(x);
     seeds.region.push_back(of.region[from]);
     seeds.share.push_back(share);
-    seeds.is_beyond.push_back(of.is_beyond.empty() ? 0 : of.is_beyond[from]);
-    seeds.is_guest.push_back(of.is_guest.empty() ? 0 : of.is_guest[from]);
+    seeds.is_beyond.push_back(of.is_beyond[from]);
+    seeds.is_guest.push_back(of.is_guest[from]);
   }
   /// Lets nearest() find all that were added.
   void index() {
@@ -105,9 +114,8 @@ class Kept {
     double least = std::numeric_limits<double>::infinity();
     std::vector<std::size_t> found;
     for (std::size_t k = 0; k < power(3, Dim); ++k) {
-      Index<Dim> aside;
-      std::size_t rest = k;
-      for (std::size_t d = 0; d < Dim; ++d, rest /= 3) aside[d] = static_cast<int>(rest % 3) - 1;
+      Index<Dim> aside = place_in_cube<Dim>(k, 3);
+      for (int& along : aside) --along;
       const auto there = in_cell_.find(cell_of(x, aside));
       if (there == in_cell_.end()) continue;
       for (const std::size_t q : there->second) {
@@ -153,46 +161,54 @@ class Kept {
   std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell_;
 };
 
+/// What is left of every part, and which share of it lies in its region.
+template <int Dim>
+struct Pieces {
+  std::vector<Piece<Dim>> left;
+  std::vector<double> within;
+};
+
+template <int Dim>
+Pieces<Dim> cut_parts(const PlacedBodies<Dim>& bodies, const std::vector<CutRegion<Dim>>& regions,
+                      const Seeds<Dim>& seeds) {
+  const std::size_t parts = seeds.position.size();
+  Pieces<Dim> pieces{std::vector<Piece<Dim>>(parts), std::vector<double>(parts, 1)};
+  for_each_row(parts, [&](std::size_t p) {
+    const CutRegion<Dim>& region = regions[seeds.region[p]];
+    const Vec<Dim>& x = seeds.position[p];
+    const Vec<Dim>& part = seeds.part[p];
+    Piece<Dim>& left = pieces.left[p];
+    double& within = pieces.within[p];
+    if (region.is_cut) within = share_within<Dim>(part, region);
+    if (within == 0) {
+      left.share = 0;
+    } else if (within == 1) {
+      left = piece_of<Dim>(x, region.size, bodies.bounded(), [&](const Vec<Dim>& y) { return bodies.distance(y); });
+    } else {
+      left = piece_of<Dim>(part, region.size, false,
+                           [&](const Vec<Dim>& y) { return std::min(-region.shape->distance(y), bodies.distance(y)); });
+      left.middle += x - part;
+    }
+    if (seeds.is_beyond[p] == 0) return;
+    if (left.share == 1 || !holds_middle<Dim>(left.middle, region)) left.share = 0;
+    within = left.share;
+  });
+  return pieces;
+}
+
 }  // namespace
 
 template <int Dim>
 LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::vector<CutRegion<Dim>>& regions,
                    Seeds<Dim>& seeds) {
-  const auto bodies = PlacedBodies<Dim>::at_start(set);
-  const std::size_t parts = seeds.position.size();
-  std::vector<double> within(parts, 1);  // share of a part that lies in its region
-  std::vector<Piece<Dim>> pieces(parts);
-  for_each_row(parts, [&](std::size_t p) {
-    const CutRegion<Dim>& region = regions[seeds.region[p]];
-    const Vec<Dim>& x = seeds.position[p];
-    if (!region.is_cut) {
-      pieces[p] =
-          piece_of<Dim>(x, region.size, bodies.bounded(), [&](const Vec<Dim>& y) { return bodies.distance(y); });
-      if (seeds.is_beyond.empty() || seeds.is_beyond[p] == 0) return;
-      if (pieces[p].share == 1 || !holds_middle<Dim>(pieces[p].middle, region)) pieces[p].share = 0;
-      within[p] = pieces[p].share;
-      return;
-    }
-    const Vec<Dim>& part = seeds.part[p];
-    within[p] = share_within<Dim>(part, region);
-    if (within[p] == 0) {
-      pieces[p].share = 0;
-    } else if (within[p] == 1) {
-      pieces[p] =
-          piece_of<Dim>(x, region.size, bodies.bounded(), [&](const Vec<Dim>& y) { return bodies.distance(y); });
-    } else {
-      pieces[p] = piece_of<Dim>(part, region.size, false, [&](const Vec<Dim>& y) {
-        return std::min(-region.shape->distance(y), bodies.distance(y));
-      });
-      pieces[p].middle += x - part;
-    }
-  });
-
+  Pieces<Dim> cut_up = cut_parts<Dim>(PlacedBodies<Dim>::at_start(set), regions, seeds);
+  std::vector<Piece<Dim>>& pieces = cut_up.left;
+  const std::vector<double>& within = cut_up.within;
+  const std::size_t parts = pieces.size();
   const auto volume_of = [&](std::size_t p) { return seeds.share[p] * std::pow(regions[seeds.region[p]].size, Dim); };
-  const auto is_guest = [&](std::size_t p) { return !seeds.is_guest.empty() && seeds.is_guest[p] != 0; };
   LiquidCut cut{0, 0, std::vector<std::size_t>(regions.size(), 0)};
   for (std::size_t p = 0; p < parts; ++p) {
-    if (is_guest(p)) continue;
+    if (seeds.is_guest[p] != 0) continue;
     if (within[p] >= least_share) ++cut.particles[seeds.region[p]];
     cut.volume += (within[p] - pieces[p].share) * volume_of(p);
     cut.of += within[p] * volume_of(p);
@@ -202,8 +218,11 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
   const auto keep = [&](std::size_t p) { kept.add(p, pieces[p].middle, seeds.share[p] * pieces[p].share, seeds); };
   std::vector<std::size_t> small;
   for (std::size_t p = 0; p < parts; ++p) {
-    if (pieces[p].share >= least_share) keep(p);
-    if (pieces[p].share > 0 && pieces[p].share < least_share) small.push_back(p);
+    if (pieces[p].share >= least_share) {
+      keep(p);
+    } else if (pieces[p].share > 0) {
+      small.push_back(p);
+    }
   }
   if (!small.empty()) kept.index();
   const auto heirs_of = [&](std::size_t p) {
@@ -219,7 +238,7 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
   for (const std::size_t p : lonely) {
     keep(p);
     pieces[p].share = 0;
-    if (!is_guest(p)) ++cut.particles[seeds.region[p]];
+    if (seeds.is_guest[p] == 0) ++cut.particles[seeds.region[p]];
   }
   if (!lonely.empty()) kept.index();
   for (const std::size_t p : small) {
@@ -228,7 +247,7 @@ LiquidCut cut_away(const BodySet<Dim>& set, const Grid<Dim>& grid, const std::ve
     const auto heirs = heirs_of(p);
     for (const std::size_t heir : heirs)
       kept.seeds.share[heir] += seeds.share[p] * share / static_cast<double>(heirs.size());
-    if (heirs.empty() && !is_guest(p)) cut.volume += share * volume_of(p);
+    if (heirs.empty() && seeds.is_guest[p] == 0) cut.volume += share * volume_of(p);
   }
   seeds = kept.own();
   return cut;

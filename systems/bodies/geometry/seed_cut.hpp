@@ -15,9 +15,9 @@ struct Seeds {
   std::vector<std::size_t> region;  ///< that each comes from
   std::vector<double> share;        ///< of the volume of its part of a cell [1]
   /// Whether the middle of its part lies outside of a region that has its middles: what a body leaves of the part may
-  /// have its own inside. One per particle, or none at all.
+  /// have its own inside.
   std::vector<std::uint8_t> is_beyond;
-  /// Of another rank, laid out for what its neighbours here may get or give. One per particle, or none at all.
+  /// Of another rank, laid out for what its neighbours here may get or give.
   std::vector<std::uint8_t> is_guest;
 };
 
