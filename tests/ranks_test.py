@@ -3,6 +3,7 @@ MPIEXEC, RANDOM_MAP (minamo-mpi whose blocks are anywhere), WORK."""
 
 import csv
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -248,6 +249,21 @@ ENCLOSED = {
     "time": {"end": 0.1, "step": 5e-3}, "output": {"every": 0.1}}
 
 
+def pockets():
+    """The two boxes with slanting bars across, so that there are closed pockets of few cells."""
+    cosine, sine = math.cos(0.1), math.sin(0.1)
+
+    def bar(middle, along, length):
+        across = (-along[1], along[0])
+        corner = [[middle[d] + i * length * along[d] + j * 0.03 * across[d] for d in range(2)]
+                  for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        return {"polygon": {"vertices": corner}}
+
+    bars = [bar((0.5, 0.25 + 0.11 * k), (cosine, sine), 0.8) for k in range(-2, 3)]
+    bars += [bar((0.5 + 0.115 * k, 0.25), (-sine, cosine), 0.4) for k in range(-4, 5)]
+    return {**ENCLOSED, "bodies": [{"name": "bars", "shape": {"union": bars}}]}
+
+
 class Scenes(unittest.TestCase):
     """What else a scene may have, on ranks; where nobody knows all, what is not known is marked."""
 
@@ -311,6 +327,7 @@ class Scenes(unittest.TestCase):
 
     def test_liquid_that_is_enclosed_in_several_places(self):
         self.check("enclosed", ENCLOSED, columns=("wall_force_x",))
+        self.check("pockets", pockets(), "--steps", "4", columns=("bars_force_x",))
 
     def test_separating_bodies(self):
         separating = ["--set", '/bodies/0/wall="separating"', "--steps", "30"]

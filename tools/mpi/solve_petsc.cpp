@@ -11,6 +11,9 @@ namespace minamo {
 namespace {
 
 constexpr PetscInt most_iterations = 500;
+/// Of the diagonal, for the multigrid's matrix in closed components: small beside all eigenvalues of S but those of
+/// the null vectors, large beside rounding.
+constexpr double to_be_definite = 1e-8;
 
 void check(PetscErrorCode code) {
   if (code != 0) throw std::runtime_error(fmt::format("petsc: error {}", code));
@@ -58,6 +61,7 @@ struct Solved {
 struct PetscSolver::Impl {
   KSP solver = nullptr;
   ::Mat matrix = nullptr;
+  ::Mat definite = nullptr;  ///< of the multigrid
   ::Vec right = nullptr;
   ::Vec solution = nullptr;
   MatNullSpace null_space = nullptr;
@@ -88,6 +92,7 @@ struct PetscSolver::Impl {
   void forget() {
     KSPReset(solver);
     MatDestroy(&matrix);
+    MatDestroy(&definite);
     VecDestroy(&right);
     VecDestroy(&solution);
     MatNullSpaceDestroy(&null_space);
@@ -109,7 +114,8 @@ struct PetscSolver::Impl {
     const std::vector<std::int64_t> numbers(number.begin(), number.end());
     closed.find_on_ranks(of.laplacian(), of.null_vector, of.of_unknown, numbers, of.shared);
     set_null_space(of.null_vector);
-    check(KSPSetOperators(solver, matrix, matrix));
+    make_definite(of.diagonal);
+    check(KSPSetOperators(solver, matrix, definite));
   }
   /// \param b    of an unknown
   /// \param use  use(unknown, x) for those that this rank owns; not called where b is zero on all ranks
@@ -183,6 +189,22 @@ struct PetscSolver::Impl {
     check(MatSetNullSpace(matrix, null_space));
     // The space holds on to the vectors.
     for (::Vec& vector : basis) check(VecDestroy(&vector));
+  }
+  /// With the coarse grids of a singular matrix the multigrid is not definite, by rounding, and CG gives up. What it
+  /// adds along the null vectors is taken out again.
+  void make_definite(std::span<const double> diagonal) {
+    if (closed.count() == 0) {
+      check(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+      definite = matrix;
+      return;
+    }
+    check(MatDuplicate(matrix, MAT_COPY_VALUES, &definite));
+    for (const std::size_t l : own) {
+      const double more = closed.contains(l) ? to_be_definite * diagonal[l] : 0;
+      check(MatSetValue(definite, number[l], number[l], more, ADD_VALUES));
+    }
+    check(MatAssemblyBegin(definite, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(definite, MAT_FINAL_ASSEMBLY));
   }
 };
 

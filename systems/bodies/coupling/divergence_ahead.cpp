@@ -54,7 +54,7 @@ CutMultipliers find_cut(const Incidence<Dim>& incidence, const Splines<Dim>& spl
                         std::span<const double> v_l) {
   CutMultipliers cut{std::vector<std::uint8_t>(site.size(), 0), std::vector<std::uint8_t>(site.size(), 0)};
   for (std::size_t i = 0; i < site.size(); ++i) {
-    if (v_l[i] == 0 || share[i] == 0 || !splines.has_multiplier(site[i])) continue;
+    if (!(v_l[i] > 0) || share[i] == 0 || !splines.has_multiplier(site[i])) continue;  // not of a site known in part
     bool is_cut = share[i] < 1;
     bool has_mass = true;  // without, no particle tells how the liquid turns
     for (std::size_t d = 0; d < Dim; ++d) {
