@@ -207,16 +207,12 @@ class CellIntegrals {
     }
   }
 
-  /// Lines along the axis of the steepest slope; along all of them if two are as steep, as in the mirror.
+  using Order = std::array<std::size_t, static_cast<std::size_t>(Dim)>;
+
+  /// \param order  of the axes: lines run along the last one
   template <class Use>
   static void lines_of_box_along(const CellIntegrals& cell, const std::array<double, power(2, Dim)>& psi,
-                                 const Vec<Dim>& low, std::size_t axis, double share, const Use& use) {
-    std::array<std::size_t, static_cast<std::size_t>(Dim)> order;
-    std::size_t m = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      if (d != axis) order[m++] = d;
-    }
-    order[m] = axis;
+                                 const Vec<Dim>& low, const Order& order, double share, const Use& use) {
     std::array<double, power(2, Dim)> turned;
     for (std::size_t c = 0; c < turned.size(); ++c) {
       std::size_t from = 0;
@@ -229,8 +225,8 @@ class CellIntegrals {
       cell.set_values(of, d, low[static_cast<Eigen::Index>(d)] + size * t);
     };
     const auto finish = [&](double from, double to, double weight) {
-      const double start = low[static_cast<Eigen::Index>(axis)];
-      cell.set_integrals(of, axis, start + size * from, start + size * to, share * power_of(size) * weight);
+      const double start = low[static_cast<Eigen::Index>(order.back())];
+      cell.set_integrals(of, order.back(), start + size * from, start + size * to, share * power_of(size) * weight);
       use(of);
     };
     if constexpr (Dim == 2) {
@@ -248,6 +244,8 @@ class CellIntegrals {
     }
   }
 
+  /// Lines along the axis of the steepest slope, between those of the second steepest in 3-D; in all orders of axes
+  /// that are as steep, so that none is preferred.
   template <class Use>
   void lines_of_box(const std::array<double, power(2, Dim)>& psi, const Vec<Dim>& low, const Use& use) const {
     constexpr double alike = 1e-9;
@@ -257,11 +255,37 @@ class CellIntegrals {
     }
     slope = slope.cwiseAbs();
     const double least = (1 - alike) * slope.maxCoeff();
+    const auto is_steepest = [&](std::size_t d) { return slope[static_cast<Eigen::Index>(d)] >= least; };
     int count = 0;
-    for (int d = 0; d < Dim; ++d) count += slope[d] >= least ? 1 : 0;
-    for (int d = 0; d < Dim; ++d) {
-      if (slope[d] >= least) lines_of_box_along(*this, psi, low, static_cast<std::size_t>(d), 1.0 / count, use);
+    for (std::size_t d = 0; d < Dim; ++d) count += is_steepest(d) ? 1 : 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      if (!is_steepest(d)) continue;
+      if constexpr (Dim == 2) {
+        lines_of_box_along(*this, psi, low, {1 - d, d}, 1.0 / count, use);
+      } else {
+        const std::size_t a = d == 0 ? 1 : 0;
+        const std::size_t b = 3 - d - a;
+        const double steeper = slope[static_cast<Eigen::Index>(a)] - slope[static_cast<Eigen::Index>(b)];
+        const double tie = alike * slope.maxCoeff();
+        if (std::abs(steeper) > tie || is_plane(psi, tie)) {
+          lines_of_box_along(*this, psi, low, steeper > tie ? Order{b, a, d} : Order{a, b, d}, 1.0 / count, use);
+        } else {
+          lines_of_box_along(*this, psi, low, {a, b, d}, 0.5 / count, use);
+          lines_of_box_along(*this, psi, low, {b, a, d}, 0.5 / count, use);
+        }
+      }
     }
+  }
+  /// Whether psi is linear in a box, to a difference: then the order of axes does not matter.
+  static bool is_plane(const std::array<double, power(2, Dim)>& psi, double difference) {
+    for (std::size_t c = 0; c < psi.size(); ++c) {
+      double linear = psi[0];
+      for (std::size_t d = 0; d < Dim; ++d) {
+        if ((c >> d & 1) != 0) linear += psi[std::size_t{1} << d] - psi[0];
+      }
+      if (std::abs(psi[c] - linear) > difference) return false;
+    }
+    return true;
   }
 
   /// Across a line lengths are those of the box; along it they are in the integrals.

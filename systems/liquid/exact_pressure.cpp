@@ -33,14 +33,24 @@ constexpr double moving_from = 0.2;
 /// In the depth of the liquid masses are those of the full grid (E68) to this: there is nothing to replace.
 constexpr double as_full = 1e-12;
 
+/// The face of the same direction next to one, unless a thin wall parts them.
+template <int Dim>
+std::int32_t face_beside(const RowsOfSites<Dim>& of, std::size_t i, std::size_t d, std::size_t side) {
+  const std::int32_t j = of.neighbour[i][side];
+  const bool is_parted = j != staggered::none && of.parts_faces(i, d, static_cast<std::size_t>(j), d);
+  return is_parted ? staggered::none : j;
+}
+
 /// 1 where the liquid is all but at rest, 0 where it moves, by the faces next to one that have mass; `fall` is h |q|.
 template <int Dim>
-double stillness(const typename staggered::Neighbour<Dim>::value_type& neighbour, std::span<const Vec<Dim>> m_f,
-                 std::span<const Vec<Dim>> v_f, std::size_t i, Eigen::Index axis, double fall) {
+double stillness(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> v_f,
+                 std::size_t i, std::size_t d, double fall) {
+  const auto axis = static_cast<Eigen::Index>(d);
   double squares = 0;
   for (std::size_t e = 0; e < Dim; ++e) {
     double most = 0;
-    for (const std::int32_t j : {neighbour[2 * e], neighbour[2 * e + 1]}) {
+    for (const std::size_t side : {2 * e, 2 * e + 1}) {
+      const std::int32_t j = face_beside(of, i, d, side);
       if (j == staggered::none) continue;
       const auto other = static_cast<std::size_t>(j);
       if (m_f[other][axis] == 0) continue;
@@ -231,7 +241,7 @@ void FindExactShare<Dim>::operator()(
       }
       if (!any) continue;
       if (liquid > 0)
-        share[i][axis] = liquid * stillness<Dim>(neighbour[i], m_f.span(), v_f.span(), i, axis,
+        share[i][axis] = liquid * stillness<Dim>(of, m_f.span(), v_f.span(), i, d,
                                                  grid->spacing * size_at_face<Dim>(of, m_f.span(), q_f.span(), i, d));
     }
   });

@@ -32,6 +32,9 @@ constexpr double for_area = 0.1;
 /// Variance of how full particles tell that a multiplier is, over that of a continued surface. [h^-2]
 constexpr double own_noise = 0.02;
 
+/// Whether the middle of a multiplier is in the liquid; not for rounding to say where the surface passes through it.
+bool is_in_liquid(double fill) { return fill > 0.5 - 1e-9; }
+
 /// What is known of the liquid around a multiplier: from its particles, or continued.
 template <int Dim>
 struct Known {
@@ -108,8 +111,8 @@ class Continuation {
     std::span<const Vec<Dim>> normal;
   };
   /// \param wanted  multipliers and their sides
-  Continuation(const Columns& of, const ContinuedLiquid<Dim>& wanted)
-      : of_(of), wanted_(wanted), told_(wanted.psi.size()), is_told_(wanted.psi.size(), 0) {
+  Continuation(const Columns& of, const SiteCuts<Dim>& cuts, const ContinuedLiquid<Dim>& wanted)
+      : of_(of), cuts_(cuts), wanted_(wanted), told_(wanted.psi.size()), is_told_(wanted.psi.size(), 0) {
     for (std::size_t c = 0; c < wanted.site.size(); ++c) {
       for (std::size_t side = 0; side < wanted.versions(c); ++side) of_version_.push_back({c, side});
     }
@@ -120,9 +123,14 @@ class Continuation {
       Finder find(of.rows);
       Finder find_told(wanted.rows);
       for_each_site_around<Dim, Around::reach>(of.splines, wanted.site[c], [&](const auto& site, const auto& steps) {
-        tellers_[v][*Around::place(steps)] = teller(site, view, find, find_told);
+        Teller& one = tellers_[v][*Around::place(steps)];
+        one = teller(site, view, find, find_told);
+        const bool is_beside = std::all_of(steps.begin(), steps.end(), [](int along) { return std::abs(along) <= 1; });
+        one.is_empty = one.is_empty && is_beside;  // farther away it tells nothing
       });
     });
+    find_empty();
+    list_rows();
   }
 
   /// First those that their particles tell of too, then behind them, then what is far from the surface.
@@ -140,10 +148,12 @@ class Continuation {
   enum class From : std::uint8_t { planes_and_particles, planes, most_around };
   using Finder = typename SiteRows<Dim>::Finder;
   using Around = SidesAround<Dim>;
-  /// A multiplier that may tell: the row of one that no body cuts, or a version of another one.
+  /// A multiplier that may tell: the row of one that no body cuts, or a version of another one; or that no particle
+  /// touches it, for which it needs no row. (On the high side of the liquid it has one, on the low side not.)
   struct Teller {
     std::int32_t row = staggered::none;
     std::int32_t version = staggered::none;
+    bool is_empty = false;
   };
 
   Teller teller(const Index<Dim>& site, const View<Dim>& view, Finder& find, Finder& find_told) const {
@@ -154,22 +164,78 @@ class Continuation {
       if (view.sees(site)) teller.row = static_cast<std::int32_t>(*row);
     } else if (const auto c = find_told(site)) {
       if (const auto version = view.version(*c)) teller.version = static_cast<std::int32_t>(*version);
+    } else {
+      teller.is_empty = !row && view.sees(site);  // unless a body is there
     }
     return teller;
   }
-  std::optional<Known<Dim>> known(const Teller& teller) const {
-    if (teller.row != staggered::none) {
-      const auto i = static_cast<std::size_t>(teller.row);
-      return Known<Dim>{of_.site[i], of_.psi[i], of_.fill[i], of_.normal[i]};
+  bool is_open(const Index<Dim>& site) const { return cuts_.at(site).share == 1; }
+  Index<Dim> site_of(std::size_t version, std::size_t place) const {
+    return *of_.splines.site_at(wanted_.site[of_version_[version].c], Around::steps(place));
+  }
+  /// Where bodies are nothing is empty.
+  void find_empty() {
+    SiteRows<Dim> empty;
+    empty.start(of_.splines.sites());
+    const auto for_each_empty = [&](std::size_t v, const auto& use) {
+      for (std::size_t place = 0; place < Around::sites; ++place) {
+        if (tellers_[v][place].is_empty) use(tellers_[v][place], site_of(v, place));
+      }
+    };
+    for (std::size_t v = 0; v < tellers_.size(); ++v)
+      for_each_empty(v, [&](const Teller&, const Index<Dim>& site) { empty.add(site); });
+    std::vector<Index<Dim>> sites(empty.number_rows());
+    empty.for_each([&](const Index<Dim>& site, std::uint32_t k) { sites[k] = site; });
+    std::vector<std::uint8_t> is_open_there(sites.size());
+    for_each_row(sites.size(), [&](std::size_t k) { is_open_there[k] = is_open(sites[k]) ? 1 : 0; });
+    for_each_row(tellers_.size(), [&](std::size_t v) {
+      Finder find(empty);
+      for_each_empty(v, [&](Teller& one, const Index<Dim>& site) { one.is_empty = is_open_there[*find(site)] != 0; });
+    });
+  }
+  /// Rows that tell, and of those at the surface what is around them.
+  void list_rows() {
+    place_of_row_.assign(of_.open.size(), staggered::none);
+    for (const auto& tellers : tellers_) {
+      for (const Teller& one : tellers) {
+        if (one.row == staggered::none || place_of_row_[static_cast<std::size_t>(one.row)] != staggered::none) continue;
+        const auto i = static_cast<std::size_t>(one.row);
+        if (!is_cut(of_.fill[i]) || of_.normal[i].squaredNorm() == 0) continue;
+        place_of_row_[i] = static_cast<std::int32_t>(rows_at_surface_.size());
+        rows_at_surface_.push_back(i);
+      }
     }
-    if (teller.version == staggered::none) return {};
-    const Known<Dim>* told_before = told(static_cast<std::size_t>(teller.version));
-    return told_before != nullptr ? std::optional(*told_before) : std::nullopt;
+    beside_row_.resize(rows_at_surface_.size());
+    for_each_row(rows_at_surface_.size(), [&](std::size_t r) {
+      const Index<Dim>& site = of_.site[rows_at_surface_[r]];
+      const View<Dim> view(of_.splines, wanted_, site);
+      Finder find(of_.rows);
+      Finder find_told(wanted_.rows);
+      std::size_t k = 0;
+      for_each_site_around<Dim, 1>(of_.splines, site, [&](const Index<Dim>& other, const auto&) {
+        Teller& one = beside_row_[r][k++];
+        one = teller(other, view, find, find_told);
+        one.is_empty = one.is_empty && is_open(other);
+      });
+    });
+  }
+  std::optional<double> fill(const Teller& teller) const {
+    if (teller.row != staggered::none) return of_.fill[static_cast<std::size_t>(teller.row)];
+    if (teller.version == staggered::none) return teller.is_empty ? std::optional(0.0) : std::nullopt;
+    const Known<Dim>* known = told(static_cast<std::size_t>(teller.version));
+    return known != nullptr ? std::optional(known->fill) : std::nullopt;
+  }
+  /// \pre it is at the surface
+  Known<Dim> known(const Teller& teller) const {
+    if (teller.row == staggered::none) return told_[static_cast<std::size_t>(teller.version)];
+    const auto i = static_cast<std::size_t>(teller.row);
+    return {of_.site[i], of_.psi[i], of_.fill[i], of_.normal[i]};
   }
 
   /// \return whether any was told
   template <class Own>
   bool tell_once(const Own& own, From from) {
+    find_surface();
     std::vector<std::optional<Known<Dim>>> news(told_.size());
     for_each_row(news.size(), [&](std::size_t v) {
       if (is_told_[v] != 0) return;
@@ -187,26 +253,33 @@ class Continuation {
     return any;
   }
 
-  /// Whether the surface passes near, and it is no noise of particles in the depth.
-  bool is_at_surface(const Known<Dim>& k, const Teller& teller_of_k) const {
-    if (!is_cut(k.fill) || k.normal.squaredNorm() == 0) return false;
-    bool any_other = false;
-    const auto look_at = [&](const Teller& beside) {
-      const auto other = known(beside);
-      any_other = any_other || (other && (other->fill < 0.5) != (k.fill < 0.5));
+  /// Finds where the surface passes near, by what is told so far, and it is no noise of particles in the depth.
+  void find_surface() {
+    const auto has_other = [&](double here, const auto& around) {
+      return std::any_of(around.begin(), around.end(), [&](const Teller& one) {
+        const auto there = fill(one);
+        return there && is_in_liquid(*there) != is_in_liquid(here);
+      });
     };
-    if (teller_of_k.version != staggered::none) {
-      const auto& tellers = tellers_[static_cast<std::size_t>(teller_of_k.version)];
-      for (const std::size_t place : Around::places_beside) look_at(tellers[place]);
-      return any_other;
-    }
-    const View<Dim> view(of_.splines, wanted_, k.site);
-    Finder find(of_.rows);
-    Finder find_told(wanted_.rows);
-    for_each_site_around<Dim, 1>(of_.splines, k.site, [&](const Index<Dim>& site, const auto&) {
-      look_at(teller(site, view, find, find_told));
+    is_row_at_surface_.resize(rows_at_surface_.size());
+    for_each_row(rows_at_surface_.size(), [&](std::size_t r) {
+      is_row_at_surface_[r] = has_other(of_.fill[rows_at_surface_[r]], beside_row_[r]) ? 1 : 0;
     });
-    return any_other;
+    is_version_at_surface_.resize(told_.size());
+    for_each_row(told_.size(), [&](std::size_t v) {
+      is_version_at_surface_[v] = 0;
+      if (is_told_[v] == 0 || !is_cut(told_[v].fill) || told_[v].normal.squaredNorm() == 0) return;
+      std::array<Teller, Around::places_beside.size()> beside;
+      std::transform(Around::places_beside.begin(), Around::places_beside.end(), beside.begin(),
+                     [&](std::size_t place) { return tellers_[v][place]; });
+      is_version_at_surface_[v] = has_other(told_[v].fill, beside) ? 1 : 0;
+    });
+  }
+  bool is_at_surface(const Teller& teller) const {
+    if (teller.is_empty) return false;
+    if (teller.row == staggered::none) return is_version_at_surface_[static_cast<std::size_t>(teller.version)] != 0;
+    const std::int32_t place = place_of_row_[static_cast<std::size_t>(teller.row)];
+    return place != staggered::none && is_row_at_surface_[static_cast<std::size_t>(place)] != 0;
   }
 
   std::optional<Known<Dim>> continued(const Index<Dim>& site, const std::array<Teller, Around::sites>& tellers,
@@ -217,19 +290,21 @@ class Continuation {
     double votes = 0;
     double full = 0;
     for (std::size_t place = 0; place < tellers.size(); ++place) {
-      const auto found = known(tellers[place]);
-      if (!found) continue;
-      const Known<Dim>& k = *found;
+      const auto there = fill(tellers[place]);
+      if (!there || (tellers[place].version == staggered::none && *there == 0))
+        continue;  // no particle has a vote there
       const Index<Dim> steps = Around::steps(place);
       Vec<Dim> x;
       for (std::size_t d = 0; d < Dim; ++d) {
         const SplineAxis& axis = of_.splines.axis[d];
-        x[static_cast<Eigen::Index>(d)] = axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(k.site[d]);
+        x[static_cast<Eigen::Index>(d)] =
+            axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(site[d] + steps[d]);
       }
       const double near = 1 / x.squaredNorm();
       votes += near;
-      full += near * (k.fill < 0.5 ? -1 : 1);
-      if (!is_at_surface(k, tellers[place])) continue;
+      full += near * (is_in_liquid(*there) ? 1 : -1);
+      if (!is_at_surface(tellers[place])) continue;
+      const Known<Dim> k = known(tellers[place]);
       const double weight = 4 * k.fill * (1 - k.fill) * near;
       weights += weight;
       distance += weight * (k.psi + k.normal.dot(x));
@@ -252,9 +327,15 @@ class Continuation {
     std::size_t side;
   };
   const Columns& of_;
+  const SiteCuts<Dim>& cuts_;
   const ContinuedLiquid<Dim>& wanted_;
   std::vector<Version> of_version_;
   std::vector<std::array<Teller, Around::sites>> tellers_;  ///< by version and SidesAround::place()
+  std::vector<std::size_t> rows_at_surface_;                ///< that tell
+  std::vector<std::int32_t> place_of_row_;                  ///< among these, or none
+  std::vector<std::array<Teller, power(3, Dim)>> beside_row_;
+  std::vector<std::uint8_t> is_row_at_surface_;  ///< with what is told so far
+  std::vector<std::uint8_t> is_version_at_surface_;
   std::vector<Known<Dim>> told_;
   std::vector<std::uint8_t> is_told_;
 };
@@ -297,12 +378,13 @@ void for_each_multiplier_of_face(const Splines<Dim>& splines, const Index<Dim>& 
 }
 
 /// The multipliers that bodies cut, of the cells that faces with a share of exact integrals reach.
+/// \return of rows, not 0 where such a face may be
 template <int Dim>
-void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
-                          std::span<const Index<Dim>> site,
-                          std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
-                          std::span<const double> open, std::span<const Vec<Dim>> share,
-                          const OpenSites<Dim>& open_sites, ContinuedLiquid<Dim>& continued) {
+std::vector<double> list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>& rows,
+                                         std::span<const Index<Dim>> site,
+                                         std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
+                                         std::span<const double> open, std::span<const Vec<Dim>> share,
+                                         const OpenSites<Dim>& open_sites, ContinuedLiquid<Dim>& continued) {
   // Most rows have no body near, and all others around: only those next to some that have not are looked at.
   const RowsOfSites<Dim> all{splines, rows, site, neighbour};
   const auto may_lack = [&](std::size_t i) { return open[i] < 1 || all.lacks_one_beside(i); };
@@ -321,6 +403,7 @@ void list_cut_multipliers(const Splines<Dim>& splines, const StaggeredIndex<Dim>
   }
   continued.site.resize(continued.rows.number_rows());
   continued.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { continued.site[c] = at; });
+  return is_near;
 }
 
 /// The sides around them, and place for a version of each.
@@ -361,12 +444,12 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
   const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const OpenSites<Dim> open_sites{*splines, *rows, open.span(), open_face.span(), cuts};
-  list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(), open.span(), share.span(), open_sites,
-                            *continued);
+  const std::vector<double> is_near = list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(),
+                                                                open.span(), share.span(), open_sites, *continued);
   find_versions<Dim>(open_sites, set->parts_liquid, *continued);
   const typename Continuation<Dim>::Columns columns{*splines,    *rows,      site.span(), open.span(),
                                                     fill.span(), psi.span(), n_l.span()};
-  Continuation<Dim> continuation(columns, *continued);
+  Continuation<Dim> continuation(columns, cuts, *continued);
   constexpr Index<Dim> here{};
   continuation.tell([&](Known<Dim>& known, std::size_t c, std::size_t side) {
     const auto row = rows->find(known.site);
@@ -407,6 +490,7 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     if (fill[*row] > 0) fill[*row] = known->fill;  // without particles not all of its faces have rows
   }
   for_each_row(is_all_told && !continued->any_parted ? 0 : site.size(), [&](std::size_t i) {
+    if (is_near[i] == 0) return;
     for (std::size_t d = 0; d < Dim; ++d) {
       double& of_face = share[i][static_cast<Eigen::Index>(d)];
       if (of_face == 0) continue;
