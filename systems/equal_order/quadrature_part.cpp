@@ -58,10 +58,10 @@ bool any_has(const Input& input, const std::vector<std::string>& objects, std::i
   });
 }
 
-/// In 2-D where liquid at rest would else begin to move: a body force presses it together, and no yield stress
+/// Where liquid at rest would else begin to move: a body force presses it together, and no yield stress
 /// holds it; not where it was not measured.
 std::string recommended_quadrature(const Input& input, const Scene& scene) {
-  if (input.describing() || scene.dimension != 2 || !is_conforming(scene)) return "mixed";
+  if (input.describing() || !is_conforming(scene)) return "mixed";
   if (scene.facts.get<Discretization>().degree != 2 || !input.has("body_force")) return "mixed";
   for (const char* key : {"openings", "surface_tension"}) {
     if (input.has(key)) return "mixed";
@@ -95,7 +95,7 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
   const DefaultScheme fallback{
       recommended_quadrature,
-      "\"exact\" in 2-D under a body_force, with degree 2, without yield stress, openings and surface_tension; "
+      "\"exact\" under a body_force, with degree 2, without yield stress, openings and surface_tension; "
       "with bodies where none of these is free, without fluids"};
   registry.add(choice<Quadrature>("quadrature", "integrals of the balances", fallback));
 }

@@ -68,11 +68,11 @@ TEST_CASE("stiff friction takes few iterations under a surface", "[property]") {
 }
 
 TEST_CASE("stiff friction in 3-D takes few iterations on any grid", "[property][long]") {
-  // 18, 20, 21, 32 measured; the diagonal alone takes 26, 46, 28, 75.
+  // 20, 20, 21, 39 measured, with forces by particles 18, 20, 21, 32; the diagonal alone takes 26, 46, 28, 75.
   CHECK(most_iterations(honey("[16, 16, 16]", 1), 2) <= 22);
   CHECK(most_iterations(honey("[32, 32, 32]", 1), 1) <= 24);
   CHECK(most_iterations(honey("[17, 17, 17]", 1), 2) <= 24);
-  CHECK(most_iterations(honey("[24, 24, 24]", 0.5), 2) <= 38);
+  CHECK(most_iterations(honey("[24, 24, 24]", 0.5), 2) <= 45);
 }
 
 namespace {

@@ -120,15 +120,21 @@ TEST_CASE("water in a tilted tank rests", "[verification]") {
 }
 
 TEST_CASE("water rests in a tank that is tilted in 3-D", "[verification]") {
-  SceneRun run(Json::parse(R"json({"dimension": 3,
+  // Forces by particles know the levels of what walls leave (E98): 4e-11 m/s, 2e-2 without. With exact
+  // integrals 3.6e-3, what particles at the walls tell of the surface there.
+  const auto [quadrature, most] = GENERATE(table<std::string, double>({{"mixed", 1e-8}, {"exact", 7e-3}}));
+  CAPTURE(quadrature);
+  Json scene = Json::parse(R"json({"dimension": 3,
     "grid": {"low": [-0.45, -0.45, -0.45], "high": [0.45, 0.45, 0.45], "cells": [18, 18, 18]},
     "fluid": {"density": 1000, "viscosity": 0}, "body_force": [0, 0, -9.81],
     "particles": [{"shape": {"where": "z < 0"}, "per_cell": 2}],
     "bodies": [{"name": "tank", "shape": {"invert": {"box": {"low": [-0.25, -0.25, -0.25], "high": [0.25, 0.25, 0.25],
                                                              "axis": [1, 2, 0.5], "angle": 25}}}}],
-    "time": {"end": 1, "step": 0.002}, "exact": {"velocity": [0, 0, 0], "pressure": "z < 0 ? -9810*z : 0"}})json"));
+    "time": {"end": 1, "step": 0.002}, "exact": {"velocity": [0, 0, 0], "pressure": "z < 0 ? -9810*z : 0"}})json");
+  scene["quadrature"]["scheme"] = quadrature;
+  SceneRun run(scene);
   run.step(20);
-  CHECK(fastest(run.world()) < 1e-8);                     // 4e-11 m/s, 2e-2 without levels
+  CHECK(fastest(run.world()) < most);
   CHECK(measured(run.world(), "error_pressure") < 1e-2);  // 5.7e-3, 2.7e-2 where each multiplier is on its own
 }
 
