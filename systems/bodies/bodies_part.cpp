@@ -155,21 +155,11 @@ void read_body(Input& input, Scene& scene, BodySet<Dim>& set) {
   set.bodies.push_back(std::move(body));
 }
 
-/// What free bodies take of friction is known at the start of the step alone, and UMFPACK does not know of open shares.
-void check_solver(bool any_is_free, bool any_moves, const Scene& scene, SeedProblems& problems) {
-  if (any_is_free && scene.facts.find<Rheology>() != nullptr) {
-    problems.note("/fluid/rheology", "not with free bodies", "a constant viscosity", "a rheology");
-  } else if (any_is_free && friction_of(scene) == Friction::in_balances) {
-    problems.note("/fluid/viscosity", "too large for free bodies", least_friction_text(scene),
-                  fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
-  }
-  // The acceleration that it carries along a wall that moves grows without bound in four of ten hard cases.
-  if (any_moves && scene.schemes.at("integrator") == "newmark") {
-    problems.note("/integrator/scheme", any_is_free ? "not with free bodies" : "not with moving bodies",
-                  R"("midpoint")", R"("newmark")");
-  }
-  if (scene.schemes.at("solver") == "umfpack")
-    problems.note("/solver/scheme", "not with bodies", R"("block")", R"("umfpack")");
+/// What free bodies take of friction is known at the start of the step alone.
+void check_viscosity_of_free_bodies(const Scene& scene, SeedProblems& problems) {
+  if (scene.facts.find<Rheology>() != nullptr || friction_of(scene) != Friction::in_balances) return;
+  problems.note("/fluid/viscosity", "too large for free bodies", least_friction_text(scene),
+                fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
 }
 
 /// An expression may have no value somewhere, which no comparison of distances would tell.
@@ -270,7 +260,7 @@ void seed_with_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& r
     set.rubs = rubs;
     for (auto& body : set.bodies) body.wall = wall_on_grid(body.wall, friction_of(scene), scene.grid.spacing);
     recipe.seed([set](const Scene& of, World& world, SeedProblems& problems) {
-      check_solver(set.any_is_free(), set.any_moves(), of, problems);
+      if (set.any_is_free()) check_viscosity_of_free_bodies(of, problems);
       check_distances<Dim>(set, world.resource<Grid<Dim>>(), problems);
       check_repeats<Dim>(set, world, problems);
       seed_bodies<Dim>(set, world);
@@ -301,9 +291,6 @@ Contribution read_bodies(Input& input, Scene& scene) {
     with_dimension(scene.dimension, [&](auto dim) { read_body<dim()>(in, scene, bodies.of<dim()>()); });
   });
   if (!is_there || input.describing()) return {};
-  if (!is_conforming(scene)) {
-    input.problem("bodies", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
-  }
   scene.facts.set(bodies);
   set_wall_friction(bodies, scene);
   if (bodies.in_plane.any_separates() || bodies.in_space.any_separates()) {

@@ -13,25 +13,15 @@ namespace minamo {
 
 namespace {
 
-/// What solves the balances in another way does not know of contact.
-void check_scene(const Scene& scene, SeedProblems& problems) {
-  // What bodies have complained of already is the same problem.
-  const auto note = [&](const std::string& pointer, const std::string& what, const std::string& expected,
-                        const std::string& got) {
-    const bool is_noted = std::any_of(problems.problems.begin(), problems.problems.end(),
-                                      [&](const Problem& problem) { return problem.pointer == pointer; });
-    if (!is_noted) problems.note(pointer, what, expected, got);
-  };
-  if (scene.facts.find<Rheology>() != nullptr) {
-    note("/fluid/rheology", "not with separating walls", "a constant viscosity", "a rheology");
-  } else if (friction_of(scene) == Friction::in_balances) {
-    note("/fluid/viscosity", "too large for separating walls", least_friction_text(scene),
-         fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
-  }
-  if (scene.schemes.at("integrator") == "newmark")
-    note("/integrator/scheme", "not with separating walls", R"("midpoint")", R"("newmark")");
-  if (scene.schemes.at("solver") == "umfpack")
-    note("/solver/scheme", "not with separating walls", R"("block")", R"("umfpack")");
+/// What solves the balances with the viscosity does not know of contact.
+void check_viscosity_of_contact(const Scene& scene, SeedProblems& problems) {
+  if (scene.facts.find<Rheology>() != nullptr || friction_of(scene) != Friction::in_balances) return;
+  // What free bodies have complained of already is the same problem.
+  const bool is_noted = std::any_of(problems.problems.begin(), problems.problems.end(),
+                                    [](const Problem& problem) { return problem.pointer == "/fluid/viscosity"; });
+  if (is_noted) return;
+  problems.note("/fluid/viscosity", "too large for separating walls", least_friction_text(scene),
+                fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
 }
 
 Contribution separating_walls(Input&, Scene&) {
@@ -40,7 +30,7 @@ Contribution separating_walls(Input&, Scene&) {
     recipe.fill("<find_contact>", [](std::vector<System> body) {
       return std::vector{make_loop<ContactLoop>("find_contact", std::move(body), most_contact_passes)};
     });
-    recipe.seed([](const Scene& of, World&, SeedProblems& problems) { check_scene(of, problems); });
+    recipe.seed([](const Scene& of, World&, SeedProblems& problems) { check_viscosity_of_contact(of, problems); });
   };
 }
 

@@ -1,4 +1,3 @@
-#include "components/surface_tension.hpp"
 #include "systems/equal_order/moments.hpp"
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/grid/lattice.hpp"
@@ -27,22 +26,6 @@ void set_places(Scene& scene, LatticePlaces of_equal_order) {
 Contribution read_mixed(Input&, Scene& scene) {
   set_places(scene, LatticePlaces::nearer_to_walls);
   return {};
-}
-
-/// What has masses of faces or forces at the surface of its own.
-void check_exact_at_surface(const Scene& scene, SeedProblems& problems) {
-  const auto note = [&](const char* what) {
-    problems.note("/quadrature/scheme", "not with this scene", R"("mixed")", std::string(R"("exact" with )") + what);
-  };
-  if (!is_conforming(scene)) note("equal_order");
-  if (scene.facts.find<SurfaceTension>()) note("surface_tension");
-}
-
-Contribution read_exact_at_surface(Input&, Scene& scene) {
-  set_places(scene, LatticePlaces::nearer_to_walls);
-  return [](const Scene&, Recipe& recipe) {
-    recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_exact_at_surface(seeded, problems); });
-  };
 }
 
 Contribution read_particles(Input&, Scene& scene) {
@@ -89,9 +72,8 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add<FindExactShare>("find_exact_share", OnRanks::adds_up);
   registry.add<AddExactPressure>("add_exact_pressure", OnRanks::own);
   registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
-  registry.add(
-      Quadrature{{"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals",
-                  read_exact_at_surface}});
+  registry.add(Quadrature{
+      {"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals", read_mixed}});
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
   const DefaultScheme fallback{
       recommended_quadrature,

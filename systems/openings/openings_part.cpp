@@ -6,7 +6,6 @@
 #include "systems/openings/measures.hpp"
 #include "systems/openings/particles.hpp"
 #include "systems/openings/shares.hpp"
-#include "systems/scene/discretization.hpp"
 #include "systems/scene/parts.hpp"
 #include "systems/scene/scene_checks.hpp"
 #include "systems/transfer/scheme.hpp"
@@ -251,16 +250,6 @@ void read_opening(Input& input, Scene& scene, const FlowRules& rules, OpeningSet
   where.push_back(region);
 }
 
-/// The liquid's equations with openings are those of the conforming discretization, and not all of its variants.
-void check_schemes(const Scene& scene, SeedProblems& problems) {
-  if (scene.facts.get<Discretization>().degree != 2)
-    problems.note("/discretization/degree", "not with openings", "2", "3");
-  if (scene.schemes.at("integrator") == "newmark")
-    problems.note("/integrator/scheme", "not with openings", R"("midpoint")", R"("newmark")");
-  if (scene.schemes.at("solver") == "umfpack")
-    problems.note("/solver/scheme", "not with openings", R"("block")", R"("umfpack")");
-}
-
 template <int Dim>
 void seed_openings(OpeningSet<Dim> set, const std::vector<std::optional<Expression>>& where, const Scene& scene,
                    World& world, SeedProblems& problems) {
@@ -306,7 +295,6 @@ void seed_with_openings(const OpeningsOfScene& openings, const std::vector<std::
   with_dimension(scene.dimension, [&](auto dim) {
     constexpr int Dim = dim();
     recipe.seed([set = openings.of<Dim>(), where](const Scene& of, World& world, SeedProblems& problems) {
-      check_schemes(of, problems);
       seed_openings<Dim>(set, where, of, world, problems);
     });
   });
@@ -324,9 +312,6 @@ Contribution read_openings(Input& input, Scene& scene) {
                    [&](auto dim) { read_opening<dim()>(in, scene, rules, openings.of<dim()>(), where); });
   });
   if (!is_there || input.describing()) return {};
-  if (!is_conforming(scene)) {
-    input.problem("openings", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
-  }
   openings.in_plane.vertical = openings.in_space.vertical = rules.vertical;
   scene.facts.set(openings);
   return [openings, where](const Scene& of, Recipe& recipe) {

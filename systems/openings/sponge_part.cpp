@@ -1,5 +1,4 @@
 #include "systems/openings/sponge.hpp"
-#include "systems/scene/discretization.hpp"
 #include "systems/scene/parts.hpp"
 #include "systems/scene/scene_checks.hpp"
 #include "systems/transfer/scheme.hpp"
@@ -29,9 +28,6 @@ Contribution read_sponges(Input& input, Scene& scene) {
   input.list("sponge", "regions that draw the liquid towards a velocity, so that waves end there", 0,
              [&](Input& in, std::size_t) { sponges.sponges.push_back(read_one(in, scene)); });
   if (!is_there || input.describing()) return {};
-  if (!is_conforming(scene)) {
-    input.problem("sponge", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
-  }
   return [sponges](const Scene&, Recipe& recipe) { recipe.constant(sponges); };
 }
 

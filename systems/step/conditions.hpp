@@ -48,6 +48,13 @@ inline constexpr Condition asked{"a part asks", [](const Scene&) { return false;
 inline constexpr Condition one_process{"one process", [](const Scene&) { return all_ranks() == nullptr; }};
 inline constexpr Condition several_ranks{"ranks", [](const Scene&) { return all_ranks() != nullptr; }};
 
+inline constexpr Condition conforming{"the conforming discretization", [](const Scene& s) { return is_conforming(s); }};
+inline constexpr Condition equal_order{"equal_order", [](const Scene& scene) { return !is_conforming(scene); }};
+inline constexpr Condition degree_3{"degree 3", [](const Scene& scene) {
+                                      return is_conforming(scene) && scene.facts.get<Discretization>().degree != 2;
+                                    }};
+inline constexpr Condition umfpack{"umfpack", [](const Scene& s) { return is_scheme(s, "solver", "umfpack"); }};
+
 inline constexpr Condition bodies{"bodies", has<BodiesOfScene>};
 inline constexpr Condition no_bodies{"no bodies", [](const Scene& scene) { return !has<BodiesOfScene>(scene); }};
 inline constexpr Condition free_bodies{"free bodies", [](const Scene& scene) {
@@ -80,6 +87,9 @@ inline constexpr Condition several_densities{"several densities", [](const Scene
                                                const auto* fluids = scene.facts.find<Fluids>();
                                                return fluids != nullptr && !have_one_density(*fluids);
                                              }};
+inline constexpr Condition fluids{"several liquids", has<Fluids>};
+inline constexpr Condition rheology_of_one{
+    "rheology", [](const Scene& scene) { return has<Rheology>(scene) && !has<Fluids>(scene); }};
 inline constexpr Condition shear_dependent{"rheology", has<Rheology>};
 inline constexpr Condition rheology_of_pressure{"rheology of pressure", [](const Scene& scene) {
                                                   const auto* rheology = scene.facts.find<Rheology>();

@@ -1,10 +1,6 @@
 #include "components/fluids.hpp"
-#include "components/surface_tension.hpp"
-#include "systems/bodies/bodies_part.hpp"
 #include "systems/equal_order/material.hpp"
 #include "systems/equal_order/right_hand_side.hpp"
-#include "systems/openings/openings_part.hpp"
-#include "systems/scene/discretization.hpp"
 #include "systems/scene/parts.hpp"
 #include "systems/viscosity/friction_choice.hpp"
 #include "systems/viscosity/friction_matrices.hpp"
@@ -58,14 +54,7 @@ struct Liquid {
   }
 };
 
-Rheology read_flow(Input& input, const Scene& scene) {
-  const Rheology rheology = read_rheology(input);
-  if (!input.describing() && !is_conforming(scene))
-    input.problem("", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
-  return rheology;
-}
-
-Liquid read_liquid(Input& in, const Scene& scene) {
+Liquid read_liquid(Input& in) {
   Liquid liquid;
   liquid.fluid.density = in.number("density", {.unit = "kg/m^3", .doc = "density", .above = 0});
   in.one_of("viscosity",
@@ -76,7 +65,7 @@ Liquid read_liquid(Input& in, const Scene& scene) {
               }},
              {"rheology", [&](Input& of) {
                 of.object("rheology", "a viscosity that depends on the shear rate", Input::Presence::required,
-                          [&](Input& rheology) { liquid.rheology = read_flow(rheology, scene); });
+                          [&](Input& rheology) { liquid.rheology = read_rheology(rheology); });
               }}});
   // Without pressure, and at rest.
   if (liquid.rheology && !in.describing() && !liquid.rheology->laws.empty())
@@ -86,7 +75,7 @@ Liquid read_liquid(Input& in, const Scene& scene) {
 
 void read_one(Input& input, Scene& scene) {
   Liquid liquid;
-  input.object("fluid", "the liquid", Input::Presence::required, [&](Input& in) { liquid = read_liquid(in, scene); });
+  input.object("fluid", "the liquid", Input::Presence::required, [&](Input& in) { liquid = read_liquid(in); });
   if (liquid.rheology) scene.facts.set(*liquid.rheology);
   scene.facts.set(liquid.fluid);
 }
@@ -98,13 +87,11 @@ void read_several(Input& input, Scene& scene) {
   Fluids fluids;
   input.named_objects("fluids", "several liquids, by the names that particles have",
                       [&](Input& in, const std::string& name) {
-                        liquids.push_back(read_liquid(in, scene));
+                        liquids.push_back(read_liquid(in));
                         fluids.names.push_back(name);
                         fluids.of.push_back(liquids.back().fluid);
                       });
   if (input.describing()) return;
-  if (!is_conforming(scene))
-    input.problem("fluids", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
   if (liquids.empty() || liquids.size() > most_fluids)
     input.problem("fluids", "number of liquids", fmt::format("1 to {} of them", most_fluids),
                   fmt::format("{}", liquids.size()));
@@ -125,17 +112,6 @@ void read_several(Input& input, Scene& scene) {
   if (has_law) scene.facts.set(rheology);
 }
 
-/// What knows of one density alone.
-void check_several(const Scene& scene, SeedProblems& problems) {
-  if (scene.facts.find<OpeningsOfScene>())
-    problems.note("/openings", "not with several liquids", R"("fluid")", R"("fluids")");
-  if (scene.facts.find<SurfaceTension>())
-    problems.note("/surface_tension", "not with several liquids", R"("fluid")", R"("fluids")");
-  const auto* bodies = scene.facts.find<BodiesOfScene>();
-  if (bodies != nullptr && (bodies->in_plane.any_is_free() || bodies->in_space.any_is_free()))
-    problems.note("/fluids", "not with free bodies", R"("fluid")", R"("fluids")");
-}
-
 Contribution read_fluid(Input& input, Scene& scene) {
   scene.facts.set(Fluid{});
   input.one_of("the liquid, or several", {{"fluid", [&](Input& in) { read_one(in, scene); }},
@@ -146,10 +122,7 @@ Contribution read_fluid(Input& input, Scene& scene) {
     if (const auto* rheology = of.facts.find<Rheology>()) recipe.constant(*rheology);
     add_friction(of, recipe);
     recipe.constant(of.facts.get<Fluid>());
-    if (const auto* fluids = of.facts.find<Fluids>()) {
-      recipe.constant(*fluids);
-      recipe.seed([](const Scene& seeded, World&, SeedProblems& problems) { check_several(seeded, problems); });
-    }
+    if (const auto* fluids = of.facts.find<Fluids>()) recipe.constant(*fluids);
   };
 }
 

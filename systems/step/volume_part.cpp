@@ -24,13 +24,6 @@ Contribution read_projection(Input& input, Scene&) {
   };
 }
 
-Contribution read_delta(Input& input, Scene& scene) {
-  if (is_conforming(scene)) {
-    input.problem("scheme", "not with the conforming discretization", R"(one of ["none", "projection"])", R"("delta")");
-  }
-  return {};
-}
-
 }  // namespace
 
 void add_volume(SystemRegistry& registry) {
@@ -42,7 +35,7 @@ void add_volume(SystemRegistry& registry) {
   registry.add<LimitShift>("limit_shift");
   registry.add<ShiftParticles>("shift_particles");
   registry.add<ShiftByDelta>("shift_by_delta");
-  registry.add(VolumeCorrection{{"delta", "pushes particles apart where they overlap", read_delta}});
+  registry.add(VolumeCorrection{{"delta", "pushes particles apart where they overlap", {}}});
   registry.add(VolumeCorrection{{"none", "no correction", {}}});
   registry.add(VolumeCorrection{
       {"projection", "closes gaps and pushes apart, with the operators of the step", read_projection}});

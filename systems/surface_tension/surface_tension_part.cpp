@@ -1,6 +1,5 @@
 #include "systems/bodies/bodies_part.hpp"
 #include "systems/ranks/ghost_cells.hpp"
-#include "systems/scene/discretization.hpp"
 #include "systems/scene/parts.hpp"
 #include "systems/scene/schemes.hpp"
 #include "systems/surface_tension/beside_bodies.hpp"
@@ -37,8 +36,6 @@ SurfaceTension read_tension(Input& in, const Scene& scene) {
     in.problem("scheme", "no implicit force was found that pays", R"("explicit", with steps up to (E116))");
   tension.cosine_of_contact_angle = cosine_of(angle);
   if (in.describing()) return tension;
-  if (!is_conforming(scene))
-    in.problem("", "not with equal_order", R"("discretization": {"scheme": "conforming"})", "equal_order");
   const auto* bodies = scene.facts.find<BodiesOfScene>();
   bool any_slips = scene.facts.get<WallFriction>().any_side_slips;
   if (bodies != nullptr) {

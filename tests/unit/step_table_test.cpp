@@ -1,13 +1,17 @@
 /// \file
 /// The tables of the step: rows, and what parts say of them.
 
+#include "support/folder.hpp"
 #include "support/scene_run.hpp"
 
+#include "systems/step/exclusions.hpp"
 #include "systems/step/step_table.hpp"
 
 #include <catch2/catch.hpp>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <filesystem>
 
 using namespace minamo;
 using namespace minamo::scene_run;
@@ -72,4 +76,18 @@ TEST_CASE("a part that fills a row that no table has is told", "[unit]") {
   Scene scene = read(scene_of_file("dam_break.json"));
   scene.recipe.fill("<p2g_velocty>", std::vector<std::string>{"p2g_faces_pic"});
   CHECK_THROWS_WITH(make_pipeline(scene), "no table of the step has the row <p2g_velocty>");
+}
+
+TEST_CASE("what excludes what: every row has a reason, and a broken scene that is told so", "[unit]") {
+  const auto& row = GENERATE(from_range(exclusions()));
+  CAPTURE(row.key, row.has.words, row.with.words);
+  CHECK(!row.why.empty());
+  const std::string told = fmt::format("{}: not with {}\n", row.key, row.with.words);
+  bool is_told = false;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(MINAMO_SOURCE_DIR) / "tests" / "error")) {
+    if (entry.path().extension() != ".txt") continue;
+    is_told = is_told || text_of(entry.path()).find(told) != std::string::npos;
+  }
+  CHECK(is_told);
 }

@@ -1,6 +1,7 @@
 #include "tools/program/commands.hpp"
 
 #include "engine/schedule/schedule.hpp"
+#include "systems/step/exclusions.hpp"
 #include "systems/step/step_table.hpp"
 #include "tools/program/scene_file.hpp"
 
@@ -126,6 +127,12 @@ void list_step(const SystemRegistry& registry) {
   }
 }
 
+void list_exclusions() {
+  std::cout << "| key | has | not with | because |\n|---|---|---|---|\n";
+  for (const Exclusion& row : exclusions())
+    std::cout << fmt::format("| {} | {} | {} | {} |\n", row.key, row.has.words, row.with.words, row.why);
+}
+
 void list_components(const SystemRegistry& registry) {
   std::map<std::string_view, const ComponentInfo*> components;
   for (const auto& [name, entry] : registry.entries()) {
@@ -166,6 +173,8 @@ int list(const std::string& what, const SystemRegistry& registry) {
     list_systems(registry);
   } else if (what == "step") {
     list_step(registry);
+  } else if (what == "exclusions") {
+    list_exclusions();
   } else if (what == "components") {
     list_components(registry);
   } else if (what == "parts") {

@@ -167,11 +167,10 @@ void add_showing(CLI::App& app, ShowOptions& options) {
   graph->add_option("SCENE", options.scene, "scene file")->required();
   graph->add_option("--format", options.format, "dot or json")->check(CLI::IsMember({"dot", "json"}));
   CLI::App* listing =
-      app.add_subcommand("list", "list parts, schemes, solvers, systems, components or step: the tables of the step");
-  listing
-      ->add_option("WHAT", options.what, "parts, schemes, solvers, systems, components or step: the tables of the step")
+      app.add_subcommand("list", "list parts, schemes, solvers, systems, components, the step, what excludes what");
+  listing->add_option("WHAT", options.what, "parts, schemes, solvers, systems, components, step or exclusions")
       ->required()
-      ->check(CLI::IsMember({"parts", "schemes", "solvers", "systems", "components", "step"}));
+      ->check(CLI::IsMember({"parts", "schemes", "solvers", "systems", "components", "step", "exclusions"}));
   CLI::App* schema = app.add_subcommand("schema", "print the JSON Schema of a scene");
   schema->add_flag("--table", options.as_table, "print the keys as a Markdown table instead");
 }

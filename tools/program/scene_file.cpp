@@ -6,6 +6,7 @@
 #include "systems/bodies/warnings.hpp"
 #include "systems/scene/schemes.hpp"
 #include "systems/seeding/seed.hpp"
+#include "systems/step/exclusions.hpp"
 #include "systems/step/memory.hpp"
 #include "systems/step/scene_doubts.hpp"
 #include "systems/step/scene_systems.hpp"
@@ -123,6 +124,7 @@ SceneFile understand_scene(const Json& json, const std::string& path, const Syst
   SceneFile file{read_scene(document.root(), registry), {}};
   document.finish();
   problems.insert(problems.end(), document.problems().begin(), document.problems().end());
+  if (problems.empty()) problems = exclusions_of(file.scene, path);
   if (problems.empty()) problems = misplaced_systems(file.scene, path);
   if (!problems.empty()) throw InputError(std::move(problems));
   file.scene.remarks = document.remarks();
