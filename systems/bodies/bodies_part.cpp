@@ -155,13 +155,6 @@ void read_body(Input& input, Scene& scene, BodySet<Dim>& set) {
   set.bodies.push_back(std::move(body));
 }
 
-/// What free bodies take of friction is known at the start of the step alone.
-void check_viscosity_of_free_bodies(const Scene& scene, SeedProblems& problems) {
-  if (scene.facts.find<Rheology>() != nullptr || friction_of(scene) != Friction::in_balances) return;
-  problems.note("/fluid/viscosity", "too large for free bodies", least_friction_text(scene),
-                fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
-}
-
 /// An expression may have no value somewhere, which no comparison of distances would tell.
 template <int Dim>
 void check_distances(const BodySet<Dim>& set, const Grid<Dim>& grid, SeedProblems& problems) {
@@ -259,8 +252,7 @@ void seed_with_bodies(const BodiesOfScene& bodies, const Scene& scene, Recipe& r
     BodySet<Dim> set = bodies.of<Dim>();
     set.rubs = rubs;
     for (auto& body : set.bodies) body.wall = wall_on_grid(body.wall, friction_of(scene), scene.grid.spacing);
-    recipe.seed([set](const Scene& of, World& world, SeedProblems& problems) {
-      if (set.any_is_free()) check_viscosity_of_free_bodies(of, problems);
+    recipe.seed([set](const Scene&, World& world, SeedProblems& problems) {
       check_distances<Dim>(set, world.resource<Grid<Dim>>(), problems);
       check_repeats<Dim>(set, world, problems);
       seed_bodies<Dim>(set, world);

@@ -3,26 +3,10 @@
 #include "systems/contact/surfaces.hpp"
 #include "systems/scene/discretization.hpp"
 #include "systems/scene/parts.hpp"
-#include "systems/viscosity/friction_choice.hpp"
-
-#include <spdlog/fmt/fmt.h>
-
-#include <algorithm>
 
 namespace minamo {
 
 namespace {
-
-/// What solves the balances with the viscosity does not know of contact.
-void check_viscosity_of_contact(const Scene& scene, SeedProblems& problems) {
-  if (scene.facts.find<Rheology>() != nullptr || friction_of(scene) != Friction::in_balances) return;
-  // What free bodies have complained of already is the same problem.
-  const bool is_noted = std::any_of(problems.problems.begin(), problems.problems.end(),
-                                    [](const Problem& problem) { return problem.pointer == "/fluid/viscosity"; });
-  if (is_noted) return;
-  problems.note("/fluid/viscosity", "too large for separating walls", least_friction_text(scene),
-                fmt::format("{} Pa s", scene.facts.get<Fluid>().viscosity));
-}
 
 Contribution separating_walls(Input&, Scene&) {
   return [](const Scene& scene, Recipe& recipe) {
@@ -30,7 +14,6 @@ Contribution separating_walls(Input&, Scene&) {
     recipe.fill("<find_contact>", [](std::vector<System> body) {
       return std::vector{make_loop<ContactLoop>("find_contact", std::move(body), most_contact_passes)};
     });
-    recipe.seed([](const Scene& of, World&, SeedProblems& problems) { check_viscosity_of_contact(of, problems); });
   };
 }
 

@@ -244,8 +244,8 @@ class CellIntegrals {
     }
   }
 
-  /// Lines along the axis of the steepest slope, between those of the second steepest in 3-D; in all orders of axes
-  /// that are as steep, so that none is preferred.
+  /// Lines along the axis of the steepest slope, in 3-D in planes across that of the least; in all orders of axes that
+  /// are as steep, so that none is preferred.
   template <class Use>
   void lines_of_box(const std::array<double, power(2, Dim)>& psi, const Vec<Dim>& low, const Use& use) const {
     constexpr double alike = 1e-9;

@@ -90,6 +90,8 @@ inline constexpr Condition several_densities{"several densities", [](const Scene
 inline constexpr Condition fluids{"several liquids", has<Fluids>};
 inline constexpr Condition rheology_of_one{
     "rheology", [](const Scene& scene) { return has<Rheology>(scene) && !has<Fluids>(scene); }};
+inline constexpr Condition rheology_of_several{
+    "rheology", [](const Scene& scene) { return has<Rheology>(scene) && has<Fluids>(scene); }};
 inline constexpr Condition shear_dependent{"rheology", has<Rheology>};
 inline constexpr Condition rheology_of_pressure{"rheology of pressure", [](const Scene& scene) {
                                                   const auto* rheology = scene.facts.find<Rheology>();

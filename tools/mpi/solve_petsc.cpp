@@ -200,8 +200,8 @@ struct PetscSolver::Impl {
     }
     check(MatDuplicate(matrix, MAT_COPY_VALUES, &definite));
     for (const std::size_t l : own) {
-      const double more = closed.contains(l) ? to_be_definite * diagonal[l] : 0;
-      check(MatSetValue(definite, number[l], number[l], more, ADD_VALUES));
+      if (!closed.contains(l)) continue;
+      check(MatSetValue(definite, number[l], number[l], to_be_definite * diagonal[l], ADD_VALUES));
     }
     check(MatAssemblyBegin(definite, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(definite, MAT_FINAL_ASSEMBLY));

@@ -165,7 +165,7 @@ class Continuation {
     SiteRows<Dim> empty;
     empty.start(of_.splines.sites());
     const auto for_each_empty = [&](std::size_t v, const auto& use) {
-      for (std::size_t place = 0; place < Around::sites; ++place) {
+      for (const std::size_t place : Around::places_beside) {
         if (tellers_[v][place].is_empty) use(tellers_[v][place], site_of(v, place));
       }
     };
@@ -242,24 +242,23 @@ class Continuation {
 
   /// Finds where the surface passes near, by what is told so far, and it is no noise of particles in the depth.
   void find_surface() {
-    const auto has_other = [&](double here, const auto& around) {
-      return std::any_of(around.begin(), around.end(), [&](const Teller& one) {
-        const auto there = fill(one);
-        return there && is_in_liquid(*there) != is_in_liquid(here);
-      });
+    const auto is_other = [&](const Teller& one, double here) {
+      const auto there = fill(one);
+      return there && is_in_liquid(*there) != is_in_liquid(here);
     };
     is_row_at_surface_.resize(rows_at_surface_.size());
     for_each_row(rows_at_surface_.size(), [&](std::size_t r) {
-      is_row_at_surface_[r] = has_other(of_.fill[rows_at_surface_[r]], beside_row_[r]) ? 1 : 0;
+      is_row_at_surface_[r] = std::any_of(beside_row_[r].begin(), beside_row_[r].end(), [&](const Teller& one) {
+        return is_other(one, of_.fill[rows_at_surface_[r]]);
+      });
     });
     is_version_at_surface_.resize(told_.size());
     for_each_row(told_.size(), [&](std::size_t v) {
       is_version_at_surface_[v] = 0;
       if (is_told_[v] == 0 || !liquid::is_cut(told_[v].fill) || told_[v].normal.squaredNorm() == 0) return;
-      std::array<Teller, Around::places_beside.size()> beside;
-      std::transform(Around::places_beside.begin(), Around::places_beside.end(), beside.begin(),
-                     [&](std::size_t place) { return tellers_[v][place]; });
-      is_version_at_surface_[v] = has_other(told_[v].fill, beside) ? 1 : 0;
+      const auto& places = Around::places_beside;
+      is_version_at_surface_[v] = std::any_of(
+          places.begin(), places.end(), [&](std::size_t place) { return is_other(tellers_[v][place], told_[v].fill); });
     });
   }
   bool is_at_surface(const Teller& teller) const {
