@@ -62,6 +62,13 @@ struct ExactVolume : Column<Staggered, Vec<Dim>> {
   static constexpr ComponentInfo info{"face.exact_volume", "V^_f", "m^d", Lifetime::state};
 };
 
+/// Force (B^T lambda^)_f of the pressure of multipliers that liquid reaches and no particle touches. [N; N/m in 2-D]
+template <int Dim>
+struct UnseenForce : Column<Staggered, Vec<Dim>> {
+  // State, as the exact volume is: this force acted with the pressure of the last step.
+  static constexpr ComponentInfo info{"face.unseen_force", "(B^T lambda^)_f", "N", Lifetime::state};
+};
+
 /// Acceleration q_f by which the pressure of the last step held the liquid back. [m/s^2]
 template <int Dim>
 struct PressureAcceleration : Column<Staggered, Vec<Dim>> {
@@ -142,6 +149,19 @@ struct ContinuedLiquid {
     const std::uint8_t label = sides[c].at(steps);
     return label > 0 ? std::optional<std::size_t>(first[c] + label - 1U) : std::nullopt;
   }
+};
+
+/// Multipliers that particles tell to be full or empty, of which the surface around tells how much liquid they hold.
+template <int Dim>
+struct UnseenLiquid {
+  SiteRows<Dim> rows;  ///< by site of the multiplier
+  std::vector<Index<Dim>> site;
+  std::vector<std::uint8_t> has_plane;  ///< whether planes around agree
+  std::vector<double> psi;              ///< in units of h
+  std::vector<double> depth;            ///< mean over N_l of the depth below the surface, of empty ones, in units of h
+  std::vector<double> excess;           ///< volume that the plane tells more than particles do, in units of h^d
+  std::vector<Vec<Dim>> nearest;        ///< the point of the surface next to it, from it, in units of h
+  static constexpr ComponentInfo info{"unseen_liquid", "psi_l", "1", Lifetime::scratch};
 };
 
 /// The cells that the surface passes, and the integrals of splines over the liquid in them, in units of h^d.

@@ -4,6 +4,7 @@
 #include "systems/liquid/exact_pressure.hpp"
 #include "systems/liquid/exact_volume.hpp"
 #include "systems/liquid/liquid_surface.hpp"
+#include "systems/liquid/unseen_liquid.hpp"
 #include "systems/scene/discretization.hpp"
 #include "systems/scene/parts.hpp"
 #include "systems/scene/schemes.hpp"
@@ -67,6 +68,8 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add<FindFilledNodes>("find_filled_nodes");
   registry.add<GatherMoments>("moments");
   registry.add<FindLiquidSurface>("find_liquid_surface", OnRanks::adds_up);
+  registry.add<FindUnseenLiquid>("find_unseen_liquid", OnRanks::adds_up);
+  registry.add<FindUnseenForce>("find_unseen_force", OnRanks::adds_up);
   registry.add<FindExactVolume>("find_exact_volume", OnRanks::adds_up);
   registry.add<FindPressureAcceleration>("find_pressure_acceleration", OnRanks::adds_up);
   registry.add<FindExactShare>("find_exact_share", OnRanks::adds_up);

@@ -51,8 +51,8 @@ struct TruncatedPowers {
   };
   std::array<Term, static_cast<std::size_t>(largest_degree + 1)> terms{};
   std::size_t count = 0;
-  /// int x^k/k! of the spline.
-  std::array<double, static_cast<std::size_t>(2 * largest_degree + 1)> moments{};
+  /// int x^k/k! of the spline: in 3-D two axes raise a power by the degree each, and the mean depth begins at one.
+  std::array<double, static_cast<std::size_t>(2 * largest_degree + 2)> moments{};
 };
 
 /// The splines of an axis. Spline number c + a is the a-th of those in cell c.

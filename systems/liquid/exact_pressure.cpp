@@ -1,6 +1,7 @@
 #include "systems/liquid/exact_pressure.hpp"
 
 #include "systems/grid/incidence.hpp"
+#include "systems/liquid/size_at_face.hpp"
 #include "systems/liquid/spread.hpp"
 #include "systems/momentum/face_density.hpp"
 
@@ -62,45 +63,6 @@ double stillness(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, std:
   return std::clamp((moving_from - std::sqrt(squares / fall)) / (moving_from - still_to), 0.0, 1.0);
 }
 
-/// The row of a face of direction e next to one of direction d: bit 0 of the corner below it, bit 1 above it along e.
-template <int Dim>
-std::optional<std::size_t> row_at_corner(const RowsOfSites<Dim>& of, std::size_t i, std::size_t d, std::size_t e,
-                                         unsigned corner) {
-  auto row = static_cast<std::int32_t>(i);
-  if ((corner & 1U) != 0) row = of.neighbour[i][2 * d];
-  if ((corner & 2U) != 0 && row != staggered::none) row = of.neighbour[static_cast<std::size_t>(row)][2 * e + 1];
-  const bool by_site = of.is_near_thin_wall(i);
-  if (row != staggered::none && !by_site) return static_cast<std::size_t>(row);
-  if (corner != 3 && !by_site) return {};
-  // The one in between may have no row.
-  Index<Dim> steps{};
-  if ((corner & 1U) != 0) steps[d] = -1;
-  if ((corner & 2U) != 0) steps[e] = 1;
-  const auto at = of.splines.site_at(of.site[i], steps);
-  const auto found = at ? of.rows.find(*at) : std::nullopt;
-  return found && of.parts_faces(i, d, *found, e) ? std::nullopt : found;
-}
-
-/// |q| at a face of a direction: its own component, and the means of the others over the faces around that have mass.
-template <int Dim>
-double size_at_face(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> q_f,
-                    std::size_t i, std::size_t d) {
-  double squares = std::pow(q_f[i][static_cast<Eigen::Index>(d)], 2);
-  for (std::size_t e = 0; e < Dim; ++e) {
-    if (e == d) continue;
-    double sum = 0;
-    double count = 0;
-    for (unsigned corner = 0; corner < 4; ++corner) {
-      const auto row = row_at_corner(of, i, d, e, corner);
-      if (!row || m_f[*row][static_cast<Eigen::Index>(e)] == 0) continue;
-      sum += q_f[*row][static_cast<Eigen::Index>(e)];
-      ++count;
-    }
-    if (count > 0) squares += sum * sum / (count * count);
-  }
-  return std::sqrt(squares);
-}
-
 /// The largest value within some steps along walls: over multipliers that bodies cut and particles touch.
 template <int Dim>
 void spread_along_walls(const RowsOfSites<Dim>& of, std::span<const double> open, std::span<const double> v_l,
@@ -132,9 +94,9 @@ void FindPressureAcceleration<Dim>::operator()(
     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
     Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
     Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
-    Optional<Read<face::Open<Dim>>> open, Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry,
-    Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
-    Write<face::PressureAcceleration<Dim>> q_f) const {
+    Optional<Read<face::UnseenForce<Dim>>> unseen, Optional<Read<face::Open<Dim>>> open,
+    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
+    Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const {
   const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   // What particles have left still has rows on the high side of the liquid.
@@ -145,7 +107,7 @@ void FindPressureAcceleration<Dim>::operator()(
       const unsigned holds = held[i] | (contact ? contact[i] : 0U);
       const bool is_held =
           (holds & (1U << d)) != 0 || m_f[i][axis] == 0 || (open && (open[i][axis] == 0 || volume[i][axis] == 0));
-      sums[i][d] = is_held ? 0 : -incidence.gradient(i, d, at_multiplier);
+      sums[i][d] = is_held ? 0 : -(incidence.gradient(i, d, at_multiplier) + (unseen ? unseen[i][axis] : 0));
       sums[i][Dim + d] = is_held ? 0 : rho.at(i, axis) * volume[i][axis];
       // Where a body's wall tells less liquid than there are particles q_f would swing from step to step, and grow.
       if (open && !is_held && mobility[i][axis] > 0)
@@ -251,6 +213,7 @@ void FindExactShare<Dim>::operator()(
 template <int Dim>
 void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Fluid> fluid, Read<face::Mobility<Dim>> mobility,
                                        Read<face::ExactShare<Dim>> share, Read<face::ExactVolume<Dim>> volume,
+                                       Optional<Read<face::UnseenForce<Dim>>> unseen,
                                        Read<face::PressureAcceleration<Dim>> q_f,
                                        Optional<Read<face::Density<Dim>>> rho_f,
                                        Update<face::Predictor<Dim>> predictor) const {
@@ -263,6 +226,7 @@ void AddExactPressure<Dim>::operator()(Read<Rates> rates, Read<Fluid> fluid, Rea
       const double ratio = std::min(rho.at(i, axis) * volume[i][axis] * mobility[i][axis], largest_ratio);
       // What has no mobility gets no pressure of this step.
       predictor[i][axis] += tau * (mobility[i][axis] == 0 ? 1 : ratio - 1) * q_f[i][axis];
+      if (unseen) predictor[i][axis] += tau * mobility[i][axis] * unseen[i][axis];
     }
   });
 }

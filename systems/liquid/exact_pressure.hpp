@@ -24,9 +24,10 @@ struct FindPressureAcceleration {
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
                   Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
                   Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
-                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::Density<Dim>>> rho_f,
-                  Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
-                  Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const;
+                  Optional<Read<face::UnseenForce<Dim>>> unseen, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry,
+                  Optional<Read<SiteExchange>> shared, Write<face::PressureSums<Dim>> sums,
+                  Write<face::PressureAcceleration<Dim>> q_f) const;
 };
 
 /// (E133)  w_f: 1 where the liquid is nearly at rest, 0 where it moves, and in spray.
@@ -50,8 +51,8 @@ struct AddExactPressure {
   static constexpr std::string_view doc = "(E134) pressure acts on exact integrals over the liquid";
   void operator()(Read<Rates> rates, Read<Fluid> fluid, Read<face::Mobility<Dim>> mobility,
                   Read<face::ExactShare<Dim>> share, Read<face::ExactVolume<Dim>> volume,
-                  Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Density<Dim>>> rho_f,
-                  Update<face::Predictor<Dim>> predictor) const;
+                  Optional<Read<face::UnseenForce<Dim>>> unseen, Read<face::PressureAcceleration<Dim>> q_f,
+                  Optional<Read<face::Density<Dim>>> rho_f, Update<face::Predictor<Dim>> predictor) const;
 };
 
 }  // namespace minamo

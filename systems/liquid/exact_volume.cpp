@@ -28,7 +28,7 @@ constexpr double heaviest_ratio = 10;
 constexpr double at_rest_from = 0.9;
 /// Fill that particles may not see: the surface reaches so far into the spline of a multiplier before a lattice of
 /// 2 x 2 touches it. Were faces let go from less on, small waves would meet walls that do not answer.
-constexpr double unseen = 0.03;
+constexpr double unseen_fill = 0.03;
 /// Fill of what is open over that of the whole spline up to which there is nothing to answer: the edge of a pool on a
 /// beach has its liquid in the body, and open what is above.
 constexpr double dry = 0.3;
@@ -81,12 +81,18 @@ struct Liquid {
   std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour;
   std::span<const double> phi;
   const ContinuedLiquid<Dim>* continued;  ///< none without bodies
+  const UnseenLiquid<Dim>* unseen;        ///< none with bodies
   std::span<const double> near;
   std::span<const Vec<Dim>> normal;
   std::span<double> psi;
   SurfaceCells<Dim>& cells;
 
   bool is_full(std::size_t i) const { return liquid::is_full(phi[i]); }
+  /// psi of a multiplier that planes around tell, not its particles.
+  std::optional<double> unseen_psi(const Index<Dim>& at) const {
+    const auto u = unseen != nullptr ? unseen->rows.find(at) : std::nullopt;
+    return u && unseen->has_plane[*u] != 0 ? std::optional<double>(unseen->psi[*u]) : std::nullopt;
+  }
   /// psi of a multiplier, as it is on the side of a wall where `from` is.
   double psi_at(const Index<Dim>& at, const std::optional<std::uint32_t>& row, const Index<Dim>& from) const {
     if (row && !is_parted(at)) return psi[*row];
@@ -141,7 +147,8 @@ void find_surface_cells(const Liquid<Dim>& of) {
 
 /// psi of the multipliers of a cell, x fastest, on the side of a wall where `from` is. Those that are full or empty are
 /// as far as a plane that just leaves their splines, in the mean direction of the others: one farther away would not
-/// answer while the surface moves there. Not those to which bodies have the liquid continued: their planes tell.
+/// answer while the surface moves there. Not those to which bodies have the liquid continued, nor those of (E140):
+/// their planes tell.
 template <int Dim, int K>
 std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index<Dim>& cell, const Index<Dim>& from) {
   std::array<double, power(K, Dim)> psi;
@@ -158,6 +165,9 @@ std::array<double, power(K, Dim)> psi_of_cell(const Liquid<Dim>& of, const Index
       direction += of.phi[*row] * (1 - of.phi[*row]) * of.normal[*row];
     } else if (of.continued != nullptr && std::abs(psi[m]) < liquid::farthest) {
       is_told[m] = of.continued->rows.find(site).has_value();
+    } else if (const auto unseen = of.unseen_psi(site)) {
+      is_told[m] = true;
+      psi[m] = *unseen;
     }
     ++m;
   });
@@ -292,7 +302,7 @@ bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d, const Inde
     const auto version = of.continued_version(site, from);
     if (!version) return false;
     const double fill = of.continued->fill[*version];
-    return fill > unseen || (liquid::is_cut(fill) && of.continued->wetness[*version] < dry);
+    return fill > unseen_fill || (liquid::is_cut(fill) && of.continued->wetness[*version] < dry);
   };
   if (lacks_particles(of.site[i], static_cast<std::int32_t>(i))) return true;
   const auto below = site_beside(of.splines, of.site[i], 2 * d);
@@ -306,14 +316,23 @@ void FindExactVolume<Dim>::operator()(
     Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::ContinuedFill> phi,
     Read<multiplier::NearExact> near, Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,
-    Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
-    Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
-    Optional<Read<SiteExchange>> shared, Update<multiplier::SurfaceDistance> psi,
-    Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility,
-    Update<face::ExactVolume<Dim>> volume) const {
-  const Liquid<Dim> of{
-      *grid,       *splines,   *rows,      site.span(), neighbour.span(), phi.span(), continued ? &*continued : nullptr,
-      near.span(), n_l.span(), psi.span(), *cells};
+    Read<face::ExactShare<Dim>> share, Optional<Read<UnseenLiquid<Dim>>> unseen,
+    Optional<Read<ContinuedLiquid<Dim>>> continued, Optional<Read<multiplier::OpenShare>> open,
+    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+    Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
+    Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const {
+  const Liquid<Dim> of{*grid,
+                       *splines,
+                       *rows,
+                       site.span(),
+                       neighbour.span(),
+                       phi.span(),
+                       continued ? &*continued : nullptr,
+                       unseen ? &*unseen : nullptr,
+                       near.span(),
+                       n_l.span(),
+                       psi.span(),
+                       *cells};
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   const double cell_volume = std::pow(grid->spacing, Dim);
   with_degree(splines->degree, [&](auto degree) {
@@ -344,10 +363,8 @@ void FindExactVolume<Dim>::operator()(
                 ? splines->face_integral(site[i], d)
                 : volume_at_surface<Dim, K>(of, i, d, d * Integrals::faces_of_direction, submerged.span(), from);
         volume[i][axis] += w * (cell_volume * below - of_particles);
-        if (continued) {
-          const double least = w * rho.at(i, axis) * volume[i][axis] / heaviest_ratio;
-          mobility[i][axis] = std::min(mobility[i][axis], 1 / std::max(least, std::numeric_limits<double>::min()));
-        }
+        const double least = w * rho.at(i, axis) * volume[i][axis] / heaviest_ratio;
+        mobility[i][axis] = std::min(mobility[i][axis], 1 / std::max(least, std::numeric_limits<double>::min()));
       }
     });
     if (shared) shared->copy_from_owner(volume.span());

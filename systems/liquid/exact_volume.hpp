@@ -20,11 +20,12 @@ struct FindExactVolume {
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<multiplier::ContinuedFill> phi, Read<multiplier::NearExact> near,
                   Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,
-                  Read<face::ExactShare<Dim>> share, Optional<Read<ContinuedLiquid<Dim>>> continued,
-                  Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
-                  Optional<Read<SiteExchange>> shared, Update<multiplier::SurfaceDistance> psi,
-                  Write<multiplier::Submerged<Dim>> submerged, Write<SurfaceCells<Dim>> cells,
-                  Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const;
+                  Read<face::ExactShare<Dim>> share, Optional<Read<UnseenLiquid<Dim>>> unseen,
+                  Optional<Read<ContinuedLiquid<Dim>>> continued, Optional<Read<multiplier::OpenShare>> open,
+                  Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+                  Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
+                  Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility,
+                  Update<face::ExactVolume<Dim>> volume) const;
 };
 
 }  // namespace minamo

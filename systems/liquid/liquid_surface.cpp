@@ -145,7 +145,8 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
                                         Write<multiplier::SurfaceNormal<Dim>> n_l, Write<multiplier::NearExact> near,
                                         Write<multiplier::ContinuedFill> continued) const {
   const Whole is_whole{open.span()};
-  // The integrals of a face reach K - 1 multipliers beyond the two next to it, and planes are fitted to those around.
+  // The integrals of a face reach K - 1 multipliers beyond the two next to it, planes are fitted to those around, and
+  // without bodies (E140) goes K - 1 multipliers on from what is told to what is not, back, and there again.
   for_each_row(phi.size(), [&](std::size_t i) {
     near[i] = share[i].maxCoeff();
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -154,11 +155,18 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
         near[i] = std::max(near[i], share[static_cast<std::size_t>(above)][static_cast<Eigen::Index>(d)]);
     }
   });
-  with_degree(splines->degree, [&](auto degree) {
-    spread_largest<Dim, degree()>(
+  const auto spread = [&](auto reach) {
+    spread_largest<Dim, reach()>(
         {*splines, *rows, site.span(), neighbour.span(), hiding(dry)}, near.span(), psi.span(), [&](std::size_t i) {
           return near[i] == 0 && liquid::may_be_at_surface(*splines, site[i], neighbour[i], phi.span(), i);
         });
+  };
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    if (open)
+      spread(std::integral_constant<int, K>());
+    else
+      spread(std::integral_constant<int, 4 * K - 3>());
   });
   if (shared) shared->copy_from_owner(near.span());
   std::vector<std::uint8_t> wanted(phi.size());

@@ -19,6 +19,8 @@ class SplineFraction {
     double slope;  ///< by psi
   };
   Value operator()(double psi) const { return mean_power(0, psi + shift_, 0); }
+  /// Mean over the spline of the depth below the plane, 0 above it, in units of h: the integral of the share over psi.
+  double mean_depth(double psi) const { return mean_power(0, psi + shift_, 1).share; }
   /// The distance psi of which the share is known, in units of h. \pre 0 < share < 1
   /// \param near  a first guess
   double inverse(double share, double near) const;

@@ -86,7 +86,9 @@ const StepTable& table_of_faces() {
               {"assemble", "find_exact_share", both, {exact}},
               {"assemble", "find_liquid_surface", both, {exact}},
               {"assemble", "continue_liquid", both, {exact, bodies}},
+              {"assemble", "find_unseen_liquid", both, {exact, no_bodies}},
               {"assemble", "find_exact_volume", both, {exact}},
+              {"assemble", "find_unseen_force", both, {exact, no_bodies}},
               {"assemble", "add_exact_pressure", both, {exact}},
               {"assemble", "assemble_multipliers"},
               {"assemble", "<cell_viscosity>", both, {viscous}},  // behind fill_beside_bodies

@@ -51,10 +51,16 @@ void for_each_sample(const Index<Dim>& cell, int per_axis, const Use& use) {
   }
 }
 
-/// Share of the spline of a multiplier where n.(x - x_l) + psi > 0, by samples.
+/// By samples, of the spline of a multiplier where y = n.(x - x_l) + psi > 0: its share there, and the mean of y_+.
+struct SampledBelow {
+  double share = 0;
+  double depth = 0;
+};
 template <int Dim, int K>
-double sampled_share(const FractionBox<Dim>& box, const Index<Dim>& site, const Vec<Dim>& n, double psi, int per_axis) {
-  double sum = 0;
+SampledBelow sampled_below(const FractionBox<Dim>& box, const Index<Dim>& site, const Vec<Dim>& n, double psi,
+                           int per_axis) {
+  SampledBelow mean;
+  const double of_all = box.splines.widths(site);
   for (std::size_t k = 0; k < power(6, Dim); ++k) {
     Index<Dim> cell;
     Index<Dim> offset;
@@ -68,10 +74,14 @@ double sampled_share(const FractionBox<Dim>& box, const Index<Dim>& site, const 
     if (!reaches) continue;
     const CellFrame<Dim> frame(box.grid, box.splines, cell);
     for_each_sample<Dim>(cell, per_axis, [&](const Vec<Dim>& xi, const Vec<Dim>& x, double volume) {
-      if (n.dot(x - box.place(site)) + psi > 0) sum += volume * SplineWeights<Dim, K>(frame, xi).multiplier(offset);
+      const double y = n.dot(x - box.place(site)) + psi;
+      if (y <= 0) return;
+      const double weight = volume * SplineWeights<Dim, K>(frame, xi).multiplier(offset) / of_all;
+      mean.share += weight;
+      mean.depth += weight * y;
     });
   }
-  return sum / box.splines.widths(site);
+  return mean;
 }
 
 template <int Dim, int K>
@@ -87,7 +97,9 @@ void check_shares(int per_axis, double tolerance) {
     for (const double psi : {-0.6, -0.1, 0.25, 0.7}) {
       CAPTURE(Dim, K, at, n.transpose(), psi);
       const auto value = fraction(psi);
-      CHECK(value.share == Approx(sampled_share<Dim, K>(box, site, n, psi, per_axis)).margin(tolerance));
+      const SampledBelow sampled = sampled_below<Dim, K>(box, site, n, psi, per_axis);
+      CHECK(value.share == Approx(sampled.share).margin(tolerance));
+      CHECK(fraction.mean_depth(psi) == Approx(sampled.depth).margin(tolerance));
       constexpr double step = 1e-5;
       CHECK(value.slope == Approx((fraction(psi + step).share - fraction(psi - step).share) / (2 * step)).margin(1e-6));
       if (value.share > 1e-6 && value.share < 1 - 1e-6) {

@@ -1,0 +1,245 @@
+#include "systems/liquid/unseen_liquid.hpp"
+
+#include "systems/grid/sites_around.hpp"
+#include "systems/liquid/liquid_surface.hpp"
+#include "systems/liquid/size_at_face.hpp"
+#include "systems/liquid/spline_fraction.hpp"
+#include "systems/momentum/face_density.hpp"
+
+#include <cmath>
+
+namespace minamo {
+
+namespace {
+
+/// Share of a spline, or of what it lacks, up to which particles tell nothing, and from which on they tell it: of a
+/// lattice of 2 x 2 none may touch a spline of which 0.03 is liquid.
+constexpr double untold = 0.03;
+constexpr double told = 0.06;
+/// The largest share that planes around may tell of what particles do not see: of more there is another surface.
+constexpr double most_unseen = 0.1;
+/// |sum of w n| over the sum of w, from which on planes around agree.
+constexpr double agreement = 0.7;
+/// Sum of the shares of tellers in what is unseen, from which on they have all of it.
+constexpr double least_share = 0.25;
+/// The largest force of the pressure of multipliers that no particle touches, over rho V^_f |q|: at rest it is less,
+/// and no face, as light as it may be, is pushed by more than |q|.
+constexpr double largest_force = 0.1;
+
+/// The multipliers of which planes tell: particles tell neither that they are full nor empty.
+template <int Dim>
+struct Tellers {
+  const Splines<Dim>& splines;
+  const StaggeredIndex<Dim>& rows;
+  std::span<const Index<Dim>> site;
+  std::span<const double> phi;
+  std::span<const double> near;
+  std::span<const double> psi;
+  std::span<const Vec<Dim>> normal;
+
+  /// How far particles tell what a multiplier holds. [1]
+  double trust(std::size_t i) const {
+    return std::clamp((std::min(phi[i], 1 - phi[i]) - untold) / (told - untold), 0.0, 1.0);
+  }
+  /// Those in the depth of the liquid, and far from exact integrals, have no normal.
+  bool tells(std::size_t i) const { return near[i] > 0 && trust(i) > 0 && normal[i] != Vec<Dim>::Zero(); }
+};
+
+/// The others that share a cell with them, with rows or without.
+template <int Dim, int K>
+void list_unseen(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen) {
+  unseen.rows.start(of.splines.sites());
+  typename SiteRows<Dim>::Finder find(of.rows);
+  for (std::size_t i = 0; i < of.site.size(); ++i) {
+    if (!of.tells(i)) continue;
+    for_each_site_around<Dim, K - 1>(of.splines, of.site[i], [&](const Index<Dim>& at, const auto&) {
+      if (!of.splines.has_multiplier(at)) return;
+      const auto row = find(at);
+      if (row && of.trust(*row) == 1) return;
+      unseen.rows.add(at);
+    });
+  }
+  unseen.site.resize(unseen.rows.number_rows());
+  unseen.rows.for_each([&](const Index<Dim>& at, std::uint32_t u) { unseen.site[u] = at; });
+}
+
+/// Mean of the planes of tellers that share a cell with a multiplier, none where they do not agree.
+template <int Dim>
+struct Plane {
+  double psi;
+  Vec<Dim> normal;
+};
+template <int Dim, int K>
+std::optional<Plane<Dim>> plane_of_tellers(const Tellers<Dim>& of, const Index<Dim>& site) {
+  double sum = 0;
+  double sum_psi = 0;
+  Vec<Dim> sum_n = Vec<Dim>::Zero();
+  for_each_row_around<Dim, K - 1>(
+      of.splines, of.rows, site, [&](std::uint32_t row, const Index<Dim>& other, const Index<Dim>& steps) {
+        if (!of.tells(row) || other == site) return;
+        Vec<Dim> x;
+        for (std::size_t d = 0; d < Dim; ++d) {
+          const SplineAxis& axis = of.splines.axis[d];
+          x[static_cast<Eigen::Index>(d)] = axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(other[d]);
+        }
+        const double w = of.trust(row) * 4 * of.phi[row] * (1 - of.phi[row]) / x.squaredNorm();
+        sum += w;
+        sum_psi += w * (of.psi[row] + of.normal[row].dot(x));
+        sum_n += w * of.normal[row];
+      });
+  const double length = sum_n.norm();
+  if (!(length > agreement * sum)) return {};
+  return Plane<Dim>{sum_psi / sum, sum_n / length};
+}
+
+/// psi_l and the mean depth of unseen multipliers.
+template <int Dim, int K>
+void find_distances(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen, std::span<const double> phi) {
+  const std::size_t count = unseen.site.size();
+  unseen.has_plane.assign(count, 0);
+  unseen.psi.assign(count, 0);
+  unseen.depth.assign(count, 0);
+  unseen.excess.assign(count, 0);
+  unseen.nearest.resize(count);
+  for_each_row(count, [&](std::size_t u) {
+    const Index<Dim>& at = unseen.site[u];
+    const auto row = of.rows.find(at);
+    const double measured = row ? std::min(phi[*row], 1.0) : 0;
+    const bool is_told = row && liquid::is_cut(of.phi[*row]);
+    const bool is_full = measured > 0.5;
+    const auto plane = plane_of_tellers<Dim, K>(of, at);
+    if (!plane) return;
+    unseen.has_plane[u] = 1;
+    const double end = 0.5 * K * plane->normal.template lpNorm<1>();  // a plane there leaves the spline
+    if (!is_told && std::abs(plane->psi) >= end && (plane->psi > 0) == is_full) {
+      unseen.psi[u] = plane->psi;
+      return;
+    }
+    const SplineFraction<Dim> fraction(of.splines, at, plane->normal);
+    unseen.psi[u] = plane->psi;
+    double share = fraction(plane->psi).share;
+    const double bounded = is_full ? std::max(share, 1 - most_unseen) : std::min(share, most_unseen);
+    const double trust = row ? of.trust(*row) : 0;
+    const double fused = trust * measured + (1 - trust) * bounded;
+    if (fused != share) unseen.psi[u] = fraction.inverse(fused, plane->psi);
+    if (!is_told && !is_full) unseen.depth[u] = fraction.mean_depth(unseen.psi[u]);
+    unseen.excess[u] = (fused - measured) * of.splines.widths(at);
+    unseen.nearest[u] = -unseen.psi[u] * plane->normal;
+  });
+}
+
+/// Share of a teller in what particles tell of an unseen multiplier in the wrong place: that of its linear function at
+/// the point of the surface next to it.
+template <int Dim>
+double share_of_teller(const Vec<Dim>& nearest, const Index<Dim>& steps) {
+  double product = 1;
+  for (std::size_t d = 0; d < Dim; ++d)
+    product *= std::max(0.0, 1 - std::abs(nearest[static_cast<Eigen::Index>(d)] - steps[d]));
+  return product;
+}
+
+/// What particles do not see of a multiplier they tell of those around: they tell of all liquid.
+template <int Dim, int K>
+void take_from_tellers(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen, std::span<double> phi,
+                       std::span<double> psi) {
+  for_each_row(unseen.site.size(), [&](std::size_t u) {
+    if (unseen.excess[u] == 0) return;
+    double sum = 0;
+    for_each_row_around<Dim, K - 1>(of.splines, of.rows, unseen.site[u],
+                                    [&](std::uint32_t row, const Index<Dim>&, const Index<Dim>& steps) {
+                                      if (of.tells(row)) sum += share_of_teller<Dim>(unseen.nearest[u], steps);
+                                    });
+    unseen.excess[u] /= std::max(sum, least_share);
+  });
+  std::vector<double> taken(phi.size(), 0);
+  for_each_row(phi.size(), [&](std::size_t i) {
+    if (!of.tells(i)) return;
+    for_each_site_around<Dim, K - 1>(of.splines, of.site[i], [&](const Index<Dim>& at, const Index<Dim>& steps) {
+      const auto u = unseen.rows.find(at);
+      if (!u || unseen.excess[*u] == 0) return;
+      Index<Dim> back;
+      for (std::size_t d = 0; d < Dim; ++d) back[d] = -steps[d];
+      taken[i] += unseen.excess[*u] * share_of_teller<Dim>(unseen.nearest[*u], back);
+    });
+  });
+  for_each_row(phi.size(), [&](std::size_t i) {
+    if (taken[i] == 0) return;
+    phi[i] = std::clamp(phi[i] - taken[i] / of.splines.widths(of.site[i]), 2 * liquid::edge, 1 - 2 * liquid::edge);
+    psi[i] = SplineFraction<Dim>(of.splines, of.site[i], of.normal[i]).inverse(phi[i], psi[i]);
+  });
+}
+
+/// In the rows of those that particles tell of a little.
+template <int Dim>
+void keep_distances(const Tellers<Dim>& of, const UnseenLiquid<Dim>& unseen, std::span<double> phi,
+                    std::span<double> psi) {
+  for_each_row(unseen.site.size(), [&](std::size_t u) {
+    const auto row = of.rows.find(unseen.site[u]);
+    if (unseen.has_plane[u] == 0 || !row || !liquid::is_cut(of.phi[*row])) return;
+    psi[*row] = unseen.psi[u];
+    phi[*row] += unseen.excess[u] / of.splines.widths(unseen.site[u]);
+    phi[*row] = std::clamp(phi[*row], 2 * liquid::edge, 1 - 2 * liquid::edge);
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+void FindUnseenLiquid<Dim>::operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
+                                       Read<staggered::Site<Dim>> site, Read<multiplier::FillFraction> fill,
+                                       Read<multiplier::NearExact> near, Read<multiplier::SurfaceNormal<Dim>> n_l,
+                                       Optional<Read<SiteExchange>> shared, Update<multiplier::ContinuedFill> phi,
+                                       Update<multiplier::SurfaceDistance> psi, Write<UnseenLiquid<Dim>> unseen) const {
+  const Tellers<Dim> of{*splines, *rows, site.span(), fill.span(), near.span(), psi.span(), n_l.span()};
+  with_degree(splines->degree, [&](auto degree) {
+    constexpr int K = degree();
+    list_unseen<Dim, K>(of, *unseen);
+    find_distances<Dim, K>(of, *unseen, phi.span());
+    take_from_tellers<Dim, K>(of, *unseen, phi.span(), psi.span());
+    if (shared) {
+      shared->copy_from_owner(phi.span());
+      shared->copy_from_owner(psi.span());
+    }
+    find_distances<Dim, K>(of, *unseen, phi.span());
+    keep_distances(of, *unseen, phi.span(), psi.span());
+  });
+}
+
+template <int Dim>
+void FindUnseenForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
+                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
+                                      Read<staggered::Neighbour<Dim>> neighbour, Read<UnseenLiquid<Dim>> unseen,
+                                      Read<face::Mass<Dim>> m_f, Read<face::ExactShare<Dim>> share,
+                                      Read<face::ExactVolume<Dim>> volume, Read<face::PressureAcceleration<Dim>> q_f,
+                                      Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+                                      Write<face::UnseenForce<Dim>> force) const {
+  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span()};
+  const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
+  const double cell_volume = std::pow(grid->spacing, Dim);
+  for_each_row(force.size(), [&](std::size_t i) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      force[i][axis] = 0;
+      if (share[i][axis] == 0) continue;
+      // lambda^_l/w_d over rho |q|
+      const auto of_multiplier = [&](const Index<Dim>& at) {
+        const auto u = unseen->rows.find(at);
+        return u ? unseen->depth[*u] * cell_volume * splines->widths(at) / splines->axis[d].width(at[d]) : 0.0;
+      };
+      const auto below = site_beside(*splines, site[i], 2 * d);
+      const double difference = (below ? of_multiplier(*below) : 0.0) - of_multiplier(site[i]);
+      if (difference == 0) continue;
+      const double most = largest_force * volume[i][axis];
+      const double q = size_at_face<Dim>(of, m_f.span(), q_f.span(), i, d);
+      force[i][axis] = share[i][axis] * rho.at(i, axis) * q * std::clamp(difference, -most, most);
+    }
+  });
+  if (shared) shared->copy_from_owner(force.span());
+}
+
+template struct FindUnseenForce<2>;
+template struct FindUnseenForce<3>;
+template struct FindUnseenLiquid<2>;
+template struct FindUnseenLiquid<3>;
+
+}  // namespace minamo
