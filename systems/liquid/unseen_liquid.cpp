@@ -117,7 +117,7 @@ void find_distances(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen, std::span
     }
     const SplineFraction<Dim> fraction(of.splines, at, plane->normal);
     unseen.psi[u] = plane->psi;
-    double share = fraction(plane->psi).share;
+    const double share = fraction(plane->psi).share;
     const double bounded = is_full ? std::max(share, 1 - most_unseen) : std::min(share, most_unseen);
     const double trust = row ? of.trust(*row) : 0;
     const double fused = trust * measured + (1 - trust) * bounded;
@@ -137,6 +137,9 @@ double share_of_teller(const Vec<Dim>& nearest, const Index<Dim>& steps) {
     product *= std::max(0.0, 1 - std::abs(nearest[static_cast<Eigen::Index>(d)] - steps[d]));
   return product;
 }
+
+/// phi of a multiplier where the surface passes stays between full and empty.
+double between(double phi) { return std::clamp(phi, 2 * liquid::edge, 1 - 2 * liquid::edge); }
 
 /// What particles do not see of a multiplier they tell of those around: they tell of all liquid.
 template <int Dim, int K>
@@ -164,7 +167,7 @@ void take_from_tellers(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen, std::s
   });
   for_each_row(phi.size(), [&](std::size_t i) {
     if (taken[i] == 0) return;
-    phi[i] = std::clamp(phi[i] - taken[i] / of.splines.widths(of.site[i]), 2 * liquid::edge, 1 - 2 * liquid::edge);
+    phi[i] = between(phi[i] - taken[i] / of.splines.widths(of.site[i]));
     psi[i] = SplineFraction<Dim>(of.splines, of.site[i], of.normal[i]).inverse(phi[i], psi[i]);
   });
 }
@@ -177,8 +180,7 @@ void keep_distances(const Tellers<Dim>& of, const UnseenLiquid<Dim>& unseen, std
     const auto row = of.rows.find(unseen.site[u]);
     if (unseen.has_plane[u] == 0 || !row || !liquid::is_cut(of.phi[*row])) return;
     psi[*row] = unseen.psi[u];
-    phi[*row] += unseen.excess[u] / of.splines.widths(unseen.site[u]);
-    phi[*row] = std::clamp(phi[*row], 2 * liquid::edge, 1 - 2 * liquid::edge);
+    phi[*row] = between(phi[*row] + unseen.excess[u] / of.splines.widths(unseen.site[u]));
   });
 }
 
