@@ -159,8 +159,6 @@ struct UnseenLiquid {
   std::vector<std::uint8_t> has_plane;  ///< whether planes around agree
   std::vector<double> psi;              ///< in units of h
   std::vector<double> depth;            ///< mean over N_l of the depth below the surface, of empty ones, in units of h
-  std::vector<double> excess;           ///< volume that the plane tells more than particles do, in units of h^d
-  std::vector<Vec<Dim>> nearest;        ///< the point of the surface next to it, from it, in units of h
   static constexpr ComponentInfo info{"unseen_liquid", "psi_l", "1", Lifetime::scratch};
 };
 

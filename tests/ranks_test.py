@@ -362,8 +362,8 @@ class Messages(unittest.TestCase):
         solver = step.pop("solve_multipliers_petsc")
         # Volume, divergence and fill of multipliers, mass and velocity of faces, bound of friction and friction, inertia,
         # parts; of exact integrals q, liquid near and w, where they reach, distances of the surface three times, normals, and
-        # volumes; ghost cells, and which sites they touch.
-        self.assertEqual(sum(step.values()), 2 * (9 + 9 + 2))
+        # volumes; what particles do not see, three times, and its force; ghost cells, and which sites they touch.
+        self.assertEqual(sum(step.values()), 2 * (9 + 9 + 4 + 2))
         # Every iteration of two sources multiplies by the matrix, and sends more on coarser levels.
         self.assertGreater(solver, 2 * 2 * 2)
 

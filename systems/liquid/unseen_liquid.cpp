@@ -25,6 +25,8 @@ constexpr double least_share = 0.25;
 /// The largest force of the pressure of multipliers that no particle touches, over rho V^_f |q|: at rest it is less,
 /// and no face, as light as it may be, is pushed by more than |q|.
 constexpr double largest_force = 0.1;
+/// What tellers lose moves their planes, and so what the unseen ones hold: a third of the change is left each time.
+constexpr int sweeps = 3;
 
 /// The multipliers of which planes tell: particles tell neither that they are full nor empty.
 template <int Dim>
@@ -63,69 +65,108 @@ void list_unseen(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen) {
   unseen.rows.for_each([&](const Index<Dim>& at, std::uint32_t u) { unseen.site[u] = at; });
 }
 
-/// Mean of the planes of tellers that share a cell with a multiplier, none where they do not agree.
-template <int Dim>
-struct Plane {
-  double psi;
-  Vec<Dim> normal;
-};
+/// The tellers that share a cell with each unseen multiplier, and the mean of their planes there.
 template <int Dim, int K>
-std::optional<Plane<Dim>> plane_of_tellers(const Tellers<Dim>& of, const Index<Dim>& site) {
-  double sum = 0;
-  double sum_psi = 0;
-  Vec<Dim> sum_n = Vec<Dim>::Zero();
-  for_each_row_around<Dim, K - 1>(
-      of.splines, of.rows, site, [&](std::uint32_t row, const Index<Dim>& other, const Index<Dim>& steps) {
-        if (!of.tells(row) || other == site) return;
-        Vec<Dim> x;
-        for (std::size_t d = 0; d < Dim; ++d) {
-          const SplineAxis& axis = of.splines.axis[d];
-          x[static_cast<Eigen::Index>(d)] = axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(other[d]);
-        }
-        const double w = of.trust(row) * 4 * of.phi[row] * (1 - of.phi[row]) / x.squaredNorm();
-        sum += w;
-        sum_psi += w * (of.psi[row] + of.normal[row].dot(x));
-        sum_n += w * of.normal[row];
-      });
-  const double length = sum_n.norm();
-  if (!(length > agreement * sum)) return {};
-  return Plane<Dim>{sum_psi / sum, sum_n / length};
-}
+class Around {
+ public:
+  struct Teller {
+    std::uint32_t row;
+    Index<Dim> steps;  ///< from the unseen multiplier
+    double weight;     ///< of its plane, the sum of which is 1
+  };
+
+  Around(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen)
+      : teller_(most * unseen.site.size()), plane_(unseen.site.size()) {
+    unseen.has_plane.resize(plane_.size());
+    for_each_row(plane_.size(), [&](std::size_t u) { unseen.has_plane[u] = find(of, unseen.site[u], u); });
+  }
+
+  std::span<const Teller> tellers(std::size_t u) const { return {&teller_[most * u], plane_[u].tellers}; }
+  const Vec<Dim>& normal(std::size_t u) const { return plane_[u].normal; }
+  /// Distance from the mean plane, in units of h.
+  double psi(std::size_t u, std::span<const double> psi) const {
+    double sum = plane_[u].across;
+    for (const Teller& teller : tellers(u)) sum += teller.weight * psi[teller.row];
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t most = power(2 * K - 1, Dim);
+  struct Plane {
+    std::size_t tellers;
+    double across;  ///< mean of n.x, from the tellers
+    Vec<Dim> normal;
+  };
+
+  /// Whether the planes agree.
+  bool find(const Tellers<Dim>& of, const Index<Dim>& site, std::size_t u) {
+    Teller* const begin = &teller_[most * u];
+    Teller* end = begin;
+    double sum = 0;
+    double across = 0;
+    Vec<Dim> sum_n = Vec<Dim>::Zero();
+    for_each_row_around<Dim, K - 1>(
+        of.splines, of.rows, site, [&](std::uint32_t row, const Index<Dim>& other, const Index<Dim>& steps) {
+          if (!of.tells(row) || other == site) return;
+          Vec<Dim> x;
+          for (std::size_t d = 0; d < Dim; ++d) {
+            const SplineAxis& axis = of.splines.axis[d];
+            x[static_cast<Eigen::Index>(d)] = axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(other[d]);
+          }
+          const double w = of.trust(row) * 4 * of.phi[row] * (1 - of.phi[row]) / x.squaredNorm();
+          sum += w;
+          across += w * of.normal[row].dot(x);
+          sum_n += w * of.normal[row];
+          *end++ = {row, steps, w};
+        });
+    for (Teller* teller = begin; teller != end; ++teller) teller->weight /= sum;
+    const double length = sum_n.norm();
+    plane_[u] = {static_cast<std::size_t>(end - begin), across / sum, sum_n / length};
+    return length > agreement * sum;
+  }
+
+  std::vector<Teller> teller_;
+  std::vector<Plane> plane_;
+};
+
+/// What the planes of tellers say of unseen multipliers that particles do not.
+template <int Dim>
+struct Excess {
+  std::vector<double> volume;     ///< in units of h^d
+  std::vector<Vec<Dim>> nearest;  ///< the point of the surface next to the multiplier, from it, in units of h
+};
 
 /// psi_l and the mean depth of unseen multipliers.
 template <int Dim, int K>
-void find_distances(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen, std::span<const double> phi) {
+Excess<Dim> find_distances(const Tellers<Dim>& of, const Around<Dim, K>& around, UnseenLiquid<Dim>& unseen,
+                           std::span<const double> phi) {
   const std::size_t count = unseen.site.size();
-  unseen.has_plane.assign(count, 0);
   unseen.psi.assign(count, 0);
   unseen.depth.assign(count, 0);
-  unseen.excess.assign(count, 0);
-  unseen.nearest.resize(count);
+  Excess<Dim> excess{std::vector<double>(count, 0.0), std::vector<Vec<Dim>>(count)};
   for_each_row(count, [&](std::size_t u) {
+    if (unseen.has_plane[u] == 0) return;
     const Index<Dim>& at = unseen.site[u];
+    const Vec<Dim>& normal = around.normal(u);
+    const double psi = around.psi(u, of.psi);
     const auto row = of.rows.find(at);
     const double measured = row ? std::min(phi[*row], 1.0) : 0;
     const bool is_told = row && liquid::is_cut(of.phi[*row]);
     const bool is_full = measured > 0.5;
-    const auto plane = plane_of_tellers<Dim, K>(of, at);
-    if (!plane) return;
-    unseen.has_plane[u] = 1;
-    const double end = 0.5 * K * plane->normal.template lpNorm<1>();  // a plane there leaves the spline
-    if (!is_told && std::abs(plane->psi) >= end && (plane->psi > 0) == is_full) {
-      unseen.psi[u] = plane->psi;
-      return;
-    }
-    const SplineFraction<Dim> fraction(of.splines, at, plane->normal);
-    unseen.psi[u] = plane->psi;
-    const double share = fraction(plane->psi).share;
+    unseen.psi[u] = psi;
+    const double end = 0.5 * K * normal.template lpNorm<1>();  // a plane there leaves the spline
+    if (!is_told && std::abs(psi) >= end && (psi > 0) == is_full) return;
+    const SplineFraction<Dim> fraction(of.splines, at, normal);
+    const double share = fraction(psi).share;
     const double bounded = is_full ? std::max(share, 1 - most_unseen) : std::min(share, most_unseen);
     const double trust = row ? of.trust(*row) : 0;
     const double fused = trust * measured + (1 - trust) * bounded;
-    if (fused != share) unseen.psi[u] = fraction.inverse(fused, plane->psi);
+    if (fused != share) unseen.psi[u] = fraction.inverse(fused, psi);
     if (!is_told && !is_full) unseen.depth[u] = fraction.mean_depth(unseen.psi[u]);
-    unseen.excess[u] = (fused - measured) * of.splines.widths(at);
-    unseen.nearest[u] = -unseen.psi[u] * plane->normal;
+    excess.volume[u] = (fused - measured) * of.splines.widths(at);
+    excess.nearest[u] = -unseen.psi[u] * normal;
   });
+  return excess;
 }
 
 /// Share of a teller in what particles tell of an unseen multiplier in the wrong place: that of its linear function at
@@ -143,45 +184,47 @@ double between(double phi) { return std::clamp(phi, 2 * liquid::edge, 1 - 2 * li
 
 /// What particles do not see of a multiplier they tell of those around: they tell of all liquid.
 template <int Dim, int K>
-void take_from_tellers(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen, std::span<double> phi,
-                       std::span<double> psi) {
-  for_each_row(unseen.site.size(), [&](std::size_t u) {
-    if (unseen.excess[u] == 0) return;
-    double sum = 0;
-    for_each_row_around<Dim, K - 1>(of.splines, of.rows, unseen.site[u],
-                                    [&](std::uint32_t row, const Index<Dim>&, const Index<Dim>& steps) {
-                                      if (of.tells(row)) sum += share_of_teller<Dim>(unseen.nearest[u], steps);
-                                    });
-    unseen.excess[u] /= std::max(sum, least_share);
-  });
+void take_from_tellers(const Tellers<Dim>& of, const Around<Dim, K>& around, const Excess<Dim>& excess,
+                       std::span<double> phi, std::span<double> psi) {
   std::vector<double> taken(phi.size(), 0);
+  for (std::size_t u = 0; u < excess.volume.size(); ++u) {
+    if (excess.volume[u] == 0) continue;
+    double sum = 0;
+    for (const auto& teller : around.tellers(u)) sum += share_of_teller<Dim>(excess.nearest[u], teller.steps);
+    const double of_a_share = excess.volume[u] / std::max(sum, least_share);
+    for (const auto& teller : around.tellers(u))
+      taken[teller.row] += of_a_share * share_of_teller<Dim>(excess.nearest[u], teller.steps);
+  }
   for_each_row(phi.size(), [&](std::size_t i) {
     if (!of.tells(i)) return;
-    for_each_site_around<Dim, K - 1>(of.splines, of.site[i], [&](const Index<Dim>& at, const Index<Dim>& steps) {
-      const auto u = unseen.rows.find(at);
-      if (!u || unseen.excess[*u] == 0) return;
-      Index<Dim> back;
-      for (std::size_t d = 0; d < Dim; ++d) back[d] = -steps[d];
-      taken[i] += unseen.excess[*u] * share_of_teller<Dim>(unseen.nearest[*u], back);
-    });
-  });
-  for_each_row(phi.size(), [&](std::size_t i) {
-    if (taken[i] == 0) return;
-    phi[i] = between(phi[i] - taken[i] / of.splines.widths(of.site[i]));
-    psi[i] = SplineFraction<Dim>(of.splines, of.site[i], of.normal[i]).inverse(phi[i], psi[i]);
+    const double left = taken[i] == 0 ? of.phi[i] : between(of.phi[i] - taken[i] / of.splines.widths(of.site[i]));
+    if (left == phi[i]) return;
+    phi[i] = left;
+    psi[i] = SplineFraction<Dim>(of.splines, of.site[i], of.normal[i]).inverse(left, psi[i]);
   });
 }
 
 /// In the rows of those that particles tell of a little.
 template <int Dim>
-void keep_distances(const Tellers<Dim>& of, const UnseenLiquid<Dim>& unseen, std::span<double> phi,
-                    std::span<double> psi) {
+void keep_distances(const Tellers<Dim>& of, const UnseenLiquid<Dim>& unseen, const Excess<Dim>& excess,
+                    std::span<double> phi, std::span<double> psi) {
   for_each_row(unseen.site.size(), [&](std::size_t u) {
     const auto row = of.rows.find(unseen.site[u]);
     if (unseen.has_plane[u] == 0 || !row || !liquid::is_cut(of.phi[*row])) return;
     psi[*row] = unseen.psi[u];
-    phi[*row] = between(phi[*row] + unseen.excess[u] / of.splines.widths(unseen.site[u]));
+    phi[*row] = between(phi[*row] + excess.volume[u] / of.splines.widths(unseen.site[u]));
   });
+}
+
+/// In one message.
+void share_both(const SiteExchange& shared, std::span<double> phi, std::span<double> psi) {
+  std::vector<std::array<double, 2>> both(phi.size());
+  for (std::size_t i = 0; i < phi.size(); ++i) both[i] = {phi[i], psi[i]};
+  shared.copy_from_owner(std::span(both));
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    phi[i] = both[i][0];
+    psi[i] = both[i][1];
+  }
 }
 
 }  // namespace
@@ -196,14 +239,14 @@ void FindUnseenLiquid<Dim>::operator()(Read<Splines<Dim>> splines, Read<Staggere
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     list_unseen<Dim, K>(of, *unseen);
-    find_distances<Dim, K>(of, *unseen, phi.span());
-    take_from_tellers<Dim, K>(of, *unseen, phi.span(), psi.span());
-    if (shared) {
-      shared->copy_from_owner(phi.span());
-      shared->copy_from_owner(psi.span());
+    const Around<Dim, K> around(of, *unseen);
+    Excess<Dim> excess = find_distances<Dim, K>(of, around, *unseen, phi.span());
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      take_from_tellers<Dim, K>(of, around, excess, phi.span(), psi.span());
+      if (shared) share_both(*shared, phi.span(), psi.span());
+      excess = find_distances<Dim, K>(of, around, *unseen, phi.span());
     }
-    find_distances<Dim, K>(of, *unseen, phi.span());
-    keep_distances(of, *unseen, phi.span(), psi.span());
+    keep_distances(of, *unseen, excess, phi.span(), psi.span());
   });
 }
 

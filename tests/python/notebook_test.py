@@ -63,9 +63,9 @@ class Notebook(unittest.TestCase):
         self.assertEqual([o for o in outputs(notebook) if o.output_type == "error"], [])
         self.assertEqual(pictures(notebook), 4)
         error, measured, theory, closed = json.loads(outputs(notebook)[-1].text)
-        self.assertLess(error, 0.019)  # 0.0096 was measured
+        self.assertLess(error, 0.014)  # 0.0071 was measured
         for decay, expected in zip(measured, theory):
-            self.assertLess(abs(decay / expected - 1), 0.27)  # 0.138 was measured, of the smallest viscosity
+            self.assertLess(abs(decay / expected - 1), 0.25)  # 0.124 was measured, of the largest viscosity
         self.assertTrue(closed)
 
     def test_transfer_schemes_run_to_their_picture(self):
