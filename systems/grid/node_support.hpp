@@ -13,8 +13,9 @@
 namespace minamo {
 
 /// Calls body(k, offset) for the 3^d nodes of a support; offset (0 ... 2 per direction) from its first node, x fastest.
+/// Clang takes it for too long to inline, and then TPIC scatters 1.6 times as slowly in 3-D.
 template <int Dim, class Body>
-inline void for_each_support(const Body& body) {
+[[gnu::always_inline]] inline void for_each_support(const Body& body) {
   std::size_t k = 0;
   if constexpr (Dim == 3) {
     for (int c = 0; c < 3; ++c) {
@@ -80,8 +81,8 @@ struct Weights {
   std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> value;  ///< per axis, of its three nodes
   std::array<std::array<double, 3>, static_cast<std::size_t>(Dim)> slope;  ///< [1/m]
 
-  /// At the point y in the cell of `support`.
-  Weights(const SupportBox<Dim>& support, const Vec<Dim>& y) {
+  /// At the point y in the cell of `support`. Inlined, so that slopes nobody reads are not computed.
+  [[gnu::always_inline]] Weights(const SupportBox<Dim>& support, const Vec<Dim>& y) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const double xi = (y[axis] - support.centre[axis]) * support.per_spacing;
