@@ -152,6 +152,14 @@ struct Splines {
     }
     return steps;
   }
+  /// From a multiplier to the one some steps away, in units of h.
+  Vec<Dim> offset(const Index<Dim>& site, const Index<Dim>& steps) const {
+    Vec<Dim> x;
+    for (std::size_t d = 0; d < Dim; ++d)
+      x[static_cast<Eigen::Index>(d)] =
+          axis[d].periodic() ? steps[d] : axis[d].place(site[d] + steps[d]) - axis[d].place(site[d]);
+    return x;
+  }
   /// Product of the widths of a multiplier, w_l/h^d. [1]
   double widths(const Index<Dim>& site) const {
     double product = 1;

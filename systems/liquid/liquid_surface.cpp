@@ -85,21 +85,16 @@ Vec<Dim> slope_of_plane(const Splines<Dim>& splines, const StaggeredIndex<Dim>& 
   Vec<Dim> sum_x = Vec<Dim>::Zero();
   Mat<Dim> squares = Mat<Dim>::Zero();
   Vec<Dim> products = Vec<Dim>::Zero();
-  for_each_row_around<Dim, 1>(
-      splines, rows, site, [&](std::uint32_t row, const Index<Dim>& other, const Index<Dim>& steps) {
-        if (!is_cut(phi[row]) || !is_whole(row)) return;
-        Vec<Dim> x;
-        for (std::size_t d = 0; d < Dim; ++d) {
-          const SplineAxis& axis = splines.axis[d];
-          x[static_cast<Eigen::Index>(d)] = axis.periodic() ? steps[d] : axis.place(other[d]) - axis.place(site[d]);
-        }
-        const double weight = 4 * phi[row] * (1 - phi[row]) / (0.25 + x.squaredNorm());
-        sum += weight;
-        sum_psi += weight * psi[row];
-        sum_x += weight * x;
-        squares += weight * x * x.transpose();
-        products += weight * psi[row] * x;
-      });
+  for_each_row_around<Dim, 1>(splines, rows, site, [&](std::uint32_t row, const Index<Dim>&, const Index<Dim>& steps) {
+    if (!is_cut(phi[row]) || !is_whole(row)) return;
+    const Vec<Dim> x = splines.offset(site, steps);
+    const double weight = 4 * phi[row] * (1 - phi[row]) / (0.25 + x.squaredNorm());
+    sum += weight;
+    sum_psi += weight * psi[row];
+    sum_x += weight * x;
+    squares += weight * x * x.transpose();
+    products += weight * psi[row] * x;
+  });
   squares -= sum_x * sum_x.transpose() / sum;
   products -= sum_psi / sum * sum_x;
   constexpr double of_normal = 1e-6;

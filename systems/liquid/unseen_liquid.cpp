@@ -2,6 +2,7 @@
 
 #include "systems/grid/sites_around.hpp"
 #include "systems/liquid/liquid_surface.hpp"
+#include "systems/liquid/mean_plane.hpp"
 #include "systems/liquid/size_at_face.hpp"
 #include "systems/liquid/spline_fraction.hpp"
 #include "systems/momentum/face_density.hpp"
@@ -18,8 +19,6 @@ constexpr double untold = 0.03;
 constexpr double told = 0.06;
 /// The largest share that planes around may tell of what particles do not see: of more there is another surface.
 constexpr double most_unseen = 0.1;
-/// |sum of w n| over the sum of w, from which on planes around agree.
-constexpr double agreement = 0.7;
 /// Sum of the shares of tellers in what is unseen, from which on they have all of it.
 constexpr double least_share = 0.25;
 /// The largest force of the pressure of multipliers that no particle touches, over rho V^_f |q|: at rest it is less,
@@ -102,27 +101,18 @@ class Around {
   bool find(const Tellers<Dim>& of, const Index<Dim>& site, std::size_t u) {
     Teller* const begin = &teller_[most * u];
     Teller* end = begin;
-    double sum = 0;
-    double across = 0;
-    Vec<Dim> sum_n = Vec<Dim>::Zero();
+    MeanPlane<Dim> mean;
     for_each_row_around<Dim, K - 1>(
         of.splines, of.rows, site, [&](std::uint32_t row, const Index<Dim>& other, const Index<Dim>& steps) {
           if (!of.tells(row) || other == site) return;
-          Vec<Dim> x;
-          for (std::size_t d = 0; d < Dim; ++d) {
-            const SplineAxis& axis = of.splines.axis[d];
-            x[static_cast<Eigen::Index>(d)] = axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(other[d]);
-          }
-          const double w = of.trust(row) * 4 * of.phi[row] * (1 - of.phi[row]) / x.squaredNorm();
-          sum += w;
-          across += w * of.normal[row].dot(x);
-          sum_n += w * of.normal[row];
-          *end++ = {row, steps, w};
+          const Vec<Dim> x = -of.splines.offset(site, steps);
+          const double weight = of.trust(row) * 4 * of.phi[row] * (1 - of.phi[row]) / x.squaredNorm();
+          mean.add(weight, of.normal[row].dot(x), of.normal[row]);
+          *end++ = {row, steps, weight};
         });
-    for (Teller* teller = begin; teller != end; ++teller) teller->weight /= sum;
-    const double length = sum_n.norm();
-    plane_[u] = {static_cast<std::size_t>(end - begin), across / sum, sum_n / length};
-    return length > agreement * sum;
+    for (Teller* teller = begin; teller != end; ++teller) teller->weight /= mean.weights();
+    plane_[u] = {static_cast<std::size_t>(end - begin), mean.distance(), mean.normal()};
+    return mean.agrees();
   }
 
   std::vector<Teller> teller_;

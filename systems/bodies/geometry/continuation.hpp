@@ -6,6 +6,7 @@
 #include "systems/bodies/geometry/sides_around.hpp"
 #include "systems/grid/sites_around.hpp"
 #include "systems/liquid/liquid_surface.hpp"
+#include "systems/liquid/mean_plane.hpp"
 #include "systems/liquid/spline_fraction.hpp"
 
 #include <cmath>
@@ -124,8 +125,6 @@ class Continuation {
  private:
   /// What is farther than so many times that from those that no body cuts is not told, and keeps its particles.
   static constexpr int passes = 3;
-  /// Length of the mean of normals from which on they are those of one plane.
-  static constexpr double agreeing = 0.7;
   /// Majority, as a share, from which on what is far from the surface counts as full or empty.
   static constexpr double decisive = 0.25;
 
@@ -270,42 +269,29 @@ class Continuation {
 
   std::optional<KnownLiquid<Dim>> continued(const Index<Dim>& site, const std::array<Teller, Around::sites>& tellers,
                                             bool by_planes) const {
-    double weights = 0;
-    double distance = 0;
-    Vec<Dim> direction = Vec<Dim>::Zero();
+    MeanPlane<Dim> mean;
     double votes = 0;
     double full = 0;
     for (std::size_t place = 0; place < tellers.size(); ++place) {
       const auto there = fill(tellers[place]);
       if (!there || (tellers[place].version == staggered::none && *there == 0))
         continue;  // no particle has a vote there
-      const Index<Dim> steps = Around::steps(place);
-      Vec<Dim> x;
-      for (std::size_t d = 0; d < Dim; ++d) {
-        const SplineAxis& axis = of_.splines.axis[d];
-        x[static_cast<Eigen::Index>(d)] =
-            axis.periodic() ? -steps[d] : axis.place(site[d]) - axis.place(site[d] + steps[d]);
-      }
+      const Vec<Dim> x = -of_.splines.offset(site, Around::steps(place));
       const double near = 1 / x.squaredNorm();
       votes += near;
       full += near * (is_in_liquid(*there) ? 1 : -1);
       if (!is_at_surface(tellers[place])) continue;
       const KnownLiquid<Dim> k = known(tellers[place]);
-      const double weight = 4 * k.fill * (1 - k.fill) * near;
-      weights += weight;
-      distance += weight * (k.psi + k.normal.dot(x));
-      direction += weight * k.normal;
+      mean.add(4 * k.fill * (1 - k.fill) * near, k.psi + k.normal.dot(x), k.normal);
     }
-    constexpr double none = 1e-6;
-    if (weights < none || direction.norm() < agreeing * weights) {
+    if (!mean.agrees()) {
       if (by_planes || std::abs(full) <= decisive * votes) return {};
       const double psi = full > 0 ? liquid::farthest : -liquid::farthest;
       return KnownLiquid<Dim>{site, psi, full > 0 ? 1.0 : 0.0, Vec<Dim>::Zero()};
     }
-    const double psi = distance / weights;
-    const Vec<Dim> normal = direction.normalized();
+    const double psi = mean.distance();
     return KnownLiquid<Dim>{site, std::clamp(psi, -liquid::farthest, liquid::farthest),
-                            SplineFraction<Dim>(of_.splines, site, normal)(psi).share, normal};
+                            SplineFraction<Dim>(of_.splines, site, mean.normal())(psi).share, mean.normal()};
   }
 
   struct Version {
