@@ -141,7 +141,8 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
                                         Write<multiplier::ContinuedFill> continued) const {
   const Whole is_whole{open.span()};
   // The integrals of a face reach K - 1 multipliers beyond the two next to it, planes are fitted to those around, and
-  // without bodies (E140) goes K - 1 multipliers on from what is told to what is not, back, and there again.
+  // without bodies (E140) goes K - 1 multipliers on from what is told to what is not, back, and there again, in its
+  // first sweep.
   for_each_row(phi.size(), [&](std::size_t i) {
     near[i] = share[i].maxCoeff();
     for (std::size_t d = 0; d < Dim; ++d) {

@@ -126,13 +126,12 @@ struct Excess {
   std::vector<Vec<Dim>> nearest;  ///< the point of the surface next to the multiplier, from it, in units of h
 };
 
-/// psi_l and the mean depth of unseen multipliers.
+/// psi_l of unseen multipliers.
 template <int Dim, int K>
 Excess<Dim> find_distances(const Tellers<Dim>& of, const Around<Dim, K>& around, UnseenLiquid<Dim>& unseen,
                            std::span<const double> phi) {
   const std::size_t count = unseen.site.size();
   unseen.psi.assign(count, 0);
-  unseen.depth.assign(count, 0);
   Excess<Dim> excess{std::vector<double>(count, 0.0), std::vector<Vec<Dim>>(count)};
   for_each_row(count, [&](std::size_t u) {
     if (unseen.has_plane[u] == 0) return;
@@ -152,11 +151,25 @@ Excess<Dim> find_distances(const Tellers<Dim>& of, const Around<Dim, K>& around,
     const double trust = row ? of.trust(*row) : 0;
     const double fused = trust * measured + (1 - trust) * bounded;
     if (fused != share) unseen.psi[u] = fraction.inverse(fused, psi);
-    if (!is_told && !is_full) unseen.depth[u] = fraction.mean_depth(unseen.psi[u]);
     excess.volume[u] = (fused - measured) * of.splines.widths(at);
     excess.nearest[u] = -unseen.psi[u] * normal;
   });
   return excess;
+}
+
+/// The mean depth of those that are next to empty.
+template <int Dim, int K>
+void find_depths(const Tellers<Dim>& of, const Around<Dim, K>& around, UnseenLiquid<Dim>& unseen,
+                 std::span<const double> phi) {
+  unseen.depth.assign(unseen.site.size(), 0);
+  for_each_row(unseen.site.size(), [&](std::size_t u) {
+    if (unseen.has_plane[u] == 0) return;
+    const auto row = of.rows.find(unseen.site[u]);
+    if (row && (liquid::is_cut(of.phi[*row]) || phi[*row] > 0.5)) return;
+    const Vec<Dim>& normal = around.normal(u);
+    if (unseen.psi[u] <= -0.5 * K * normal.template lpNorm<1>()) return;
+    unseen.depth[u] = SplineFraction<Dim>(of.splines, unseen.site[u], normal).mean_depth(unseen.psi[u]);
+  });
 }
 
 /// Share of a teller in what particles tell of an unseen multiplier in the wrong place: that of its linear function at
@@ -206,17 +219,6 @@ void keep_distances(const Tellers<Dim>& of, const UnseenLiquid<Dim>& unseen, con
   });
 }
 
-/// In one message.
-void share_both(const SiteExchange& shared, std::span<double> phi, std::span<double> psi) {
-  std::vector<std::array<double, 2>> both(phi.size());
-  for (std::size_t i = 0; i < phi.size(); ++i) both[i] = {phi[i], psi[i]};
-  shared.copy_from_owner(std::span(both));
-  for (std::size_t i = 0; i < phi.size(); ++i) {
-    phi[i] = both[i][0];
-    psi[i] = both[i][1];
-  }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -233,9 +235,10 @@ void FindUnseenLiquid<Dim>::operator()(Read<Splines<Dim>> splines, Read<Staggere
     Excess<Dim> excess = find_distances<Dim, K>(of, around, *unseen, phi.span());
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       take_from_tellers<Dim, K>(of, around, excess, phi.span(), psi.span());
-      if (shared) share_both(*shared, phi.span(), psi.span());
+      if (shared) shared->copy_from_owner(phi.span(), psi.span());
       excess = find_distances<Dim, K>(of, around, *unseen, phi.span());
     }
+    find_depths<Dim, K>(of, around, *unseen, phi.span());
     keep_distances(of, *unseen, excess, phi.span(), psi.span());
   });
 }

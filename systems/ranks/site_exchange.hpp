@@ -40,6 +40,17 @@ class SiteExchange {
     }
     add_up(column);
   }
+  /// The same of two columns, in one message.
+  template <class T>
+  void copy_from_owner(std::span<T> one, std::span<T> other) const {
+    std::vector<std::array<T, 2>> both(one.size());
+    for (std::size_t row = 0; row < one.size(); ++row) both[row] = {one[row], other[row]};
+    copy_from_owner(std::span(both));
+    for (std::size_t row = 0; row < one.size(); ++row) {
+      one[row] = both[row][0];
+      other[row] = both[row][1];
+    }
+  }
 
   /// \pre start() was called with as many rows as the table has.
   void start(Communicator& ranks, std::size_t rows);
