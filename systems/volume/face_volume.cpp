@@ -58,6 +58,9 @@ double difference_around(std::span<const typename staggered::Neighbour<Dim>::val
 constexpr double own_fill_from = 0.4;
 constexpr double error_of_cut = 0.02;
 
+/// What a multiplier beside a body lacks less than this is no hole: particles along a wall tell no better.
+constexpr double least_hole = 0.02;
+
 /// What both tell that is more than noise.
 double beyond_noise(double one, double other) {
   if (one * other <= 0) return 0;
@@ -229,7 +232,8 @@ void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> gr
                                            Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                                            Read<staggered::Neighbour<Dim>> neighbour, Read<face::Velocity<Dim>> v_f,
                                            Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
-                                           Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
+                                           Optional<Read<multiplier::OpenShare>> open,
+                                           Read<multiplier::LeastFill> least, Read<multiplier::Volume> v_l,
                                            Read<multiplier::Capacity> capacity,
                                            Optional<Read<ContinuedLiquid<Dim>>> continued,
                                            Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
@@ -261,7 +265,9 @@ void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> gr
     if (continued && open && open[i] < 1) excess = beyond_noise(excess, own_fill(i).value_or(phi[i]) - 1);
     // Walls leave lattices that do not fill multipliers exactly, and water that all but rests would be moved for it.
     if (continued) excess *= disorder(clock->step / grid->spacing * difference(i));
-    source[l][unknown::volume] = excess >= 0 || is_deep(i) ? -rate->rate * excess : 0;
+    // A body has no row behind its wall: what is open around tells whether the multiplier lies deep.
+    if (excess < 0 && !is_deep(i)) excess = open && least[i] > 0.5 ? std::min(0.0, excess + least_hole) : 0;
+    source[l][unknown::volume] = -rate->rate * excess;
   });
 }
 

@@ -86,9 +86,10 @@ struct FillFaceVolumeSource {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<VolumeRate> rate, Read<Splines<Dim>> splines,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<face::Velocity<Dim>> v_f, Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
-                  Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
-                  Read<multiplier::Capacity> capacity, Optional<Read<ContinuedLiquid<Dim>>> continued,
-                  Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const;
+                  Optional<Read<multiplier::OpenShare>> open, Read<multiplier::LeastFill> least,
+                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                  Optional<Read<ContinuedLiquid<Dim>>> continued, Read<unknown::Staggered> of_unknown,
+                  Update<unknown::Source> source) const;
 };
 
 /// (E69) and (E124) over all that moves particles without a velocity, so that shift and stirring raise no energy, and
