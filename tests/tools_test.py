@@ -43,7 +43,8 @@ class ClosedPipes(unittest.TestCase):
             self.expect_quiet(PROGRAM, *arguments)
 
     def test_python_tools_end_quietly(self):
-        for tool in ("report", "piston", "compare_interfoam.py", "standing_wave.py"):
+        self.expect_quiet(TOOLS / "report", "--help")
+        for tool in ("piston", "compare_interfoam.py", "standing_wave.py"):
             self.expect_quiet(sys.executable, TOOLS / tool, "--help")
         self.expect_quiet(sys.executable, TOOLS / "piston", "--height", "0.04", "--period", "1.57", "--depth", "0.4")
         self.expect_quiet(sys.executable, "-P", "-B", "-m", "figuring", "--help")
@@ -57,7 +58,7 @@ class ClosedPipes(unittest.TestCase):
         subprocess.run([PROGRAM, "run", SCENE, "--out", folder, "--set", "/time/end=0.1", "--set", "/grid/cells=[16, 16]",
                         "--quiet", "--threads", "1"], check=True)
         self.expect_quiet(sys.executable, TOOLS / "compare_interfoam.py", folder)
-        self.expect_quiet(sys.executable, TOOLS / "report", folder)
+        self.expect_quiet(TOOLS / "report", folder)
         self.assertTrue((folder / "report.html").is_file())
 
 
@@ -68,6 +69,17 @@ class Commands(unittest.TestCase):
             done = subprocess.run([TOOLS / "run", word, SCENE], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertEqual(done.stderr, f"tools/run: unknown command \"{word}\"; did you mean {meant}?\n")
+
+    def test_a_report_asks_for_python_where_there_is_none(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, line in (("dpkg-query", "echo installed bash"), ("apt-get", f'echo "$@" >> {folder}/calls')):
+                (Path(folder) / name).write_text(f"#!/bin/sh\n{line}\n")
+                (Path(folder) / name).chmod(0o755)
+            done = subprocess.run([TOOLS / "report", "--help"], capture_output=True, text=True, check=False,
+                                  env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"})
+            calls = Path(folder) / "calls"
+            told = calls.read_text() if calls.exists() else done.stderr  # root installs, others are told how
+            self.assertRegex(told, "install --yes --no-install-recommends .*python3-h5py")
 
     def test_the_version_has_commit_and_options(self):
         lines = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()
