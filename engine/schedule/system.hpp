@@ -1,10 +1,11 @@
 #pragma once
 /// \file
 /// A system is a struct whose `operator()` parameters are its declaration: `Read<C>`, `Optional<Read<C>>`, `Write<C>`,
-/// `Update<C>`, `RowBytes<Table>`, `Resize<Table>`. make_system() turns it into what the schedule runs. It cannot touch
-/// what it did not declare.
+/// `Update<C>`, `RowBytes<Table>`, `Resize<Table>`, and `Uses<Bundle>` for several of them. make_system() turns it into
+/// what the schedule runs. It cannot touch what it did not declare.
 
 #include "engine/schedule/parallel.hpp"
+#include "engine/schedule/uses.hpp"
 #include "engine/storage/world.hpp"
 
 #include <algorithm>
@@ -41,9 +42,6 @@ struct Access {
   bool optional = false;       ///< a read of what need not be there
   const detail::ComponentType* type = nullptr;  ///< from which a world makes it; null if is_of_table(mode)
 };
-
-/// Names of optional components that no system of a list writes.
-using Absent = std::vector<std::string_view>;
 
 namespace detail {
 
@@ -163,13 +161,6 @@ class Optional<Read<C>> {
   std::optional<Read<C>> view_;
 };
 
-namespace detail {
-template <class Arg>
-inline constexpr bool is_optional = false;
-template <class Reader>
-inline constexpr bool is_optional<Optional<Reader>> = true;
-}  // namespace detail
-
 /// The rows of a table as bytes, with all columns that outlive a step.
 template <class Table>
 class RowBytes {
@@ -243,14 +234,17 @@ struct System {
 
 namespace detail {
 
+/// The lines of a parameter in a declaration.
 template <class Arg>
-Arg view(World& world, const Absent& absent) {
-  if constexpr (is_optional<Arg>) {
-    return Arg(world, absent);
-  } else {
-    return Arg(world);
-  }
-}
+struct Lines {
+  static constexpr std::array<Access, 1> access{Arg::access()};
+};
+template <class... Views>
+struct Lines<TypeList<Views...>> {
+  static constexpr std::array<Access, sizeof...(Views)> access{Views::access()...};
+};
+template <class Bundle>
+struct Lines<Uses<Bundle>> : Lines<decltype(types_of_members(std::declval<Bundle&>()))> {};
 
 /// A system without its types: all that is compiled for each is its declaration and `run`.
 struct Erased {
@@ -277,14 +271,20 @@ struct Declared<Kernel, void (Kernel::*)(Args...) const> {
       (*static_cast<const Kernel*>(kernel))(view<Args>(world, absent)...);
     }
   }
-  static constexpr std::array<Access, sizeof...(Args)> access{Args::access()...};
+  static constexpr auto all_lines() {
+    std::array<Access, (Lines<Args>::access.size() + ... + 0)> all{};
+    auto* next = all.data();
+    ((next = std::copy(Lines<Args>::access.begin(), Lines<Args>::access.end(), next)), ...);
+    return all;
+  }
+  static constexpr auto access = all_lines();
   static constexpr Erased erased{access, &run};
 };
 
 }  // namespace detail
 
-/// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Optional, Write, Update, RowBytes or
-/// Resize.
+/// \pre `Kernel` has one `operator()(...) const` whose parameters are Read, Optional, Write, Update, RowBytes, Resize
+/// or Uses.
 template <class Kernel>
 System make_system(std::string name, Kernel kernel = {}) {
   std::shared_ptr<const void> members;

@@ -23,11 +23,10 @@ void G2PPressureGradient<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCel
 }
 
 template <int Dim>
-void P2GPressureGradient<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                          Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                                          Read<particle::PressureGradient<Dim>> grad_p_p, Read<node::Mass> m_i,
+void P2GPressureGradient<Dim>::operator()(Uses<ParticlesToNodes<Dim>> source,
+                                          Read<particle::PressureGradient<Dim>> grad_p_p,
                                           Write<node::PressureGradient<Dim>> g_i) const {
-  scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, grad_p_p.span(), g_i.span());
+  scatter_constant<Dim>(source, grad_p_p.span(), g_i.span());
 }
 
 template struct G2PPressureGradient<2>;

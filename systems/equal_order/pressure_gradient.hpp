@@ -7,6 +7,7 @@
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -22,8 +23,7 @@ struct G2PPressureGradient {
 template <int Dim>
 struct P2GPressureGradient {
   static constexpr std::string_view doc = "(E49) g_I";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::PressureGradient<Dim>> grad_p_p, Read<node::Mass> m_i,
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::PressureGradient<Dim>> grad_p_p,
                   Write<node::PressureGradient<Dim>> g_i) const;
 };
 

@@ -72,36 +72,30 @@ void UniformFaceForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Opt
 }
 
 template <int Dim>
-void P2GFaceForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                   Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p,
+void P2GFaceForce<Dim>::operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::BodyForce<Dim>> b_p,
                                    Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                                   Optional<Read<SiteExchange>> shared, Write<face::BodyForce<Dim>> b_f) const {
-  scatter_mean_of<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
-                       b_f.span(), [&](std::size_t p) { return series::Constant<Dim>{b_p[p]}; });
+                                   Write<face::BodyForce<Dim>> b_f) const {
+  scatter_mean_of<Dim>(source, m_f.span(), b_f.span(), [&](std::size_t p) { return series::Constant<Dim>{b_p[p]}; });
   const Constraints<Dim> walls{held.span()};
   for_each_row(b_f.size(), [&](std::size_t i) { hold_at_rest<Dim>(walls, i, b_f[i]); });
 }
 
 template <int Dim>
-void AddFaceInertia<Dim>::operator()(Read<Clock> clock, Read<ForceStep> step, Read<Rates> rates, Read<Grid<Dim>> grid,
-                                     Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                                     Read<cell::LiquidIndicator> w_c, Read<particle::QuadraturePosition<Dim>> y_p,
-                                     Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p,
-                                     Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                                     Optional<Read<FaceExtension<Dim>>> extension, Optional<Read<SiteExchange>> shared,
+void AddFaceInertia<Dim>::operator()(Uses<ParticlesToFaces<Dim>> source, Read<Clock> clock, Read<ForceStep> step,
+                                     Read<Rates> rates, Read<cell::LiquidIndicator> w_c,
+                                     Read<particle::ForceGradient<Dim>> grad_f_p, Read<face::Mass<Dim>> m_f,
+                                     Read<face::Held> held, Optional<Read<FaceExtension<Dim>>> extension,
                                      Write<face::InertiaCorrection<Dim>> c_f,
                                      Update<face::Predictor<Dim>> predictor) const {
   const double share = std::min(1.0, step->seconds / clock->step);
   const double most = steady_force / (clock->step * clock->step);
   const Vec<Dim> nothing = Vec<Dim>::Zero();
-  scatter_mean_by_cell<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
-                            c_f.span(), [&](std::size_t c, const auto&, auto) {
-                              return [&, w = share * w_c[c]](std::size_t p) {
-                                const double size = grad_f_p[p].norm();
-                                return series::Linear<Dim>{nothing, (size > most ? w * most / size : w) * grad_f_p[p]};
-                              };
-                            });
+  scatter_mean_by_cell<Dim>(source, m_f.span(), c_f.span(), [&](std::size_t c, const auto&, auto) {
+    return [&, w = share * w_c[c]](std::size_t p) {
+      const double size = grad_f_p[p].norm();
+      return series::Linear<Dim>{nothing, (size > most ? w * most / size : w) * grad_f_p[p]};
+    };
+  });
   if (extension) extension->apply_to_parted(c_f.span(), 0);
   const double tau = rates->velocity / rates->acceleration;
   const Constraints<Dim> walls{held.span()};

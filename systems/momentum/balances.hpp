@@ -18,7 +18,7 @@
 #include "systems/grid/incidence.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/momentum/face_extension.hpp"
-#include "systems/ranks/site_exchange.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -72,23 +72,18 @@ struct UniformFaceForce {
 template <int Dim>
 struct P2GFaceForce {
   static constexpr std::string_view doc = "(E14) b_f, from the particles";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::BodyForce<Dim>> b_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                  Optional<Read<SiteExchange>> shared, Write<face::BodyForce<Dim>> b_f) const;
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::BodyForce<Dim>> b_p, Read<face::Mass<Dim>> m_f,
+                  Read<face::Held> held, Write<face::BodyForce<Dim>> b_f) const;
 };
 
 /// (E53) on faces: m_f c_f = s sum_p w_c N_f m_p grad f_p (x_f - y_p) with |grad f_p| <= 0.03/dt^2; v*_f gets tau c_f.
 template <int Dim>
 struct AddFaceInertia {
   static constexpr std::string_view doc = "(E53) first moment that lumping the mass leaves out";
-  void operator()(Read<Clock> clock, Read<ForceStep> step, Read<Rates> rates, Read<Grid<Dim>> grid,
-                  Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<cell::LiquidIndicator> w_c, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p, Read<face::Mass<Dim>> m_f,
-                  Read<face::Held> held, Optional<Read<FaceExtension<Dim>>> extension,
-                  Optional<Read<SiteExchange>> shared, Write<face::InertiaCorrection<Dim>> c_f,
-                  Update<face::Predictor<Dim>> predictor) const;
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<Clock> clock, Read<ForceStep> step, Read<Rates> rates,
+                  Read<cell::LiquidIndicator> w_c, Read<particle::ForceGradient<Dim>> grad_f_p,
+                  Read<face::Mass<Dim>> m_f, Read<face::Held> held, Optional<Read<FaceExtension<Dim>>> extension,
+                  Write<face::InertiaCorrection<Dim>> c_f, Update<face::Predictor<Dim>> predictor) const;
 };
 
 /// Sources B v* of the balances; the others are zero.

@@ -64,11 +64,9 @@ void SampleBodyForce<Dim>::operator()(Read<BodyForce> b, Read<Rates> rates, Opti
 }
 
 template <int Dim>
-void P2GBodyForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                                   Read<particle::BodyForce<Dim>> b_p, Read<node::Mass> m_i,
+void P2GBodyForce<Dim>::operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::BodyForce<Dim>> b_p,
                                    Write<node::BodyForce<Dim>> b_i) const {
-  scatter_constant<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, b_p.span(), b_i.span());
+  scatter_constant<Dim>(source, b_p.span(), b_i.span());
 }
 
 template <int Dim>

@@ -2,7 +2,6 @@
 /// \file
 /// Body force per unit mass at the nodes, and the nodes that only it moves.
 
-#include "components/cells.hpp"
 #include "components/fluid.hpp"
 #include "components/grid.hpp"
 #include "components/instant.hpp"
@@ -10,6 +9,7 @@
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/transfer/bundles.hpp"
 
 #include <optional>
 
@@ -58,8 +58,7 @@ struct SampleBodyForce {
 template <int Dim>
 struct P2GBodyForce {
   static constexpr std::string_view doc = "(E14) b_I, from the particles";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::BodyForce<Dim>> b_p, Read<node::Mass> m_i,
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::BodyForce<Dim>> b_p,
                   Write<node::BodyForce<Dim>> b_i) const;
 };
 

@@ -22,12 +22,11 @@ Placed<Dim> put_inside_box(const Grid<Dim>& grid, Vec<Dim> x) {
 }
 
 template <int Dim>
-void Advect<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                             Read<particle::QuadraturePosition<Dim>> y_p, Read<node::Displacement<Dim>> u_i,
+void Advect<Dim>::operator()(Uses<NodesToParticles<Dim>> target, Read<node::Displacement<Dim>> u_i,
                              Update<particle::Position<Dim>> x_p, Update<Clamped> clamped) const {
   std::atomic<std::int64_t> count = 0;
-  gather<Dim>(*grid, *cells, y_p.span(), u_i.span(), [&](std::size_t p, const Vec<Dim>& u) {
-    const Placed<Dim> placed = inside_box<Dim>(*grid, x_p[p] + u);
+  gather<Dim>(target, u_i.span(), [&](std::size_t p, const Vec<Dim>& u) {
+    const Placed<Dim> placed = inside_box<Dim>(*target.grid, x_p[p] + u);
     x_p[p] = placed.x;
     if (placed.clamped) ++count;
   });

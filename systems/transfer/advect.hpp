@@ -2,13 +2,13 @@
 /// \file
 /// Moves the particles.
 
-#include "components/cells.hpp"
 #include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/grid/node_support.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -39,9 +39,8 @@ inline Placed<Dim> inside_box(const Grid<Dim>& grid, const Vec<Dim>& x) {
 template <int Dim>
 struct Advect {
   static constexpr std::string_view doc = "(E11) x_p; clamped at walls, counted";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::Displacement<Dim>> u_i, Update<particle::Position<Dim>> x_p,
-                  Update<Clamped> clamped) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::Displacement<Dim>> u_i,
+                  Update<particle::Position<Dim>> x_p, Update<Clamped> clamped) const;
 };
 
 }  // namespace minamo

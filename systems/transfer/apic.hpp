@@ -8,11 +8,10 @@
 /// gradient, so that both schemes share (E5): D_p is h^2/4 away from walls, and in the half cell at a wall, where D_p
 /// vanishes with the distance to the wall, C_p stays finite.
 
-#include "components/cells.hpp"
-#include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -20,18 +19,16 @@ namespace minamo {
 template <int Dim>
 struct G2PVelocityApic {
   static constexpr std::string_view doc = "(E17) (E45) v_p and C_p, APIC";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
-                  Write<particle::VelocityGradient<Dim>> c_p) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewVelocity<Dim>> v_i,
+                  Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> c_p) const;
 };
 
 /// (E17), (E45) for the acceleration.
 template <int Dim>
 struct G2PAccelerationApic {
   static constexpr std::string_view doc = "(E17) (E45) a_p and its affine part, APIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p,
-                  Write<particle::AccelerationGradient<Dim>> c_p) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewAcceleration<Dim>> a_i,
+                  Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> c_p) const;
 };
 
 }  // namespace minamo

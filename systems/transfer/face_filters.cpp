@@ -39,44 +39,35 @@ void filter_faces(const FaceSource<Dim>& source, std::span<const Vec<Dim>> m_f, 
 }  // namespace
 
 template <int Dim>
-void FilterFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                      Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                      Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                                      Read<face::Velocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
+void FilterFacesXpic<Dim>::operator()(Uses<ParticlesToFaces<Dim>> source, Read<face::Mass<Dim>> m_f,
+                                      Read<face::Held> held, Read<face::Velocity<Dim>> v_f,
                                       Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
                                       Write<face::FilteredVelocity<Dim>> v_filtered) const {
-  filter_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
-                    held.span(), order, v_f.span(), residue.span(), smoothed.span(), v_filtered.span());
+  filter_faces<Dim>(source, m_f.span(), held.span(), order, v_f.span(), residue.span(), smoothed.span(),
+                    v_filtered.span());
 }
 
 template <int Dim>
-void G2PFacesXpic<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                   Read<face::FilteredVelocity<Dim>> v_filtered, Read<face::Velocity<Dim>> v_old,
-                                   Read<face::NewVelocity<Dim>> v_new, Write<particle::Velocity<Dim>> v_p) const {
-  const auto at_face = [&](std::size_t i) { return Vec<Dim>(v_filtered[i] + v_new[i] - v_old[i]); };
-  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, at_face,
-                    [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
-}
-
-template <int Dim>
-void FilterFacesFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                      Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                      Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
-                                      Read<face::NewVelocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
-                                      Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
-                                      Write<face::FilteredVelocity<Dim>> v_filtered) const {
-  filter_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(),
-                    held.span(), order, v_f.span(), residue.span(), smoothed.span(), v_filtered.span());
-}
-
-template <int Dim>
-void G2PFacesFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                   Read<face::FilteredVelocity<Dim>> v_filtered,
+void G2PFacesXpic<Dim>::operator()(Uses<FacesToParticles<Dim>> target, Read<face::FilteredVelocity<Dim>> v_filtered,
+                                   Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
                                    Write<particle::Velocity<Dim>> v_p) const {
-  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(v_filtered.span()),
-                    [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
+  const auto at_face = [&](std::size_t i) { return Vec<Dim>(v_filtered[i] + v_new[i] - v_old[i]); };
+  gather_faces<Dim>(target, at_face, [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
+}
+
+template <int Dim>
+void FilterFacesFmpm<Dim>::operator()(Uses<ParticlesToFaces<Dim>> source, Read<face::Mass<Dim>> m_f,
+                                      Read<face::Held> held, Read<face::NewVelocity<Dim>> v_f,
+                                      Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
+                                      Write<face::FilteredVelocity<Dim>> v_filtered) const {
+  filter_faces<Dim>(source, m_f.span(), held.span(), order, v_f.span(), residue.span(), smoothed.span(),
+                    v_filtered.span());
+}
+
+template <int Dim>
+void G2PFacesFmpm<Dim>::operator()(Uses<FacesToParticles<Dim>> target, Read<face::FilteredVelocity<Dim>> v_filtered,
+                                   Write<particle::Velocity<Dim>> v_p) const {
+  gather_faces<Dim>(target, of_faces<Dim>(v_filtered.span()), [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
 }
 
 template struct FilterFacesXpic<2>;

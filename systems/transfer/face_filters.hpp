@@ -3,13 +3,11 @@
 /// XPIC(m) and FMPM(k) on the staggered grid, as systems/transfer/xpic.hpp and fmpm.hpp say: every component has a
 /// filter of its own, over the faces of its direction.
 
-#include "components/cells.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "engine/input/input.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
-#include "systems/ranks/site_exchange.hpp"
+#include "systems/transfer/bundles.hpp"
 #include "systems/transfer/filter_series.hpp"
 
 namespace minamo {
@@ -23,10 +21,8 @@ struct FilterFacesXpic {
   FilterFacesXpic() = default;
   explicit FilterFacesXpic(int order_of_filter) : order(order_of_filter) {}
   explicit FilterFacesXpic(Input& input) : order(filter_order(input)) {}
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f,
-                  Read<face::Held> held, Read<face::Velocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
-                  Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
+                  Read<face::Velocity<Dim>> v_f, Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
                   Write<face::FilteredVelocity<Dim>> v_filtered) const;
 };
 
@@ -34,8 +30,7 @@ struct FilterFacesXpic {
 template <int Dim>
 struct G2PFacesXpic {
   static constexpr std::string_view doc = "(E47) v_p, XPIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::FilteredVelocity<Dim>> v_filtered,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::FilteredVelocity<Dim>> v_filtered,
                   Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
                   Write<particle::Velocity<Dim>> v_p) const;
 };
@@ -49,19 +44,16 @@ struct FilterFacesFmpm {
   FilterFacesFmpm() = default;
   explicit FilterFacesFmpm(int order_of_filter) : order(order_of_filter) {}
   explicit FilterFacesFmpm(Input& input) : order(filter_order(input)) {}
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<face::Mass<Dim>> m_f,
-                  Read<face::Held> held, Read<face::NewVelocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
-                  Write<face::Residue<Dim>> residue, Write<face::Smoothed<Dim>> smoothed,
-                  Write<face::FilteredVelocity<Dim>> v_filtered) const;
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<face::Mass<Dim>> m_f, Read<face::Held> held,
+                  Read<face::NewVelocity<Dim>> v_f, Write<face::Residue<Dim>> residue,
+                  Write<face::Smoothed<Dim>> smoothed, Write<face::FilteredVelocity<Dim>> v_filtered) const;
 };
 
 /// (E66) on faces: v_p = sum_f N_f v*_f.
 template <int Dim>
 struct G2PFacesFmpm {
   static constexpr std::string_view doc = "(E66) v_p, FMPM";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::FilteredVelocity<Dim>> v_filtered,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::FilteredVelocity<Dim>> v_filtered,
                   Write<particle::Velocity<Dim>> v_p) const;
 };
 

@@ -4,6 +4,7 @@
 
 #include "components/particle.hpp"
 #include "systems/grid/lanes.hpp"
+#include "systems/transfer/bundles.hpp"
 #include "systems/transfer/face_polynomial.hpp"
 
 #include <span>
@@ -90,16 +91,6 @@ template <int Dim>
 auto of_faces(std::span<const Vec<Dim>> q_f) {
   return [q_f](std::size_t i) -> const Vec<Dim>& { return q_f[i]; };
 }
-
-/// What a gather reads in addition to the field.
-template <int Dim>
-struct FaceTarget {
-  const Grid<Dim>& grid;            ///< Read<Grid>
-  const Splines<Dim>& splines;      ///< Read<Splines>
-  const OccupiedCells<Dim>& cells;  ///< Read<GridCells>
-  const CellSites& sites;           ///< Read<CellSites>
-  std::span<const Vec<Dim>> y_p;    ///< particle::QuadraturePosition [m]
-};
 
 /// (E17), (E18)  use(c, p, jet of q at y_p) for every particle p, c its cell; at_face(row) is the vector of the faces
 /// of a site.

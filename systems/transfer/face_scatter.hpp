@@ -6,24 +6,13 @@
 #include "components/particle.hpp"
 #include "systems/grid/lanes.hpp"
 #include "systems/ranks/site_exchange.hpp"
+#include "systems/transfer/bundles.hpp"
 #include "systems/transfer/face_polynomial.hpp"
 #include "systems/transfer/face_series.hpp"
 
 #include <span>
 
 namespace minamo {
-
-/// What a scatter reads in addition to the quantity itself.
-template <int Dim>
-struct FaceSource {
-  const Grid<Dim>& grid;                 ///< Read<Grid>
-  const Splines<Dim>& splines;           ///< Read<Splines>
-  const OccupiedCells<Dim>& cells;       ///< Read<GridCells>
-  const CellSites& sites;                ///< Read<CellSites>
-  std::span<const Vec<Dim>> y_p;         ///< particle::QuadraturePosition [m]
-  std::span<const double> m_p;           ///< particle::Mass [kg]
-  const SiteExchange* shared = nullptr;  ///< with the particles of other ranks
-};
 
 namespace detail {
 

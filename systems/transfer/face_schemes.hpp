@@ -3,15 +3,13 @@
 /// The transfer schemes on the staggered grid. Every component of the velocity lives on faces of its own, so that a
 /// particle brings component d, and its gradient, to the Greville points of the faces of direction d.
 
-#include "components/cells.hpp"
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "components/step.hpp"
 #include "engine/input/input.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
 #include "systems/openings/opening_set.hpp"
-#include "systems/ranks/site_exchange.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -19,9 +17,7 @@ namespace minamo {
 template <int Dim>
 struct P2GFacesPic {
   static constexpr std::string_view doc = "(E3) (E4) m_f and v_f^n, PIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Velocity<Dim>> v_p, Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f,
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Velocity<Dim>> v_p, Write<face::Mass<Dim>> m_f,
                   Write<face::Velocity<Dim>> v_f) const;
 };
 
@@ -29,10 +25,8 @@ struct P2GFacesPic {
 template <int Dim>
 struct P2GFacesTpic {
   static constexpr std::string_view doc = "(E3) (E5) m_f and v_f^n, TPIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> grad_v_p,
-                  Optional<Read<SiteExchange>> shared, Write<face::Mass<Dim>> m_f,
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Velocity<Dim>> v_p,
+                  Read<particle::VelocityGradient<Dim>> grad_v_p, Write<face::Mass<Dim>> m_f,
                   Write<face::Velocity<Dim>> v_f) const;
 };
 
@@ -40,8 +34,7 @@ struct P2GFacesTpic {
 template <int Dim>
 struct G2PFacesPic {
   static constexpr std::string_view doc = "(E17) v_p, PIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p) const;
 };
 
@@ -53,8 +46,7 @@ struct G2PFacesFlip {
 
   G2PFacesFlip() = default;
   explicit G2PFacesFlip(Input& input);
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Velocity<Dim>> v_old,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::Velocity<Dim>> v_old,
                   Read<face::NewVelocity<Dim>> v_new, Update<particle::Velocity<Dim>> v_p) const;
 };
 
@@ -66,8 +58,7 @@ struct G2PFacesTpic {
 
   G2PFacesTpic() = default;
   explicit G2PFacesTpic(Input& input);
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 
@@ -75,8 +66,7 @@ struct G2PFacesTpic {
 template <int Dim>
 struct G2PFacesApic {
   static constexpr std::string_view doc = "(E17) (E45) v_p and C_p, APIC";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> c_p) const;
 };
 
@@ -84,9 +74,7 @@ struct G2PFacesApic {
 template <int Dim>
 struct P2GFaceAccelerationPic {
   static constexpr std::string_view doc = "(E4) a_f^n, newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f, Optional<Read<SiteExchange>> shared,
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f,
                   Write<face::Acceleration<Dim>> a_f) const;
 };
 
@@ -94,10 +82,8 @@ struct P2GFaceAccelerationPic {
 template <int Dim>
 struct P2GFaceAccelerationTpic {
   static constexpr std::string_view doc = "(E5) a_f^n, TPIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Acceleration<Dim>> a_p, Read<particle::AccelerationGradient<Dim>> grad_a_p,
-                  Read<face::Mass<Dim>> m_f, Optional<Read<SiteExchange>> shared,
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Acceleration<Dim>> a_p,
+                  Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<face::Mass<Dim>> m_f,
                   Write<face::Acceleration<Dim>> a_f) const;
 };
 
@@ -105,8 +91,7 @@ struct P2GFaceAccelerationTpic {
 template <int Dim>
 struct G2PFaceAccelerationPic {
   static constexpr std::string_view doc = "(E17) a_p, newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewAcceleration<Dim>> a_f,
                   Write<particle::Acceleration<Dim>> a_p) const;
 };
 
@@ -114,8 +99,7 @@ struct G2PFaceAccelerationPic {
 template <int Dim>
 struct G2PFaceAccelerationTpic {
   static constexpr std::string_view doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewAcceleration<Dim>> a_f,
                   Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
 };
 
@@ -123,8 +107,7 @@ struct G2PFaceAccelerationTpic {
 template <int Dim>
 struct G2PFaceAccelerationApic {
   static constexpr std::string_view doc = "(E17) (E45) a_p and its affine part, APIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewAcceleration<Dim>> a_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewAcceleration<Dim>> a_f,
                   Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> c_p) const;
 };
 
@@ -132,8 +115,7 @@ struct G2PFaceAccelerationApic {
 template <int Dim>
 struct AdvectByFaces {
   static constexpr std::string_view doc = "(E11) x_p; clamped at walls, counted";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Displacement<Dim>> u_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::Displacement<Dim>> u_f,
                   Optional<Read<OpeningSet<Dim>>> openings, Update<particle::Position<Dim>> x_p,
                   Update<Clamped> clamped) const;
 };

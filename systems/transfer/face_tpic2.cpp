@@ -7,36 +7,31 @@
 namespace minamo {
 
 template <int Dim>
-void P2GFacesTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                    Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                    Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+void P2GFacesTpic2<Dim>::operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                                     Read<particle::VelocityGradient<Dim>> grad_v_p,
-                                    Read<particle::VelocityCurvature<Dim>> h_p, Optional<Read<SiteExchange>> shared,
-                                    Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
-  scatter_mean<Dim>({*grid, *splines, *cells, *sites, y_p.span(), m_p.span(), of_ranks(shared)}, m_f.span(), v_f.span(),
-                    [&](std::size_t p) {
-                      return series::Quadratic<Dim>{v_p[p], grad_v_p[p], h_p[p]};
-                    });
+                                    Read<particle::VelocityCurvature<Dim>> h_p, Write<face::Mass<Dim>> m_f,
+                                    Write<face::Velocity<Dim>> v_f) const {
+  scatter_mean<Dim>(source, m_f.span(), v_f.span(), [&](std::size_t p) {
+    return series::Quadratic<Dim>{v_p[p], grad_v_p[p], h_p[p]};
+  });
 }
 
 template <int Dim>
 G2PFacesTpic2<Dim>::G2PFacesTpic2(Input& in) : share(curvature_share(in)) {}
 
 template <int Dim>
-void G2PFacesTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                    Read<CellSites> sites, Read<cell::BulkIndicator> b_c,
-                                    Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
-                                    Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p,
+void G2PFacesTpic2<Dim>::operator()(Uses<FacesToParticles<Dim>> target, Read<cell::BulkIndicator> b_c,
+                                    Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
+                                    Write<particle::VelocityGradient<Dim>> grad_v_p,
                                     Write<particle::VelocityCurvature<Dim>> h_p) const {
-  const FaceTarget<Dim> target{*grid, *splines, *cells, *sites, y_p.span()};
   const auto keep = [&](std::size_t c, std::size_t p, const Jet<Dim>& v) {
-    const double kept = share * b_c[c] * resolved_curvature<Dim>(v.gradient, v.second, grid->spacing);
+    const double kept = share * b_c[c] * resolved_curvature<Dim>(v.gradient, v.second, target.grid->spacing);
     v_p[p] = v.value;
     grad_v_p[p] = v.gradient;
     h_p[p] = kept * v.second;
     return kept;
   };
-  if (has_spin_beyond(splines->degree)) {
+  if (has_spin_beyond(target.splines->degree)) {
     gather_faces_with_affine<Dim>(target, of_faces<Dim>(v_f.span()),
                                   [&](std::size_t c, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& c_p) {
                                     const double kept = keep(c, p, v);

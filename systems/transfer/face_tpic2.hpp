@@ -9,8 +9,7 @@
 #include "components/staggered.hpp"
 #include "engine/input/input.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
-#include "systems/ranks/site_exchange.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -19,10 +18,8 @@ namespace minamo {
 template <int Dim>
 struct P2GFacesTpic2 {
   static constexpr std::string_view doc = "(E3) (E64) m_f and v_f^n, TPIC of second order";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> grad_v_p,
-                  Read<particle::VelocityCurvature<Dim>> h_p, Optional<Read<SiteExchange>> shared,
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Velocity<Dim>> v_p,
+                  Read<particle::VelocityGradient<Dim>> grad_v_p, Read<particle::VelocityCurvature<Dim>> h_p,
                   Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const;
 };
 
@@ -34,10 +31,9 @@ struct G2PFacesTpic2 {
 
   G2PFacesTpic2() = default;
   explicit G2PFacesTpic2(Input& in);
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<cell::BulkIndicator> b_c, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<face::NewVelocity<Dim>> v_f, Write<particle::Velocity<Dim>> v_p,
-                  Write<particle::VelocityGradient<Dim>> grad_v_p, Write<particle::VelocityCurvature<Dim>> h_p) const;
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<cell::BulkIndicator> b_c, Read<face::NewVelocity<Dim>> v_f,
+                  Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p,
+                  Write<particle::VelocityCurvature<Dim>> h_p) const;
 };
 
 }  // namespace minamo

@@ -6,7 +6,7 @@ namespace {
 
 /// S^+ S q: to the particles and back.
 template <int Dim>
-void there_and_back(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> q_i, std::span<Vec<Dim>> out) {
+void there_and_back(const NodeSource<Dim>& source, std::span<const Vec<Dim>> q_i, std::span<Vec<Dim>> out) {
   scatter_mean<Dim>(
       source, out, [&](std::size_t p, const Support<Dim>& support, const Weights<Dim>& weights, auto& sum) {
         Vec<Dim> mq = Vec<Dim>::Zero();
@@ -20,7 +20,7 @@ void there_and_back(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> 
 }  // namespace
 
 template <int Dim>
-void filter_series(const ScatterSource<Dim>& source, const Constraints<Dim>& constraints, int order,
+void filter_series(const NodeSource<Dim>& source, const Constraints<Dim>& constraints, int order,
                    std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
                    std::span<Vec<Dim>> filtered) {
   filter_series_by<Dim>(
@@ -28,9 +28,9 @@ void filter_series(const ScatterSource<Dim>& source, const Constraints<Dim>& con
       order, v, residue, smoothed, filtered);
 }
 
-template void filter_series<2>(const ScatterSource<2>&, const Constraints<2>&, int, std::span<const Vec<2>>,
+template void filter_series<2>(const NodeSource<2>&, const Constraints<2>&, int, std::span<const Vec<2>>,
                                std::span<Vec<2>>, std::span<Vec<2>>, std::span<Vec<2>>);
-template void filter_series<3>(const ScatterSource<3>&, const Constraints<3>&, int, std::span<const Vec<3>>,
+template void filter_series<3>(const NodeSource<3>&, const Constraints<3>&, int, std::span<const Vec<3>>,
                                std::span<Vec<3>>, std::span<Vec<3>>, std::span<Vec<3>>);
 
 }  // namespace minamo

@@ -35,7 +35,7 @@ void filter_series_by(const ThereAndBack& there_and_back, const Constraints<Dim>
 /// \param residue   work space: what the filter has not yet passed
 /// \param smoothed  work space: the residue after a trip to the particles and back
 template <int Dim>
-void filter_series(const ScatterSource<Dim>& source, const Constraints<Dim>& constraints, int order,
+void filter_series(const NodeSource<Dim>& source, const Constraints<Dim>& constraints, int order,
                    std::span<const Vec<Dim>> v, std::span<Vec<Dim>> residue, std::span<Vec<Dim>> smoothed,
                    std::span<Vec<Dim>> filtered);
 

@@ -6,24 +6,20 @@
 namespace minamo {
 
 template <int Dim>
-void FilterVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                         Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                                         Read<node::Mass> m_i, Read<node::Constraint> constraint,
+void FilterVelocityFmpm<Dim>::operator()(Uses<ParticlesToNodes<Dim>> source, Read<node::Constraint> constraint,
                                          Optional<Read<node::ConstraintFrame<Dim>>> frame,
                                          Read<node::NewVelocity<Dim>> v_i, Write<node::Residue<Dim>> residue,
                                          Write<node::Smoothed<Dim>> smoothed,
                                          Write<node::FilteredVelocity<Dim>> v_filtered) const {
-  filter_series<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, {constraint.span(), frame.span()}, order,
-                     v_i.span(), residue.span(), smoothed.span(), v_filtered.span());
+  filter_series<Dim>(source, {constraint.span(), frame.span()}, order, v_i.span(), residue.span(), smoothed.span(),
+                     v_filtered.span());
 }
 
 template <int Dim>
-void G2PVelocityFmpm<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                      Read<particle::QuadraturePosition<Dim>> y_p,
-                                      Read<node::FilteredVelocity<Dim>> v_filtered,
+void G2PVelocityFmpm<Dim>::operator()(Uses<NodesToParticles<Dim>> target, Read<node::FilteredVelocity<Dim>> v_filtered,
                                       Write<particle::Velocity<Dim>> v_p) const {
   const auto at_node = [&](std::size_t i) { return v_filtered[i]; };
-  gather<Dim>(*grid, *cells, y_p.span(), at_node, [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
+  gather<Dim>(target, at_node, [&](std::size_t p, const Vec<Dim>& v) { v_p[p] = v; });
 }
 
 template struct FilterVelocityFmpm<2>;

@@ -28,14 +28,13 @@ Mat<Dim> antisymmetric(const Mat<Dim>& of) {
 
 /// (E17), (E18), (E71)  use(cell, p, jet, C_p - gradient) for every particle.
 template <int Dim, class Use>
-void gather_with_affine(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-                        std::span<const Vec<Dim>> q_i, const Use& use) {
-  for_each_cell<Dim>(cells, [&](std::size_t c, const auto& cell) {
-    const CellPolynomial<Dim> q(Support<Dim>(grid, cell), of_nodes<Dim>(q_i));
+void gather_with_affine(const NodeTarget<Dim>& target, std::span<const Vec<Dim>> q_i, const Use& use) {
+  for_each_cell<Dim>(target.cells, [&](std::size_t c, const auto& cell) {
+    const CellPolynomial<Dim> q(Support<Dim>(target.grid, cell), of_nodes<Dim>(q_i));
     for (std::size_t p = cell.begin; p < cell.end; ++p) {
-      const Vec<Dim> xi = q.local(y_p[p]);
+      const Vec<Dim> xi = q.local(target.y_p[p]);
       const Jet<Dim> jet = q.at(xi);
-      use(c, p, jet, beyond_gradient<Dim>(jet.second, xi, grid.spacing));
+      use(c, p, jet, beyond_gradient<Dim>(jet.second, xi, target.grid.spacing));
     }
   });
 }

@@ -2,7 +2,7 @@
 /// \file
 /// The grid-to-particle kernels that transfer schemes are made of.
 
-#include "components/particle.hpp"
+#include "systems/transfer/bundles.hpp"
 #include "systems/transfer/node_polynomial.hpp"
 
 #include <span>
@@ -17,28 +17,25 @@ auto of_nodes(std::span<const Vec<Dim>> q_i) {
 
 /// (E17)  q_p = sum_I S_Ip q_I; use(p, q_p) for every particle. The nodal field is a function of the node's row.
 template <int Dim, class AtNode, class Use>
-void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-            const AtNode& at_node, const Use& use) {
-  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
-    const CellPolynomial<Dim> q(Support<Dim>(grid, cell), at_node);
-    for (std::size_t p = cell.begin; p < cell.end; ++p) use(p, q.at(q.local(y_p[p])).value);
+void gather(const NodeTarget<Dim>& target, const AtNode& at_node, const Use& use) {
+  for_each_cell<Dim>(target.cells, [&](std::size_t, const auto& cell) {
+    const CellPolynomial<Dim> q(Support<Dim>(target.grid, cell), at_node);
+    for (std::size_t p = cell.begin; p < cell.end; ++p) use(p, q.at(q.local(target.y_p[p])).value);
   });
 }
 
 /// The same of a nodal column.
 template <int Dim, class Use>
-void gather(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-            std::span<const Vec<Dim>> q_i, const Use& use) {
-  gather<Dim>(grid, cells, y_p, of_nodes<Dim>(q_i), use);
+void gather(const NodeTarget<Dim>& target, std::span<const Vec<Dim>> q_i, const Use& use) {
+  gather<Dim>(target, of_nodes<Dim>(q_i), use);
 }
 
 /// (E17), (E18)  use(p, jet of the nodal field) for every particle.
 template <int Dim, class Use>
-void gather_with_gradient(const Grid<Dim>& grid, const OccupiedCells<Dim>& cells, std::span<const Vec<Dim>> y_p,
-                          std::span<const Vec<Dim>> q_i, const Use& use) {
-  for_each_cell<Dim>(cells, [&](std::size_t, const auto& cell) {
-    const CellPolynomial<Dim> q(Support<Dim>(grid, cell), of_nodes<Dim>(q_i));
-    for (std::size_t p = cell.begin; p < cell.end; ++p) use(p, q.at(q.local(y_p[p])));
+void gather_with_gradient(const NodeTarget<Dim>& target, std::span<const Vec<Dim>> q_i, const Use& use) {
+  for_each_cell<Dim>(target.cells, [&](std::size_t, const auto& cell) {
+    const CellPolynomial<Dim> q(Support<Dim>(target.grid, cell), of_nodes<Dim>(q_i));
+    for (std::size_t p = cell.begin; p < cell.end; ++p) use(p, q.at(q.local(target.y_p[p])));
   });
 }
 

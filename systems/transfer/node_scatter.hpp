@@ -5,26 +5,17 @@
 
 #include "components/particle.hpp"
 #include "systems/grid/node_support.hpp"
+#include "systems/transfer/bundles.hpp"
 #include "systems/transfer/padded.hpp"
 
 #include <span>
 
 namespace minamo {
 
-/// What a scatter reads in addition to the quantity itself.
-template <int Dim>
-struct ScatterSource {
-  const Grid<Dim>& grid;            ///< Read<Grid>
-  const OccupiedCells<Dim>& cells;  ///< Read<OccupiedCells>
-  std::span<const Vec<Dim>> y_p;    ///< particle::QuadraturePosition [m]
-  std::span<const double> m_p;      ///< particle::Mass [kg]
-  std::span<const double> m_i;      ///< node::Mass [kg]
-};
-
 /// Calls add(p, support, weights, sum) for every particle, where `sum` holds 3^d nodal sums of its cell as PaddedVec,
 /// and divides the nodal sums by the nodal mass. Nodes without mass get zero.
 template <int Dim, class Add>
-void scatter_mean(const ScatterSource<Dim>& source, std::span<Vec<Dim>> out, const Add& add) {
+void scatter_mean(const NodeSource<Dim>& source, std::span<Vec<Dim>> out, const Add& add) {
   for_each_row(out.size(), [&](std::size_t i) { out[i].setZero(); });
   for_each_cell_coloured<Dim>(source.cells, [&](std::size_t, const auto& cell) {
     const Support<Dim> support(source.grid, cell);
@@ -42,7 +33,7 @@ void scatter_mean(const ScatterSource<Dim>& source, std::span<Vec<Dim>> out, con
 
 /// (E4)  q_I = sum_p S_Ip m_p q_p / m_I.
 template <int Dim>
-void scatter_constant(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> q_p, std::span<Vec<Dim>> q_i) {
+void scatter_constant(const NodeSource<Dim>& source, std::span<const Vec<Dim>> q_p, std::span<Vec<Dim>> q_i) {
   scatter_mean<Dim>(source, q_i, [&](std::size_t p, const Support<Dim>&, const Weights<Dim>& weights, auto& sum) {
     const PaddedVec<Dim> mq = padded<Dim>(source.m_p[p] * q_p[p]);
     for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) { sum[k] += weights(offset) * mq; });
@@ -51,7 +42,7 @@ void scatter_constant(const ScatterSource<Dim>& source, std::span<const Vec<Dim>
 
 /// (E5)  q_I = sum_p S_Ip m_p (q_p + grad q_p (x_I - y_p)) / m_I.
 template <int Dim>
-void scatter_taylor(const ScatterSource<Dim>& source, std::span<const Vec<Dim>> q_p, std::span<const Mat<Dim>> grad_q_p,
+void scatter_taylor(const NodeSource<Dim>& source, std::span<const Vec<Dim>> q_p, std::span<const Mat<Dim>> grad_q_p,
                     std::span<Vec<Dim>> q_i) {
   const double h = source.grid.spacing;
   scatter_mean<Dim>(

@@ -3,13 +3,12 @@
 /// PIC and FLIP: particles carry a velocity, taken as constant around them.
 /// Newmark's particle acceleration is transferred in the same way by both.
 
-#include "components/cells.hpp"
-#include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/input/input.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -23,8 +22,7 @@ inline double flip_blend(Input& input) {
 template <int Dim>
 struct P2GVelocityPic {
   static constexpr std::string_view doc = "(E4) v_I^n, PIC and FLIP";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i,
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                   Write<node::Velocity<Dim>> v_i) const;
 };
 
@@ -32,8 +30,7 @@ struct P2GVelocityPic {
 template <int Dim>
 struct P2GAccelerationPic {
   static constexpr std::string_view doc = "(E4) a_I^n, PIC and FLIP with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p, Read<node::Mass> m_i,
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Acceleration<Dim>> a_p,
                   Write<node::Acceleration<Dim>> a_i) const;
 };
 
@@ -41,8 +38,8 @@ struct P2GAccelerationPic {
 template <int Dim>
 struct G2PVelocityPic {
   static constexpr std::string_view doc = "(E17) v_p, PIC";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewVelocity<Dim>> v_i,
+                  Write<particle::Velocity<Dim>> v_p) const;
 };
 
 /// (E16)  v_p = alpha (v_p + sum_I S_Ip (v_I^{n+1} - v_I^n)) + (1 - alpha) sum_I S_Ip v_I^{n+1}.
@@ -54,17 +51,16 @@ struct G2PVelocityFlip {
   G2PVelocityFlip() = default;
   explicit G2PVelocityFlip(double blend_of_flip) : blend(blend_of_flip) {}
   explicit G2PVelocityFlip(Input& input);
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
-                  Update<particle::Velocity<Dim>> v_p) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::Velocity<Dim>> v_old,
+                  Read<node::NewVelocity<Dim>> v_new, Update<particle::Velocity<Dim>> v_p) const;
 };
 
 /// (E17) for the acceleration.
 template <int Dim>
 struct G2PAccelerationPic {
   static constexpr std::string_view doc = "(E17) a_p, PIC and FLIP with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewAcceleration<Dim>> a_i,
+                  Write<particle::Acceleration<Dim>> a_p) const;
 };
 
 }  // namespace minamo

@@ -3,12 +3,11 @@
 /// TPIC: particles carry a velocity and its gradient, the first two terms of a Taylor series around them.
 /// Nakamura, Matsumura, Mizutani, CMAME 403 (2023) 115720, doi:10.1016/j.cma.2022.115720.
 
-#include "components/cells.hpp"
-#include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "engine/input/input.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -25,20 +24,16 @@ inline bool is_spin_conserved(Input& in) {
 template <int Dim>
 struct P2GVelocityTpic {
   static constexpr std::string_view doc = "(E5) v_I^n, TPIC";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-                  Read<particle::VelocityGradient<Dim>> grad_v_p, Read<node::Mass> m_i,
-                  Write<node::Velocity<Dim>> v_i) const;
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Velocity<Dim>> v_p,
+                  Read<particle::VelocityGradient<Dim>> grad_v_p, Write<node::Velocity<Dim>> v_i) const;
 };
 
 /// (E5) for the acceleration.
 template <int Dim>
 struct P2GAccelerationTpic {
   static constexpr std::string_view doc = "(E5) a_I^n, TPIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::Acceleration<Dim>> a_p,
-                  Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<node::Mass> m_i,
-                  Write<node::Acceleration<Dim>> a_i) const;
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Acceleration<Dim>> a_p,
+                  Read<particle::AccelerationGradient<Dim>> grad_a_p, Write<node::Acceleration<Dim>> a_i) const;
 };
 
 /// (E17), (E18)  v_p = sum_I S_Ip v_I^{n+1}, grad v_p = sum_I v_I^{n+1} (x) grad S_Ip; (E71) its antisymmetric part
@@ -50,18 +45,16 @@ struct G2PVelocityTpic {
 
   G2PVelocityTpic() = default;
   explicit G2PVelocityTpic(Input& in);
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
-                  Write<particle::VelocityGradient<Dim>> grad_v_p) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewVelocity<Dim>> v_i,
+                  Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 
 /// (E17), (E18) for the acceleration.
 template <int Dim>
 struct G2PAccelerationTpic {
   static constexpr std::string_view doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::NewAcceleration<Dim>> a_i, Write<particle::Acceleration<Dim>> a_p,
-                  Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewAcceleration<Dim>> a_i,
+                  Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
 };
 
 }  // namespace minamo

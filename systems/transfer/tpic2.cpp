@@ -59,32 +59,30 @@ struct Series {
 }  // namespace
 
 template <int Dim>
-void P2GVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                       Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                                       Read<particle::Velocity<Dim>> v_p,
+void P2GVelocityTpic2<Dim>::operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                                        Read<particle::VelocityGradient<Dim>> grad_v_p,
-                                       Read<particle::VelocityCurvature<Dim>> h_p, Read<node::Mass> m_i,
+                                       Read<particle::VelocityCurvature<Dim>> h_p,
                                        Write<node::Velocity<Dim>> v_i) const {
   const auto add = [&](std::size_t p, const Support<Dim>& support, const Weights<Dim>& weights, auto& sum) {
-    const Series<Dim> series(m_p[p], v_p[p], grad_v_p[p], h_p[p], support.corner - y_p[p], weights, grid->spacing);
+    const Series<Dim> series(source.m_p[p], v_p[p], grad_v_p[p], h_p[p], support.corner - source.y_p[p], weights,
+                             source.grid->spacing);
     for_each_support<Dim>(
         [&](std::size_t k, const Index<Dim>& offset) { sum[k] += weights(offset) * series.at(offset); });
   };
-  scatter_mean<Dim>({*grid, *cells, y_p.span(), m_p.span(), m_i.span()}, v_i.span(), add);
+  scatter_mean<Dim>(source, v_i.span(), add);
 }
 
 template <int Dim>
 G2PVelocityTpic2<Dim>::G2PVelocityTpic2(Input& in) : share(curvature_share(in)) {}
 
 template <int Dim>
-void G2PVelocityTpic2<Dim>::operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
-                                       Read<cell::BulkIndicator> b_c, Read<particle::QuadraturePosition<Dim>> y_p,
+void G2PVelocityTpic2<Dim>::operator()(Uses<NodesToParticles<Dim>> target, Read<cell::BulkIndicator> b_c,
                                        Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
                                        Write<particle::VelocityGradient<Dim>> grad_v_p,
                                        Write<particle::VelocityCurvature<Dim>> h_p) const {
-  gather_with_affine<Dim>(*grid, *cells, y_p.span(), v_i.span(),
+  gather_with_affine<Dim>(target, v_i.span(),
                           [&](std::size_t c, std::size_t p, const Jet<Dim>& v, const Mat<Dim>& beyond) {
-                            const double resolved = resolved_curvature<Dim>(v.gradient, v.second, grid->spacing);
+                            const double resolved = resolved_curvature<Dim>(v.gradient, v.second, target.grid->spacing);
                             const double kept = share * b_c[c] * resolved;
                             v_p[p] = v.value;
                             grad_v_p[p] = v.gradient + (1 - kept) * antisymmetric<Dim>(beyond);

@@ -5,11 +5,11 @@
 /// the liquid is around: without that a dam break gains energy from noise that nothing damps.
 
 #include "components/cells.hpp"
-#include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "engine/input/input.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/transfer/bundles.hpp"
 
 namespace minamo {
 
@@ -25,10 +25,9 @@ inline double curvature_share(Input& in) {
 template <int Dim>
 struct P2GVelocityTpic2 {
   static constexpr std::string_view doc = "(E64) v_I^n, TPIC of second order";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                   Read<particle::VelocityGradient<Dim>> grad_v_p, Read<particle::VelocityCurvature<Dim>> h_p,
-                  Read<node::Mass> m_i, Write<node::Velocity<Dim>> v_i) const;
+                  Write<node::Velocity<Dim>> v_i) const;
 };
 
 /// (E17), (E65)  H_ab = k_p d_ab v, d_ab v = sum_I v_I^{n+1} d^2 S_Ip / dx_a dx_b, k_p = s b_c phi_p, b_c of (E61),
@@ -43,8 +42,7 @@ struct G2PVelocityTpic2 {
 
   G2PVelocityTpic2() = default;
   explicit G2PVelocityTpic2(Input& in);
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<cell::BulkIndicator> b_c,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<node::NewVelocity<Dim>> v_i,
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<cell::BulkIndicator> b_c, Read<node::NewVelocity<Dim>> v_i,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> grad_v_p,
                   Write<particle::VelocityCurvature<Dim>> h_p) const;
 };

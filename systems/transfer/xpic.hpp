@@ -5,12 +5,11 @@
 /// C. C. Hammerquist, J. A. Nairn, CMAME 318 (2017) 724, doi:10.1016/j.cma.2017.01.035. Their change of the position
 /// update is not taken over: here particles move with the displacement that was solved for.
 
-#include "components/cells.hpp"
-#include "components/grid.hpp"
 #include "components/node.hpp"
 #include "components/particle.hpp"
 #include "components/step.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/transfer/bundles.hpp"
 #include "systems/transfer/filter_series.hpp"
 
 namespace minamo {
@@ -24,8 +23,7 @@ struct FilterVelocityXpic {
   FilterVelocityXpic() = default;
   explicit FilterVelocityXpic(int order_of_filter) : order(order_of_filter) {}
   explicit FilterVelocityXpic(Input& input) : order(filter_order(input)) {}
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<node::Mass> m_i, Read<node::Constraint> constraint,
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<node::Constraint> constraint,
                   Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Velocity<Dim>> v_i,
                   Write<node::Residue<Dim>> residue, Write<node::Smoothed<Dim>> smoothed,
                   Write<node::FilteredVelocity<Dim>> v_filtered) const;
@@ -35,9 +33,9 @@ struct FilterVelocityXpic {
 template <int Dim>
 struct G2PVelocityXpic {
   static constexpr std::string_view doc = "(E47) v_p, XPIC";
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::FilteredVelocity<Dim>> v_filtered, Read<node::Velocity<Dim>> v_old,
-                  Read<node::NewVelocity<Dim>> v_new, Write<particle::Velocity<Dim>> v_p) const;
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::FilteredVelocity<Dim>> v_filtered,
+                  Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
+                  Write<particle::Velocity<Dim>> v_p) const;
 };
 
 }  // namespace minamo

@@ -38,26 +38,20 @@ void shear(const FaceTarget<Dim>& target, std::span<const Vec<Dim>> v_f, const F
 }  // namespace
 
 template <int Dim>
-void ShearParticles<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology,
-                                     Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                                     Read<particle::QuadraturePosition<Dim>> y_p,
+void ShearParticles<Dim>::operator()(Uses<FacesToParticles<Dim>> target, Read<Rheology> rheology,
                                      Optional<Read<particle::FluidIndex>> k_p,
                                      Optional<Read<particle::LastPressure>> p_p, Read<face::Velocity<Dim>> v_f,
                                      Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const {
-  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), {*rheology, k_p.span(), p_p.span()}, g_p.span(),
-             mu_p.span());
+  shear<Dim>(target, v_f.span(), {*rheology, k_p.span(), p_p.span()}, g_p.span(), mu_p.span());
 }
 
 template <int Dim>
-void ShearParticlesAgain<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology,
-                                          Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                                          Read<particle::QuadraturePosition<Dim>> y_p,
+void ShearParticlesAgain<Dim>::operator()(Uses<FacesToParticles<Dim>> target, Read<Rheology> rheology,
                                           Optional<Read<particle::FluidIndex>> k_p,
                                           Optional<Read<particle::LastPressure>> p_p,
                                           Read<face::BalanceVelocity<Dim>> v_f, Write<particle::ShearRate> g_p,
                                           Write<particle::Viscosity> mu_p) const {
-  shear<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, v_f.span(), {*rheology, k_p.span(), p_p.span()}, g_p.span(),
-             mu_p.span());
+  shear<Dim>(target, v_f.span(), {*rheology, k_p.span(), p_p.span()}, g_p.span(), mu_p.span());
 }
 
 template <int Dim>

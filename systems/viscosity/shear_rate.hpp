@@ -10,6 +10,7 @@
 #include "systems/grid/site_support.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/ranks/site_exchange.hpp"
+#include "systems/transfer/bundles.hpp"
 #include "systems/viscosity/cut_friction.hpp"
 
 namespace minamo {
@@ -19,21 +20,18 @@ namespace minamo {
 template <int Dim>
 struct ShearParticles {
   static constexpr std::string_view doc = "(E96) shear rate and viscosity at the start of the step";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology, Read<GridCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<particle::LastPressure>> p_p,
-                  Read<face::Velocity<Dim>> v_f, Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<Rheology> rheology, Optional<Read<particle::FluidIndex>> k_p,
+                  Optional<Read<particle::LastPressure>> p_p, Read<face::Velocity<Dim>> v_f,
+                  Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
 };
 
 /// (E96) of the velocity that the balances have given.
 template <int Dim>
 struct ShearParticlesAgain {
   static constexpr std::string_view doc = "(E96) shear rate and viscosity of the balances";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Rheology> rheology, Read<GridCells<Dim>> cells,
-                  Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Optional<Read<particle::FluidIndex>> k_p, Optional<Read<particle::LastPressure>> p_p,
-                  Read<face::BalanceVelocity<Dim>> v_f, Write<particle::ShearRate> g_p,
-                  Write<particle::Viscosity> mu_p) const;
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<Rheology> rheology, Optional<Read<particle::FluidIndex>> k_p,
+                  Optional<Read<particle::LastPressure>> p_p, Read<face::BalanceVelocity<Dim>> v_f,
+                  Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
 };
 
 /// (E96)  mu_c = sum_p V_p g_p^2 mu_p/sum_p V_p g_p^2, with which the cell dissipates what its particles do, times what

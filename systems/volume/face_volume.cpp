@@ -220,11 +220,9 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
 }
 
 template <int Dim>
-void GatherFaceShift<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                      Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
-                                      Read<face::Shift<Dim>> d_f, Write<particle::Shift<Dim>> d_p) const {
-  gather_faces<Dim>({*grid, *splines, *cells, *sites, y_p.span()}, of_faces<Dim>(d_f.span()),
-                    [&](std::size_t p, const Vec<Dim>& d) { d_p[p] = d; });
+void GatherFaceShift<Dim>::operator()(Uses<FacesToParticles<Dim>> target, Read<face::Shift<Dim>> d_f,
+                                      Write<particle::Shift<Dim>> d_p) const {
+  gather_faces<Dim>(target, of_faces<Dim>(d_f.span()), [&](std::size_t p, const Vec<Dim>& d) { d_p[p] = d; });
 }
 
 template <int Dim>

@@ -16,6 +16,7 @@
 #include "systems/grid/splines.hpp"
 #include "systems/openings/opening_set.hpp"
 #include "systems/ranks/site_exchange.hpp"
+#include "systems/transfer/bundles.hpp"
 #include "systems/volume/part_window.hpp"
 
 namespace minamo {
@@ -73,8 +74,7 @@ struct StirParticles {
 template <int Dim>
 struct GatherFaceShift {
   static constexpr std::string_view doc = "(E38) d_p";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::Shift<Dim>> d_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::Shift<Dim>> d_f,
                   Write<particle::Shift<Dim>> d_p) const;
 };
 

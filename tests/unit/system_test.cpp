@@ -25,6 +25,20 @@ struct SumUp {
   }
 };
 
+/// What two systems have together.
+struct HeightAndTotal {
+  Read<Height> h;
+  Optional<Read<Total>> T;
+  Write<Slope> s;
+};
+
+struct SlopeOfTotal {
+  void operator()(Uses<HeightAndTotal> of, Update<Depth> d) const {
+    for (std::size_t row = 0; row < of.h.size(); ++row) of.s[row] = of.h[row] + (of.T ? of.T->value : 100);
+    for (double& value : d) value = 1;
+  }
+};
+
 struct Grow {
   void operator()(Resize<Rows> rows, Update<Height> h) const {
     rows.resize(rows.rows() + 2);
@@ -52,6 +66,35 @@ TEST_CASE("the declaration of a system is its parameters in their order", "[unit
   CHECK(system.access[1].component == "row.slope");
   CHECK(system.access[2].mode == Mode::update);
   CHECK(system.access[2].component == "total");
+}
+
+TEST_CASE("a bundle declares all of its views, in its place among the parameters", "[unit]") {
+  const System system = make_system<SlopeOfTotal>("slope_of_total");
+  REQUIRE(system.access.size() == 4);
+  CHECK(system.access[0].component == "row.height");
+  CHECK(system.access[0].mode == Mode::read);
+  CHECK(system.access[1].component == "total");
+  CHECK(system.access[1].optional);
+  CHECK(system.access[2].component == "row.slope");
+  CHECK(system.access[2].mode == Mode::write);
+  CHECK(system.access[3].component == "other.depth");
+  CHECK(system.access[3].mode == Mode::update);
+}
+
+TEST_CASE("a bundle has the views, and optional ones only where they are there", "[unit]") {
+  World world;
+  const System system = make_system<SlopeOfTotal>("slope_of_total");
+  system.prepare(world);
+  world.resize<Rows>(2);
+  world.column<Height>()[1] = 3;
+  system.run(world);
+  CHECK(world.column<Slope>()[0] == 100);
+  CHECK(world.column<Slope>()[1] == 103);
+  world.resource<Total>().value = 5;
+  system.run(world);
+  CHECK(world.column<Slope>()[1] == 8);
+  system.without({"total"}).run(world);
+  CHECK(world.column<Slope>()[1] == 103);
 }
 
 TEST_CASE("a column's declaration names its table and its info", "[unit]") {

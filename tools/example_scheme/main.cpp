@@ -19,16 +19,13 @@ template <int Dim>
 struct ScatterVelocity {
   static constexpr const char* doc = "v_I, RPIC";
 
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-                  Read<particle::VelocityGradient<Dim>> G_p, Read<node::Mass> m_i,
-                  Write<node::Velocity<Dim>> v_i) const {
-    const ScatterSource<Dim> source{*grid, *cells, y_p.span(), m_p.span(), m_i.span()};
+  void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Velocity<Dim>> v_p,
+                  Read<particle::VelocityGradient<Dim>> G_p, Write<node::Velocity<Dim>> v_i) const {
     const auto add = [&](std::size_t p, const Support<Dim>& support, const Weights<Dim>& weights, auto& sum) {
       for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
-        Vec<Dim> away = support.corner - y_p[p];
-        for (int d = 0; d < Dim; ++d) away[d] += offset[static_cast<std::size_t>(d)] * grid->spacing;
-        const Vec<Dim> momentum = m_p[p] * (v_p[p] + G_p[p] * away);
+        Vec<Dim> away = support.corner - source.y_p[p];
+        for (int d = 0; d < Dim; ++d) away[d] += offset[static_cast<std::size_t>(d)] * source.grid->spacing;
+        const Vec<Dim> momentum = source.m_p[p] * (v_p[p] + G_p[p] * away);
         sum[k] += weights(offset) * padded<Dim>(momentum);
       });
     };
@@ -61,10 +58,9 @@ struct GatherVelocity {
   GatherVelocity() = default;
   explicit GatherVelocity(Input& in) : kept(in) {}
 
-  void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<node::NewVelocity<Dim>> v_i, Write<particle::Velocity<Dim>> v_p,
-                  Write<particle::VelocityGradient<Dim>> G_p) const {
-    gather_with_gradient<Dim>(*grid, *cells, y_p.span(), v_i.span(), [&](std::size_t p, const Jet<Dim>& v) {
+  void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewVelocity<Dim>> v_i,
+                  Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> G_p) const {
+    gather_with_gradient<Dim>(target, v_i.span(), [&](std::size_t p, const Jet<Dim>& v) {
       v_p[p] = v.value;
       G_p[p] = kept.of<Dim>(v.gradient);
     });
@@ -77,11 +73,9 @@ template <int Dim>
 struct ScatterToFaces {
   static constexpr const char* doc = "m_f and v_f, RPIC";
 
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
-                  Read<particle::Velocity<Dim>> v_p, Read<particle::VelocityGradient<Dim>> G_p,
-                  Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const {
-    const FaceSource<Dim> source{*grid, *splines, *cells, *sites, y_p.span(), m_p.span()};
+  void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Velocity<Dim>> v_p,
+                  Read<particle::VelocityGradient<Dim>> G_p, Write<face::Mass<Dim>> m_f,
+                  Write<face::Velocity<Dim>> v_f) const {
     const auto of_particle = [&](std::size_t p) { return series::Linear<Dim>{v_p[p], G_p[p]}; };
     scatter_mean<Dim>(source, m_f.span(), v_f.span(), of_particle);
   }
@@ -95,10 +89,8 @@ struct GatherFromFaces {
   GatherFromFaces() = default;
   explicit GatherFromFaces(Input& in) : kept(in) {}
 
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Read<face::NewVelocity<Dim>> v_f,
+  void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> G_p) const {
-    const FaceTarget<Dim> target{*grid, *splines, *cells, *sites, y_p.span()};
     gather_faces_with_gradient<Dim>(target, of_faces<Dim>(v_f.span()), [&](std::size_t p, const Jet<Dim>& v) {
       v_p[p] = v.value;
       G_p[p] = kept.of<Dim>(v.gradient);
