@@ -43,6 +43,17 @@ double speed_of_fastest(World& world) {
   return largest.value();
 }
 
+/// Largest speed of a particle between two times. [m/s]
+double speed_between(const Json& scene, double from, double until) {
+  SceneRun run(scene);
+  Largest largest;
+  while (run.world().resource<Clock>().time < until) {
+    run.step();
+    if (run.world().resource<Clock>().time > from) largest.add(speed_of_fastest<2>(run.world()));
+  }
+  return largest.value();
+}
+
 /// Largest speed in the last of eight seconds. [m/s]
 template <int Dim>
 double late_unrest(const Json& scene) {
@@ -85,13 +96,7 @@ TEST_CASE("water of 2 x 2 particles rests for long at an angle at which multipli
   Json scene = pool_at_angle<2>(up, {0.5, 0.5}, 40, 2);
   scene["fluid"]["viscosity"] = 1e-3;
   scene["time"] = Json::parse(R"({"end": 40, "step": 0.0084})");
-  SceneRun run(scene);
-  Largest fastest;
-  while (run.world().resource<Clock>().time < 40) {
-    run.step();
-    if (run.world().resource<Clock>().time > 0.5) fastest.add(speed_of_fastest<2>(run.world()));
-  }
-  CHECK(fastest.value() < 0.015);
+  CHECK(speed_between(scene, 0.5, 40) < 0.015);
 }
 
 TEST_CASE("water rests at any angle of gravity to the grid, in 3-D", "[verification]") {
@@ -151,13 +156,7 @@ TEST_CASE("the edge of a pool on a beach rests, wherever it is in the grid", "[v
   scene["particles"][0]["arrangement"] = "cut";
   scene["particles"][0]["shape"]["half_space"]["point"] = {0, pool.level};
   CAPTURE(pool.slope, pool.level);
-  SceneRun run(scene);
-  Largest largest;
-  while (run.world().resource<Clock>().time < pool.end) {
-    run.step();
-    if (run.world().resource<Clock>().time > 0.4) largest.add(speed_of_fastest<2>(run.world()));
-  }
-  CHECK(largest.value() < 0.02);
+  CHECK(speed_between(scene, 0.4, pool.end) < 0.02);
 }
 
 TEST_CASE("water rests near bodies, wherever they are in the grid", "[verification][long]") {
@@ -182,13 +181,7 @@ TEST_CASE("water rests near bodies, wherever they are in the grid", "[verificati
   scene["particles"][0]["shape"]["half_space"]["point"] = Json({0.0, 0.5});
   scene["bodies"][0]["shape"] = Json::parse(shape);
   CAPTURE(shape, right, up);
-  SceneRun run(scene);
-  Largest largest;
-  while (run.world().resource<Clock>().time < 8) {
-    run.step();
-    if (run.world().resource<Clock>().time > 4) largest.add(speed_of_fastest<2>(run.world()));
-  }
-  CHECK(largest.value() < 0.02);
+  CHECK(speed_between(scene, 4, 8) < 0.02);
 }
 
 TEST_CASE("an eddy in a corner of a tank does not grow, however short the steps are", "[verification]") {
