@@ -51,7 +51,8 @@ struct ReleaseFromBodies {
                   Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b, Write<body::Work> W_b) const;
 };
 
-/// (E109) Liquid moves with a separating body, (E94), only where it presses it. It goes on with other bodies beside.
+/// (E109) Liquid moves with a separating body, (E94), only where it presses it. It goes on with other bodies next to
+/// it.
 template <int Dim>
 struct DetachFromBodies {
   static constexpr std::string_view doc = "(E109) no attached mass where liquid leaves a body";

@@ -32,7 +32,7 @@ constexpr double steady = 2;
 /// those of the particles: in a flow that strains, exact integrals are no better, and let particles gain energy.
 constexpr double still_to = 0.05;
 constexpr double moving_from = 0.2;
-/// In the depth, beside a body, as many times these: the body alone cuts the liquid there, and its shape is known.
+/// In the depth next to a body, as many times these: the body alone cuts the liquid there, and its shape is known.
 constexpr double farther_in_depth = 2;
 /// Fill of a whole multiplier up to which the surface passes it, and from which on it does not.
 constexpr double surface_to = 0.7;

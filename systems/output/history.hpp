@@ -64,7 +64,7 @@ struct HistoryFile {
 /// With the row of the last step, whether or not it was its turn.
 const RunTotals& totals_of_all_rows(World& world);
 
-/// Beside history.csv, the units of its columns.
+/// A file next to history.csv with the units of its columns.
 inline constexpr const char* history_units_name = "history.units.json";
 
 /// The columns of history.csv and their units, in 2-D those per metre of depth.

@@ -58,7 +58,7 @@ double difference_around(std::span<const typename staggered::Neighbour<Dim>::val
 constexpr double own_fill_from = 0.4;
 constexpr double error_of_cut = 0.02;
 
-/// What a multiplier beside a body lacks less than this is no hole: particles along a wall tell no better.
+/// A multiplier next to a body that lacks less than this has no hole: particles along a wall tell no better.
 constexpr double least_hole = 0.02;
 
 /// What both tell that is more than noise.

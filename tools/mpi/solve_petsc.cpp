@@ -11,8 +11,8 @@ namespace minamo {
 namespace {
 
 constexpr PetscInt most_iterations = 500;
-/// Of the diagonal, for the multigrid's matrix in closed components: small beside all eigenvalues of S but those of
-/// the null vectors, large beside rounding.
+/// Of the diagonal, for the multigrid's matrix in closed components: small compared to all eigenvalues of S but those
+/// of the null vectors, large compared to rounding.
 constexpr double to_be_definite = 1e-8;
 
 void check(PetscErrorCode code) {
