@@ -5,13 +5,12 @@
 namespace minamo {
 
 template <int Dim>
-void FillContactSource<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                        Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                        Read<face::Predictor<Dim>> predictor, Optional<Read<face::Open<Dim>>> open,
+void FillContactSource<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<face::Predictor<Dim>> predictor,
+                                        Optional<Read<face::Open<Dim>>> open,
                                         Optional<Read<face::WallFlux<Dim>>> wall_flux,
                                         Read<unknown::Staggered> of_unknown, Write<unknown::Source> source) const {
   const Passage<Dim> passage{open.span(), wall_flux.span()};
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   set_balance_sources<Dim>(incidence, passage, of_unknown.span(), predictor.span(), source.span());
 }
 

@@ -4,11 +4,10 @@
 
 #include "components/body.hpp"
 #include "components/contact.hpp"
-#include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "engine/run/communicator.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 
 namespace minamo {
 
@@ -19,10 +18,9 @@ inline constexpr int most_contact_passes = 10;
 template <int Dim>
 struct FillContactSource {
   static constexpr std::string_view doc = "(E77) B v*, with what is in contact at rest";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Predictor<Dim>> predictor,
-                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::WallFlux<Dim>>> wall_flux,
-                  Read<unknown::Staggered> of_unknown, Write<unknown::Source> source) const;
+  void operator()(Uses<MacGrid<Dim>> mac, Read<face::Predictor<Dim>> predictor, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
+                  Write<unknown::Source> source) const;
 };
 
 /// It is enough when no contact has changed, or after most_contact_passes.

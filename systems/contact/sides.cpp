@@ -10,17 +10,15 @@
 namespace minamo {
 
 template <int Dim>
-void FindSeparatingFaces<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                          Read<SeparatingSides<Dim>> sides, Read<staggered::Site<Dim>> site,
-                                          Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-                                          Write<SeparatingFaces<Dim>> separating) const {
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+void FindSeparatingFaces<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<SeparatingSides<Dim>> sides,
+                                          Read<face::Held> held, Write<SeparatingFaces<Dim>> separating) const {
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   separating->faces.clear();
-  for (std::size_t i = 0; i < site.size(); ++i) {
+  for (std::size_t i = 0; i < mac.site.size(); ++i) {
     for (std::size_t d = 0; d < Dim; ++d) {
-      const int last = splines->axis[d].sites() - 1;
-      const bool is_low = sides->side[d][0] && site[i][d] == 0;
-      const bool is_high = sides->side[d][1] && site[i][d] == last;
+      const int last = mac.splines->axis[d].sites() - 1;
+      const bool is_low = sides->side[d][0] && mac.site[i][d] == 0;
+      const bool is_high = sides->side[d][1] && mac.site[i][d] == last;
       if ((!is_low && !is_high) || (held[i] & (1U << d)) != 0) continue;
       incidence.for_each_multiplier(i, d, [&](std::size_t l, double weight) {
         separating->faces.push_back({.row = static_cast<std::uint32_t>(i),

@@ -4,12 +4,11 @@
 /// balances where the side would have to pull, and zero where it pushes.
 
 #include "components/contact.hpp"
-#include "components/grid.hpp"
 #include "components/step.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/run/linear_solver.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/pressure/solve.hpp"
 
 namespace minamo {
@@ -18,8 +17,7 @@ namespace minamo {
 template <int Dim>
 struct FindSeparatingFaces {
   static constexpr std::string_view doc = "faces on the sides that the liquid may leave";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<SeparatingSides<Dim>> sides,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+  void operator()(Uses<MacGrid<Dim>> mac, Read<SeparatingSides<Dim>> sides, Read<face::Held> held,
                   Write<SeparatingFaces<Dim>> separating) const;
 };
 

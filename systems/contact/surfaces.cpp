@@ -128,20 +128,19 @@ void DetachFromBodies<Dim>::operator()(Read<BodySet<Dim>> set, Read<staggered::N
 }
 
 template <int Dim>
-void CompareContactOfBodies<Dim>::operator()(Read<SolverTolerance> tolerance, Read<Grid<Dim>> grid,
-                                             Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                                             Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open,
-                                             Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
-                                             Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
-                                             Read<body::MeanSpin<Dim>> omega_b, Read<face::BalanceVelocity<Dim>> v_f,
-                                             Read<multiplier::Row> row, Read<unknown::Solution> solution,
-                                             Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
-                                             Read<MultiplierSolver<Dim>> solver, Optional<Read<SiteExchange>> shared,
+void CompareContactOfBodies<Dim>::operator()(Read<SolverTolerance> tolerance, Uses<MacGrid<Dim>> mac,
+                                             Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed,
+                                             Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
+                                             Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
+                                             Read<face::BalanceVelocity<Dim>> v_f, Read<multiplier::Row> row,
+                                             Read<unknown::Solution> solution, Read<unknown::NullVector> null_vector,
+                                             Read<unknown::Source> source, Read<MultiplierSolver<Dim>> solver,
+                                             Optional<Read<SiteExchange>> shared,
                                              Update<SeparatingRows<Dim>> separating, Update<ContactLoop> loop) const {
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-  const SitePlaces<Dim> places(*grid, *splines);
-  const MovingWalls<Dim> walls{places,     site.span(), closed.span(), closer.span(),
-                               c_b.span(), V_b.span(),  omega_b.span()};
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
+  const MovingWalls<Dim> walls{places,     mac.site.span(), closed.span(), closer.span(),
+                               c_b.span(), V_b.span(),      omega_b.span()};
   const auto through = [&](std::size_t f, std::size_t d) {
     const auto axis = static_cast<Eigen::Index>(d);
     return open[f][axis] * v_f[f][axis] + walls.flux(f, d);
@@ -153,7 +152,7 @@ void CompareContactOfBodies<Dim>::operator()(Read<SolverTolerance> tolerance, Re
   const auto outflow = [&](std::size_t i) {
     Rate rate;
     for (std::size_t d = 0; d < Dim; ++d) {
-      if (neighbour[i][2 * d + 1] == staggered::none) return Rate{};
+      if (mac.neighbour[i][2 * d + 1] == staggered::none) return Rate{};
       const double above = through(incidence.above(i, d), d);
       const double below = through(i, d);
       rate.sum += incidence.per_width(i, d) * (above - below);

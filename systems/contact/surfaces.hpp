@@ -5,11 +5,10 @@
 
 #include "components/body.hpp"
 #include "components/contact.hpp"
-#include "components/grid.hpp"
 #include "components/step.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/pressure/solve.hpp"
 
 namespace minamo {
@@ -66,12 +65,11 @@ struct DetachFromBodies {
 template <int Dim>
 struct CompareContactOfBodies {
   static constexpr std::string_view doc = "(E108) contact with separating bodies after a solve";
-  void operator()(Read<SolverTolerance> tolerance, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Open<Dim>> open, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
-                  Read<body::MeanSpin<Dim>> omega_b, Read<face::BalanceVelocity<Dim>> v_f, Read<multiplier::Row> row,
-                  Read<unknown::Solution> solution, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
+  void operator()(Read<SolverTolerance> tolerance, Uses<MacGrid<Dim>> mac, Read<face::Open<Dim>> open,
+                  Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
+                  Read<face::BalanceVelocity<Dim>> v_f, Read<multiplier::Row> row, Read<unknown::Solution> solution,
+                  Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
                   Read<MultiplierSolver<Dim>> solver, Optional<Read<SiteExchange>> shared,
                   Update<SeparatingRows<Dim>> separating, Update<ContactLoop> loop) const;
 };

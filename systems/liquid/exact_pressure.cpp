@@ -107,14 +107,13 @@ void find_near_surface(const RowsOfSites<Dim>& of, std::span<const double> open,
 
 template <int Dim>
 void FindPressureAcceleration<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+    Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows, Read<face::Held> held,
     Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
     Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
     Optional<Read<face::UnseenForce<Dim>>> unseen, Optional<Read<face::Open<Dim>>> open,
     Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
     Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const {
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   // What particles have left still has rows on the high side of the liquid.
   const auto at_multiplier = [&](std::size_t l) { return v_l[l] > 0 ? lambda[l] : 0; };
@@ -131,7 +130,7 @@ void FindPressureAcceleration<Dim>::operator()(
         sums[i][Dim + d] = std::max(sums[i][Dim + d], steady * (1 / mobility[i][axis] - sums[i][Dim + d]));
     }
   });
-  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span(), hiding(dry)};
+  const RowsOfSites<Dim> of{*mac.splines, *rows, mac.site.span(), mac.neighbour.span(), hiding(dry)};
   // What goes over rows axis by axis would depend on the order of the axes where a site has none.
   const auto is_at_edge =
       near_any<Dim, 1>(of, [&](std::size_t i) { return of.lacks_one_beside(i) || of.is_near_thin_wall(i); });
@@ -141,8 +140,8 @@ void FindPressureAcceleration<Dim>::operator()(
   for (std::size_t e = 0; e < Dim; ++e) {
     const auto with_neighbours = [&](std::size_t i, std::size_t k) {
       double sum = sums[i][k];
-      const std::int32_t below = neighbour[i][2 * e];
-      const std::int32_t above = neighbour[i][2 * e + 1];
+      const std::int32_t below = mac.neighbour[i][2 * e];
+      const std::int32_t above = mac.neighbour[i][2 * e + 1];
       const double low = below == staggered::none ? 0 : sums[static_cast<std::size_t>(below)][k];
       const double high = above == staggered::none ? 0 : sums[static_cast<std::size_t>(above)][k];
       return sum + (low + high);
@@ -160,13 +159,13 @@ void FindPressureAcceleration<Dim>::operator()(
   for_each_row(sums.size(), [&](std::size_t i) {
     if (is_at_edge[i] == 0) return;
     sums[i].fill(0);
-    for_each_row_around<Dim, 1>(*splines, *rows, site[i], [&](std::uint32_t j, const auto&, const auto&) {
+    for_each_row_around<Dim, 1>(*mac.splines, *rows, mac.site[i], [&](std::uint32_t j, const auto&, const auto&) {
       for (std::size_t k = 0; k < 2 * Dim; ++k) {
         if (!of.parts_faces(i, k % Dim, j, k % Dim)) sums[i][k] += of_face[j][k];
       }
     });
   });
-  const double least = least_mass * fluid->density * std::pow(grid->spacing, Dim);
+  const double least = least_mass * fluid->density * std::pow(mac.grid->spacing, Dim);
   for_each_row(q_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d)
       q_f[i][static_cast<Eigen::Index>(d)] = sums[i][Dim + d] > least ? sums[i][d] / sums[i][Dim + d] : 0;
@@ -175,19 +174,20 @@ void FindPressureAcceleration<Dim>::operator()(
 }
 
 template <int Dim>
-void FindExactShare<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
-    Read<multiplier::Capacity> capacity, Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility,
-    Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Open<Dim>>> open_face,
-    Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
-    Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
-    Write<multiplier::NearSurface> surface, Write<multiplier::NearExact> buffer,
-    Write<face::ExactShare<Dim>> share) const {
+void FindExactShare<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+                                     Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                                     Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility,
+                                     Read<face::Velocity<Dim>> v_f, Read<face::PressureAcceleration<Dim>> q_f,
+                                     Optional<Read<face::Open<Dim>>> open_face,
+                                     Optional<Read<multiplier::OpenShare>> open,
+                                     Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry,
+                                     Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
+                                     Write<multiplier::NearSurface> surface, Write<multiplier::NearExact> buffer,
+                                     Write<face::ExactShare<Dim>> share) const {
   for_each_row(near.size(), [&](std::size_t i) {
     near[i] = capacity[i] == 0 || (open && open[i] < least_open_share) ? 0 : v_l[i] / capacity[i];
   });
-  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span(), hiding(dry)};
+  const RowsOfSites<Dim> of{*mac.splines, *rows, mac.site.span(), mac.neighbour.span(), hiding(dry)};
   spread_largest<Dim, liquid_reach>(of, near.span(), buffer.span(),
                                     [&](std::size_t i) { return v_l[i] > 0 && near[i] < near_to; });
   if (shared) shared->copy_from_owner(near.span());
@@ -202,16 +202,16 @@ void FindExactShare<Dim>::operator()(
     near[i] = t * t * (3 - 2 * t);
   });
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
-  const double cell_volume = std::pow(grid->spacing, Dim);
+  const double cell_volume = std::pow(mac.grid->spacing, Dim);
   for_each_row(share.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const std::int32_t below = neighbour[i][2 * d];
+      const std::int32_t below = mac.neighbour[i][2 * d];
       share[i][axis] = 0;
       if (mobility[i][axis] == 0 || m_f[i][axis] == 0 || (open_face && open_face[i][axis] == 0)) continue;
-      if (splines->ends_at(site[i], 2 * d) || !splines->has_multiplier(site[i])) continue;
+      if (mac.splines->ends_at(mac.site[i], 2 * d) || !mac.splines->has_multiplier(mac.site[i])) continue;
       const double of_full_grid =
-          rho.at(i, axis) * cell_volume * splines->face_integral(site[i], d) * mobility[i][axis];
+          rho.at(i, axis) * cell_volume * mac.splines->face_integral(mac.site[i], d) * mobility[i][axis];
       if (!open_face && std::abs(of_full_grid - 1) < as_full) continue;
       // On the high side of the liquid there are rows that no particle touches, on its low side none.
       double liquid = 1;
@@ -225,7 +225,7 @@ void FindExactShare<Dim>::operator()(
       }
       if (!any || liquid == 0) continue;
       const double farther = at_surface + farther_in_depth * (1 - at_surface);
-      const double fall = grid->spacing * size_at_face<Dim>(of, m_f.span(), q_f.span(), i, d);
+      const double fall = mac.grid->spacing * size_at_face<Dim>(of, m_f.span(), q_f.span(), i, d);
       const double froude = froude_number<Dim>(of, m_f.span(), v_f.span(), i, d, fall) / farther;
       share[i][axis] = liquid * std::clamp((moving_from - froude) / (moving_from - still_to), 0.0, 1.0);
     }

@@ -11,7 +11,7 @@
 #include "components/step.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/geometry/cut.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -20,8 +20,7 @@ namespace minamo {
 template <int Dim>
 struct FindPressureAcceleration {
   static constexpr std::string_view doc = "(E132) acceleration by which the pressure of the last step acted";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+  void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows, Read<face::Held> held,
                   Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
                   Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
                   Optional<Read<face::UnseenForce<Dim>>> unseen, Optional<Read<face::Open<Dim>>> open,
@@ -34,8 +33,7 @@ struct FindPressureAcceleration {
 template <int Dim>
 struct FindExactShare {
   static constexpr std::string_view doc = "(E133) where forces are those on exact integrals over the liquid";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+  void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Read<face::Mass<Dim>> m_f,
                   Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
                   Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Open<Dim>>> open_face,

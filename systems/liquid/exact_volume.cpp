@@ -313,19 +313,18 @@ bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d, const Inde
 
 template <int Dim>
 void FindExactVolume<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::ContinuedFill> phi,
+    Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows, Read<multiplier::ContinuedFill> phi,
     Read<multiplier::NearExact> near, Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,
     Read<face::ExactShare<Dim>> share, Optional<Read<UnseenLiquid<Dim>>> unseen,
     Optional<Read<ContinuedLiquid<Dim>>> continued, Optional<Read<multiplier::OpenShare>> open,
     Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
     Update<multiplier::SurfaceDistance> psi, Write<multiplier::Submerged<Dim>> submerged,
     Write<SurfaceCells<Dim>> cells, Update<face::Mobility<Dim>> mobility, Update<face::ExactVolume<Dim>> volume) const {
-  const Liquid<Dim> of{*grid,
-                       *splines,
+  const Liquid<Dim> of{*mac.grid,
+                       *mac.splines,
                        *rows,
-                       site.span(),
-                       neighbour.span(),
+                       mac.site.span(),
+                       mac.neighbour.span(),
                        phi.span(),
                        continued ? &*continued : nullptr,
                        unseen ? &*unseen : nullptr,
@@ -334,8 +333,8 @@ void FindExactVolume<Dim>::operator()(
                        psi.span(),
                        *cells};
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
-  const double cell_volume = std::pow(grid->spacing, Dim);
-  with_degree(splines->degree, [&](auto degree) {
+  const double cell_volume = std::pow(mac.grid->spacing, Dim);
+  with_degree(mac.splines->degree, [&](auto degree) {
     constexpr int K = degree();
     using Integrals = CellIntegrals<Dim, K>;
     find_surface_cells<Dim, K>(of);
@@ -353,14 +352,15 @@ void FindExactVolume<Dim>::operator()(
         volume[i][axis] = of_particles;
         if (w == 0) continue;
         const Index<Dim> from =
-            of.has_sides() ? side_of_face<Dim>(*splines, site.span(), neighbour.span(), open.span(), i, d) : site[i];
+            of.has_sides() ? side_of_face<Dim>(*mac.splines, mac.site.span(), mac.neighbour.span(), open.span(), i, d)
+                           : mac.site[i];
         if (w > at_rest_from && is_detached(of, i, d, from)) {
           volume[i][axis] = mobility[i][axis] = 0;
           continue;
         }
         const double below =
             submerged[i][Dim] != 0
-                ? splines->face_integral(site[i], d)
+                ? mac.splines->face_integral(mac.site[i], d)
                 : volume_at_surface<Dim, K>(of, i, d, d * Integrals::faces_of_direction, submerged.span(), from);
         volume[i][axis] += w * (cell_volume * below - of_particles);
         const double least = w * rho.at(i, axis) * volume[i][axis] / heaviest_ratio;

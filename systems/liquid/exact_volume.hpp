@@ -7,7 +7,7 @@
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -16,8 +16,7 @@ namespace minamo {
 template <int Dim>
 struct FindExactVolume {
   static constexpr std::string_view doc = "(E131) integrals of N_f over the liquid";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+  void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<multiplier::ContinuedFill> phi, Read<multiplier::NearExact> near,
                   Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,
                   Read<face::ExactShare<Dim>> share, Optional<Read<UnseenLiquid<Dim>>> unseen,

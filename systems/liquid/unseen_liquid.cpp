@@ -244,16 +244,15 @@ void FindUnseenLiquid<Dim>::operator()(Read<Splines<Dim>> splines, Read<Staggere
 }
 
 template <int Dim>
-void FindUnseenForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                                      Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                      Read<staggered::Neighbour<Dim>> neighbour, Read<UnseenLiquid<Dim>> unseen,
-                                      Read<face::Mass<Dim>> m_f, Read<face::ExactShare<Dim>> share,
-                                      Read<face::ExactVolume<Dim>> volume, Read<face::PressureAcceleration<Dim>> q_f,
+void FindUnseenForce<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
+                                      Read<UnseenLiquid<Dim>> unseen, Read<face::Mass<Dim>> m_f,
+                                      Read<face::ExactShare<Dim>> share, Read<face::ExactVolume<Dim>> volume,
+                                      Read<face::PressureAcceleration<Dim>> q_f,
                                       Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
                                       Write<face::UnseenForce<Dim>> force) const {
-  const RowsOfSites<Dim> of{*splines, *rows, site.span(), neighbour.span()};
+  const RowsOfSites<Dim> of{*mac.splines, *rows, mac.site.span(), mac.neighbour.span()};
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
-  const double cell_volume = std::pow(grid->spacing, Dim);
+  const double cell_volume = std::pow(mac.grid->spacing, Dim);
   for_each_row(force.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
@@ -262,10 +261,10 @@ void FindUnseenForce<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
       // lambda^_l/w_d over rho |q|
       const auto of_multiplier = [&](const Index<Dim>& at) {
         const auto u = unseen->rows.find(at);
-        return u ? unseen->depth[*u] * cell_volume * splines->widths(at) / splines->axis[d].width(at[d]) : 0.0;
+        return u ? unseen->depth[*u] * cell_volume * mac.splines->widths(at) / mac.splines->axis[d].width(at[d]) : 0.0;
       };
-      const auto below = site_beside(*splines, site[i], 2 * d);
-      const double difference = (below ? of_multiplier(*below) : 0.0) - of_multiplier(site[i]);
+      const auto below = site_beside(*mac.splines, mac.site[i], 2 * d);
+      const double difference = (below ? of_multiplier(*below) : 0.0) - of_multiplier(mac.site[i]);
       if (difference == 0) continue;
       const double most = largest_force * volume[i][axis];
       const double q = size_at_face<Dim>(of, m_f.span(), q_f.span(), i, d);

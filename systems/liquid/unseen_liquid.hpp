@@ -7,7 +7,7 @@
 #include "components/liquid.hpp"
 #include "components/staggered.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -28,8 +28,7 @@ struct FindUnseenLiquid {
 template <int Dim>
 struct FindUnseenForce {
   static constexpr std::string_view doc = "(E140) pressure of liquid that reaches multipliers without particles";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+  void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<UnseenLiquid<Dim>> unseen, Read<face::Mass<Dim>> m_f, Read<face::ExactShare<Dim>> share,
                   Read<face::ExactVolume<Dim>> volume, Read<face::PressureAcceleration<Dim>> q_f,
                   Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,

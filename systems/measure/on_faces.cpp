@@ -11,14 +11,12 @@
 namespace minamo {
 
 template <int Dim>
-void MeasureFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                            Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                            Optional<Read<face::Open<Dim>>> open,
+void MeasureFaceDivergence<Dim>::operator()(Uses<MacGrid<Dim>> mac, Optional<Read<face::Open<Dim>>> open,
                                             Optional<Read<face::WallFlux<Dim>>> wall_flux,
                                             Optional<Read<SiteExchange>> shared, Read<unknown::Staggered> of_unknown,
                                             Read<face::BalanceVelocity<Dim>> v_f,
                                             Write<measure::MaxDivergence> largest) const {
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   const Passage<Dim> passage{open.span(), wall_flux.span()};
   largest->value = reduce_rows(
       of_unknown.size(), 0.0,

@@ -7,7 +7,7 @@
 #include "components/particle.hpp"
 #include "components/staggered.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -17,8 +17,7 @@ namespace minamo {
 template <int Dim>
 struct MeasureFaceDivergence {
   static constexpr std::string_view doc = "(E31) largest divergence";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Optional<Read<face::Open<Dim>>> open,
+  void operator()(Uses<MacGrid<Dim>> mac, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<face::WallFlux<Dim>>> wall_flux, Optional<Read<SiteExchange>> shared,
                   Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f,
                   Write<measure::MaxDivergence> largest) const;

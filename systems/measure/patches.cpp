@@ -212,24 +212,23 @@ std::vector<typename Patches<Dim>::Piece> pieces_of(const Outline<Dim>& outline,
 
 template <int Dim>
 void MeasurePatches<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                                     Read<Patches<Dim>> patches, Read<BodySet<Dim>> set,
-                                     Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
-                                     Read<body::MiddleRotation<Dim>> R_b, Read<multiplier::OpenShare> share,
+                                     Read<Patches<Dim>> patches, Uses<BodyPlacement<Dim>> placement,
+                                     Optional<Read<DrySides<Dim>>> dry, Read<multiplier::OpenShare> share,
                                      Read<multiplier::Pressure> p_l, Optional<Read<SiteExchange>> shared,
                                      Update<measure::Columns> columns) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
-  const PlacedBodies<Dim> and_dry_sides(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
+  const PlacedBodies<Dim> bodies(placement);
+  const PlacedBodies<Dim> and_dry_sides(placement, dry ? &*dry : nullptr);
   KnownMultipliers<Dim> known(*rows, share.span(), p_l.span());
   const PressureBeside<Dim> pressure(*grid, *splines, known, bodies);
   if (shared) known.share(*splines, sites_of<Dim>(*patches, bodies, pressure), *shared);
   // Where it is looked whether a piece is covered, before the surface.
   const double before = 0.01 * grid->spacing;
   for (const auto& patch : patches->patches) {
-    const Placement<Dim>& placement = bodies.placement(patch.body);
+    const Placement<Dim>& of_body = bodies.placement(patch.body);
     const auto load_of = [&](std::size_t k) {
       const Piece<Dim>& piece = patch.pieces[k];
-      const Vec<Dim> x = placement.to_world(piece.middle);
-      const Vec<Dim> normal = placement.direction_to_world(piece.normal);
+      const Vec<Dim> x = of_body.to_world(piece.middle);
+      const Vec<Dim> normal = of_body.direction_to_world(piece.normal);
       const Vec<Dim> outside = x + before * normal;
       Load<Dim> load;
       const bool is_in_box =

@@ -7,6 +7,7 @@
 #include "components/measure.hpp"
 #include "components/staggered.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/ranks/site_exchange.hpp"
@@ -43,8 +44,7 @@ template <int Dim>
 struct MeasurePatches {
   static constexpr std::string_view doc = "(E139) pressure and its force on the patches";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                  Read<Patches<Dim>> patches, Read<BodySet<Dim>> set, Optional<Read<DrySides<Dim>>> dry,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                  Read<Patches<Dim>> patches, Uses<BodyPlacement<Dim>> placement, Optional<Read<DrySides<Dim>>> dry,
                   Read<multiplier::OpenShare> share, Read<multiplier::Pressure> p_l,
                   Optional<Read<SiteExchange>> shared, Update<measure::Columns> columns) const;
 };

@@ -106,10 +106,8 @@ void AddFaceInertia<Dim>::operator()(Uses<ParticlesToFaces<Dim>> source, Read<Cl
 }
 
 template <int Dim>
-void FillFaceSource<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                     Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
-                                     Optional<Read<face::Prescribed<Dim>>> prescribed,
+void FillFaceSource<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<face::Held> held,
+                                     Read<face::BodyForce<Dim>> b_f, Optional<Read<face::Prescribed<Dim>>> prescribed,
                                      Optional<Read<face::Open<Dim>>> open,
                                      Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
                                      Update<face::Predictor<Dim>> predictor, Write<unknown::Source> source) const {
@@ -120,19 +118,18 @@ void FillFaceSource<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Re
     hold<Dim>(walls, i, predictor[i]);
   });
   const Passage<Dim> passage{open.span(), wall_flux.span()};
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   set_balance_sources<Dim>(incidence, passage, of_unknown.span(), predictor.span(), source.span());
 }
 
 template <int Dim>
-void DampFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                         Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                         Read<face::Velocity<Dim>> v_f, Read<multiplier::Volume> v_l,
-                                         Read<multiplier::Curvature> curvature, Optional<Read<face::Open<Dim>>> open,
+void DampFaceDivergence<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<face::Velocity<Dim>> v_f,
+                                         Read<multiplier::Volume> v_l, Read<multiplier::Curvature> curvature,
+                                         Optional<Read<face::Open<Dim>>> open,
                                          Optional<Read<face::OldWallFlux<Dim>>> wall_flux,
                                          Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
   const Passage<Dim> passage{open.span(), wall_flux.span()};
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   for_each_row(source.size(), [&](std::size_t l) {
     const std::size_t i = of_unknown[l];
     const double excess = damped_share * (incidence.divergence(i, v_f.span(), passage) + curvature[i] / v_l[i]);
@@ -142,13 +139,12 @@ void DampFaceDivergence<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>
 }
 
 template <int Dim>
-void ProjectFaces<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                   Read<face::Mobility<Dim>> mobility, Read<face::Predictor<Dim>> predictor,
-                                   Read<multiplier::Row> row, Read<unknown::Solution> solution,
-                                   Write<face::BalanceVelocity<Dim>> v_f, Write<face::Damping<Dim>> damping,
-                                   Write<face::Shift<Dim>> shift, Write<multiplier::Force> lambda) const {
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+void ProjectFaces<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<face::Mobility<Dim>> mobility,
+                                   Read<face::Predictor<Dim>> predictor, Read<multiplier::Row> row,
+                                   Read<unknown::Solution> solution, Write<face::BalanceVelocity<Dim>> v_f,
+                                   Write<face::Damping<Dim>> damping, Write<face::Shift<Dim>> shift,
+                                   Write<multiplier::Force> lambda) const {
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   const double per_tau = rates->acceleration / rates->velocity;
   constexpr unknown::Sources nothing{};
   const auto of = [&](std::size_t i) -> const unknown::Sources& {

@@ -16,7 +16,7 @@
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/grid/incidence.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/momentum/face_extension.hpp"
 #include "systems/transfer/bundles.hpp"
 
@@ -101,8 +101,7 @@ void set_balance_sources(const Incidence<Dim>& incidence, const Passage<Dim>& pa
 template <int Dim>
 struct FillFaceSource {
   static constexpr std::string_view doc = "(E77) B v*, source of the balances";
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
+  void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<face::Held> held, Read<face::BodyForce<Dim>> b_f,
                   Optional<Read<face::Prescribed<Dim>>> prescribed, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
                   Update<face::Predictor<Dim>> predictor, Write<unknown::Source> source) const;
@@ -113,19 +112,17 @@ struct FillFaceSource {
 template <int Dim>
 struct DampFaceDivergence {
   static constexpr std::string_view doc = "(E63) takes a share of the divergence at the start of the step";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Velocity<Dim>> v_f,
-                  Read<multiplier::Volume> v_l, Read<multiplier::Curvature> curvature,
-                  Optional<Read<face::Open<Dim>>> open, Optional<Read<face::OldWallFlux<Dim>>> wall_flux,
-                  Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const;
+  void operator()(Uses<MacGrid<Dim>> mac, Read<face::Velocity<Dim>> v_f, Read<multiplier::Volume> v_l,
+                  Read<multiplier::Curvature> curvature, Optional<Read<face::Open<Dim>>> open,
+                  Optional<Read<face::OldWallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
+                  Update<unknown::Source> source) const;
 };
 
 /// Velocities and shift without divergence, or with the one that they are to have: q - m^-1 B^T x of the solutions x.
 template <int Dim>
 struct ProjectFaces {
   static constexpr std::string_view doc = "(E77) v_f, w_f, d_f and lambda_l from the solutions";
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
+  void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<face::Mobility<Dim>> mobility,
                   Read<face::Predictor<Dim>> predictor, Read<multiplier::Row> row, Read<unknown::Solution> solution,
                   Write<face::BalanceVelocity<Dim>> v_f, Write<face::Damping<Dim>> damping,
                   Write<face::Shift<Dim>> shift, Write<multiplier::Force> lambda) const;

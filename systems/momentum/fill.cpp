@@ -181,18 +181,17 @@ void FindMobility<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
 }
 
 template <int Dim>
-void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                                        Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                        Read<face::Held> held, Read<face::Mass<Dim>> m_f,
-                                        Read<multiplier::LeastFill> least, Optional<Read<face::UncutMass<Dim>>> uncut,
+void FindMobilityMixed<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<face::Held> held,
+                                        Read<face::Mass<Dim>> m_f, Read<multiplier::LeastFill> least,
+                                        Optional<Read<face::UncutMass<Dim>>> uncut,
                                         Optional<Read<face::Density<Dim>>> rho_f,
                                         Write<face::Mobility<Dim>> mobility) const {
   const auto of_particles = uncut ? uncut.span() : m_f.span();
-  invert_masses<Dim>(fluid->density * cell_volume<Dim>(*grid), *splines, site.span(), held.span(), mobility.span(),
-                     [&](std::size_t i, std::size_t d, double full) {
+  invert_masses<Dim>(fluid->density * cell_volume<Dim>(*mac.grid), *mac.splines, mac.site.span(), held.span(),
+                     mobility.span(), [&](std::size_t i, std::size_t d, double full) {
                        const auto axis = static_cast<Eigen::Index>(d);
                        const double theta = filled_indicator(
-                           least_fill_of_face<Dim>(*splines, site[i], neighbour[i], least.span(), i, d));
+                           least_fill_of_face<Dim>(*mac.splines, mac.site[i], mac.neighbour[i], least.span(), i, d));
                        const double whole = rho_f ? rho_f[i][axis] / fluid->density * full : full;
                        return (1 - theta) * of_particles[i][axis] + theta * whole;
                      });
@@ -200,15 +199,14 @@ void FindMobilityMixed<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
 
 template <int Dim>
 void AssembleMultipliers<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
+    Uses<MacGrid<Dim>> mac, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
     Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released,
     Optional<Read<SurfaceTension>> tension, Optional<Read<multiplier::ContinuedFill>> continued,
     Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<HiddenSites>> hidden, Resize<Unknowns> unknowns,
     Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
     Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
     Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const {
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   const Passage<Dim> passage{open.span()};
   const auto conducts = [&](std::size_t f, std::size_t d) {
     const auto axis = static_cast<Eigen::Index>(d);
@@ -237,10 +235,10 @@ void AssembleMultipliers<Dim>::operator()(
     if (row[i] == staggered::none) return;
     const auto l = static_cast<std::size_t>(row[i]);
     of_unknown[l] = static_cast<std::uint32_t>(i);
-    unknown_site[l] = site[i];
-    null_vector[l] = splines->widths(site[i]);
+    unknown_site[l] = mac.site[i];
+    null_vector[l] = mac.splines->widths(mac.site[i]);
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
-      const std::int32_t j = neighbour[i][side];
+      const std::int32_t j = mac.neighbour[i][side];
       unknown_neighbour[l][side] = j == staggered::none ? staggered::none : row[static_cast<std::size_t>(j)];
     }
     incidence.set_row(

@@ -12,7 +12,7 @@
 #include "components/surface_tension.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -72,8 +72,7 @@ struct FindMobility {
 template <int Dim>
 struct FindMobilityMixed {
   static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
+  void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
                   Read<multiplier::LeastFill> least, Optional<Read<face::UncutMass<Dim>>> uncut,
                   Optional<Read<face::Density<Dim>>> rho_f, Write<face::Mobility<Dim>> mobility) const;
 };
@@ -82,15 +81,14 @@ struct FindMobilityMixed {
 template <int Dim>
 struct AssembleMultipliers {
   static constexpr std::string_view doc = "(E77) (E78) active multipliers, S = B m^-1 B^T";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
-                  Read<multiplier::FillFraction> phi, Optional<Read<face::Open<Dim>>> open,
-                  Optional<Read<multiplier::Released>> released, Optional<Read<SurfaceTension>> tension,
-                  Optional<Read<multiplier::ContinuedFill>> continued, Optional<Read<multiplier::OpenShare>> open_share,
-                  Optional<Read<HiddenSites>> hidden, Resize<Unknowns> unknowns, Write<multiplier::Row> row,
-                  Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
-                  Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
-                  Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const;
+  void operator()(Uses<MacGrid<Dim>> mac, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
+                  Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released,
+                  Optional<Read<SurfaceTension>> tension, Optional<Read<multiplier::ContinuedFill>> continued,
+                  Optional<Read<multiplier::OpenShare>> open_share, Optional<Read<HiddenSites>> hidden,
+                  Resize<Unknowns> unknowns, Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown,
+                  Write<unknown::Site<Dim>> unknown_site, Write<unknown::Neighbour<Dim>> unknown_neighbour,
+                  Write<unknown::Conductance<Dim>> conductance, Write<unknown::Diagonal> diagonal,
+                  Write<unknown::NullVector> null_vector) const;
 };
 
 }  // namespace minamo

@@ -266,9 +266,8 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
 }
 
 template <int Dim>
-void PushAtOpenings<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                     Read<Fluid> fluid, Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site,
-                                     Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
+void PushAtOpenings<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<Fluid> fluid,
+                                     Read<OpeningSet<Dim>> set, Read<multiplier::FillFraction> phi,
                                      Read<face::Velocity<Dim>> v_f, Read<face::Mobility<Dim>> mobility,
                                      Write<face::OutsideForce<Dim>> F_f, Update<face::Predictor<Dim>> predictor) const {
   for_each_row(F_f.size(), [&](std::size_t i) { F_f[i].setZero(); });
@@ -276,17 +275,18 @@ void PushAtOpenings<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Re
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     const Opening<Dim>& opening = set->openings[o];
     if (!opening.has_pressure()) continue;
-    const Side<Dim> side(*grid, *splines, opening.side);
+    const Side<Dim> side(*mac.grid, *mac.splines, opening.side);
     const std::size_t d = side.axis();
     const auto axis = static_cast<Eigen::Index>(d);
-    const Outside outside = integrate_outside<Dim>(opening, *set, *grid, *splines, fluid->density, rates->time);
-    for_each_row(site.size(), [&](std::size_t i) {
-      if (mobility[i][axis] == 0 || !side.holds(site[i], d)) return;
-      const std::size_t k = side.index(site[i], d);
+    const Outside outside = integrate_outside<Dim>(opening, *set, *mac.grid, *mac.splines, fluid->density, rates->time);
+    for_each_row(mac.site.size(), [&](std::size_t i) {
+      if (mobility[i][axis] == 0 || !side.holds(mac.site[i], d)) return;
+      const std::size_t k = side.index(mac.site[i], d);
       if (set->of_face[opening.side][k] != static_cast<std::int16_t>(o) || outside.pressure[k] == 0) return;
-      const std::int32_t l = splines->has_multiplier(site[i]) ? static_cast<std::int32_t>(i) : neighbour[i][2 * d];
+      const std::int32_t l =
+          mac.splines->has_multiplier(mac.site[i]) ? static_cast<std::int32_t>(i) : mac.neighbour[i][2 * d];
       if (l == staggered::none) return;
-      const double filled = phi[static_cast<std::size_t>(l)] * side.area(site[i]);
+      const double filled = phi[static_cast<std::size_t>(l)] * side.area(mac.site[i]);
       const double share = std::min(1.0, filled / (full_from * outside.wet[k]));
       const double inwards = opening.is_static ? 0 : std::max(0.0, side.inward() * v_f[i][axis]);
       const double head = 0.5 * fluid->density * inwards * inwards * outside.wet[k];
@@ -297,32 +297,33 @@ void PushAtOpenings<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Re
 }
 
 template <int Dim>
-void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                            Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set, Read<BodyForce> b,
-                                            Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                            Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f,
-                                            Read<face::Velocity<Dim>> v_old, Read<face::BalanceVelocity<Dim>> v_f,
-                                            Read<face::NewVelocity<Dim>> v_new, Read<multiplier::Force> lambda,
-                                            Optional<Read<face::Open<Dim>>> open, Optional<Read<SiteExchange>> shared,
+void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<Walls<Dim>> walls,
+                                            Read<OpeningSet<Dim>> set, Read<BodyForce> b, Read<face::Mass<Dim>> m_f,
+                                            Read<face::OutsideForce<Dim>> F_f, Read<face::Velocity<Dim>> v_old,
+                                            Read<face::BalanceVelocity<Dim>> v_f, Read<face::NewVelocity<Dim>> v_new,
+                                            Read<multiplier::Force> lambda, Optional<Read<face::Open<Dim>>> open,
+                                            Optional<Read<SiteExchange>> shared,
                                             Update<opening::Velocities<Dim>> velocities,
                                             Update<opening::EnergyIn> energy, Write<opening::StepWork> work) const {
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   const Passage<Dim> passage{open.span()};
   const auto at = [&](std::size_t l) { return lambda[l]; };
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
     if (set->openings[o].is_prescribed()) continue;
-    const Side<Dim> side(*grid, *splines, set->openings[o].side);
-    velocities->in_balances[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_f.span(), of_ranks(shared));
-    velocities->at_end[o] = velocity_on<Dim>(side, *splines, passage, site.span(), v_new.span(), of_ranks(shared));
+    const Side<Dim> side(*mac.grid, *mac.splines, set->openings[o].side);
+    velocities->in_balances[o] =
+        velocity_on<Dim>(side, *mac.splines, passage, mac.site.span(), v_f.span(), of_ranks(shared));
+    velocities->at_end[o] =
+        velocity_on<Dim>(side, *mac.splines, passage, mac.site.span(), v_new.span(), of_ranks(shared));
   }
   std::vector<double> done(set->openings.size() + 1, 0);  // on liquid in every opening; the last one: all work
-  const Vec<Dim> force = force_with_potential<Dim>(*grid, *b).value_or(Vec<Dim>::Zero());
+  const Vec<Dim> force = force_with_potential<Dim>(*mac.grid, *b).value_or(Vec<Dim>::Zero());
   // One after the other: the same sums on any number of threads.
-  for (std::size_t i = 0; i < site.size(); ++i) {
+  for (std::size_t i = 0; i < mac.site.size(); ++i) {
     if (!owns(of_ranks(shared), i)) continue;
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const FaceCondition condition = condition_at<Dim>(*set, *grid, *splines, *walls, site[i], d);
+      const FaceCondition condition = condition_at<Dim>(*set, *mac.grid, *mac.splines, *walls, mac.site[i], d);
       if (condition.opening == no_opening) continue;
       const auto o = static_cast<std::size_t>(condition.opening);
       const double share = passage.share(i, axis);
@@ -342,15 +343,14 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> g
 }
 
 template <int Dim>
-void RequireOutlet<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                    Read<face::Prescribed<Dim>> w_f, Read<multiplier::Volume> v_l,
-                                    Read<multiplier::Capacity> capacity, Read<unknown::Staggered> of_unknown,
-                                    Read<unknown::NullVector> n_l, Read<MultiplierSolver<Dim>> solver) const {
+void RequireOutlet<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<face::Prescribed<Dim>> w_f,
+                                    Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                                    Read<unknown::Staggered> of_unknown, Read<unknown::NullVector> n_l,
+                                    Read<MultiplierSolver<Dim>> solver) const {
   constexpr double least_squeeze = 1e-9;
   const ClosedComponents& components = solver->closed();
   const std::vector<bool> is_full = full_components(components, of_unknown.span(), v_l.span(), capacity.span());
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   std::vector<std::array<double, 2>> sums(components.count(), {0, 0});
   for (std::size_t l = 0; l < of_unknown.size() && !sums.empty(); ++l) {
     if (!components.counts(l) || !is_full[components.number(l) - 1]) continue;
@@ -363,7 +363,7 @@ void RequireOutlet<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
     if (room == 0 || std::abs(squeeze) * clock->step <= least_squeeze * room) continue;
     throw StepRejected(
         fmt::format("openings: {:.3g} m^{}/s come in where walls enclose the liquid all around, without a way out",
-                    squeeze * std::pow(grid->spacing, Dim), Dim));
+                    squeeze * std::pow(mac.grid->spacing, Dim), Dim));
   }
 }
 

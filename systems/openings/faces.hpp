@@ -8,6 +8,7 @@
 #include "components/particle.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/openings/opening_set.hpp"
 #include "systems/pressure/solve.hpp"
 
@@ -68,8 +69,7 @@ struct FillAtOpenings {
 template <int Dim>
 struct PushAtOpenings {
   static constexpr std::string_view doc = "(E99) pressure outside openings";
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                  Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+  void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<OpeningSet<Dim>> set,
                   Read<multiplier::FillFraction> phi, Read<face::Velocity<Dim>> v_f, Read<face::Mobility<Dim>> mobility,
                   Write<face::OutsideForce<Dim>> F_f, Update<face::Predictor<Dim>> predictor) const;
 };
@@ -80,14 +80,13 @@ struct PushAtOpenings {
 template <int Dim>
 struct TakeOpeningVelocities {
   static constexpr std::string_view doc = "(E100) velocities in openings, and the work done there";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
-                  Read<OpeningSet<Dim>> set, Read<BodyForce> b, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
-                  Read<face::OutsideForce<Dim>> F_f, Read<face::Velocity<Dim>> v_old,
-                  Read<face::BalanceVelocity<Dim>> v_f, Read<face::NewVelocity<Dim>> v_new,
-                  Read<multiplier::Force> lambda, Optional<Read<face::Open<Dim>>> open,
-                  Optional<Read<SiteExchange>> shared, Update<opening::Velocities<Dim>> velocities,
-                  Update<opening::EnergyIn> energy, Write<opening::StepWork> work) const;
+  void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set,
+                  Read<BodyForce> b, Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f,
+                  Read<face::Velocity<Dim>> v_old, Read<face::BalanceVelocity<Dim>> v_f,
+                  Read<face::NewVelocity<Dim>> v_new, Read<multiplier::Force> lambda,
+                  Optional<Read<face::Open<Dim>>> open, Optional<Read<SiteExchange>> shared,
+                  Update<opening::Velocities<Dim>> velocities, Update<opening::EnergyIn> energy,
+                  Write<opening::StepWork> work) const;
 };
 
 /// Rejects the step if inflow presses liquid into a full enclosure without a way out: its balance of mass has no
@@ -96,8 +95,7 @@ struct TakeOpeningVelocities {
 template <int Dim>
 struct RequireOutlet {
   static constexpr std::string_view doc = "reject the step if what comes in has no way out";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Prescribed<Dim>> w_f,
+  void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<face::Prescribed<Dim>> w_f,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Read<unknown::Staggered> of_unknown, Read<unknown::NullVector> n_l,
                   Read<MultiplierSolver<Dim>> solver) const;

@@ -80,14 +80,13 @@ SolidAtRest solid_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const 
 template <int Dim>
 void ExtendSurfaceDistance<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                             Read<StaggeredIndex<Dim>> rows, Read<SolidAtRest> at_rest,
-                                            Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b,
-                                            Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
+                                            Uses<BodyPlacement<Dim>> placement, Read<staggered::Site<Dim>> site,
                                             Write<surface::SolidDistance> solid, Write<surface::OpenShare> open,
                                             Write<surface::OpenCentroid<Dim>> centroid,
                                             Write<surface::OpenDistance> open_psi,
                                             Update<surface::Distance> psi) const {
   const SurfaceLattice<Dim> lattice(*grid, *rows);
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const PlacedBodies<Dim> bodies(placement);
   const double h = grid->spacing;
   const auto nearest_to = [&](const Vec<Dim>& x, const Index<Dim>& at) {
     double distance = far_away * h;
@@ -99,7 +98,7 @@ void ExtendSurfaceDistance<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<D
     const auto resting = bodies.nearest(x, false);
     const auto moving = bodies.nearest(x, true);
     const auto b = static_cast<std::size_t>(moving.distance < resting.distance ? moving.body : resting.body);
-    return bodies.placement(b).gradient(*set->bodies[b].shape, x).stableNormalized();
+    return bodies.placement(b).gradient(*placement.set->bodies[b].shape, x).stableNormalized();
   };
   for_each_row(site.size(), [&](std::size_t i) {
     open[i] = lattice.has(site[i]) ? 1 : 0;

@@ -6,7 +6,7 @@
 #include "components/body.hpp"
 #include "components/surface_tension.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/bodies/body_set.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"
 
@@ -44,8 +44,7 @@ template <int Dim>
 struct ExtendSurfaceDistance {
   static constexpr std::string_view doc = "(E121) psi_i near bodies and in them";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                  Read<SolidAtRest> at_rest, Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
+                  Read<SolidAtRest> at_rest, Uses<BodyPlacement<Dim>> placement, Read<staggered::Site<Dim>> site,
                   Write<surface::SolidDistance> solid, Write<surface::OpenShare> open,
                   Write<surface::OpenCentroid<Dim>> centroid, Write<surface::OpenDistance> open_psi,
                   Update<surface::Distance> psi) const;

@@ -105,25 +105,23 @@ void set_energy(double joule, double unresolved, measure::Energy& energy, measur
 }  // namespace
 
 template <int Dim>
-void AddSurfaceTension<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                        Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                        Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
-                                        Read<multiplier::Row> row, Read<FreeSurface<Dim>> surface,
-                                        Read<surface::Traction<Dim>> t_i, Read<face::Mobility<Dim>> mobility,
-                                        Optional<Read<face::Open<Dim>>> open,
+void AddSurfaceTension<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<StaggeredIndex<Dim>> rows,
+                                        Read<face::Held> held, Read<multiplier::Row> row,
+                                        Read<FreeSurface<Dim>> surface, Read<surface::Traction<Dim>> t_i,
+                                        Read<face::Mobility<Dim>> mobility, Optional<Read<face::Open<Dim>>> open,
                                         Optional<Read<FaceExtension<Dim>>> extension, Update<PieceSums<Dim>> sums,
                                         Write<face::TakesSurfaceForce> takes, Write<face::SurfaceForce<Dim>> F_f,
                                         Update<face::Predictor<Dim>> predictor) const {
   for_each_row(F_f.size(), [&](std::size_t i) { F_f[i].setZero(); });
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
   for_each_row(takes.size(), [&](std::size_t i) { takes[i] = takers_of<Dim>(incidence, i, held[i], row.span()); });
   sums->forces.resize(surface->pieces.size());
-  with_degree(splines->degree, [&](auto degree) {
+  with_degree(mac.splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_row(
         surface->pieces.size(),
         [&](std::size_t piece) {
-          PointSites<Dim, K> sites(*grid, *splines, *rows);
+          PointSites<Dim, K> sites(*mac.grid, *mac.splines, *rows);
           SumsOfCells<Dim, K, Vec<Dim>> of_cells(sums->forces[piece]);
           for_each_point_of_piece<Dim>(surface->pieces[piece], [&](const Vec<Dim>& x, double area) {
             const auto weights = sites.weights_at(x);

@@ -10,7 +10,7 @@
 #include "components/step.hpp"
 #include "components/surface_tension.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/momentum/face_extension.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
@@ -46,8 +46,7 @@ struct FindSurfaceTraction {
 template <int Dim>
 struct AddSurfaceTension {
   static constexpr std::string_view doc = "(E113) F_f of surface tension";
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Held> held,
+  void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<StaggeredIndex<Dim>> rows, Read<face::Held> held,
                   Read<multiplier::Row> row, Read<FreeSurface<Dim>> surface, Read<surface::Traction<Dim>> t_i,
                   Read<face::Mobility<Dim>> mobility, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<FaceExtension<Dim>>> extension, Update<PieceSums<Dim>> sums,

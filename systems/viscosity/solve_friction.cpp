@@ -234,9 +234,8 @@ void resize(FrictionWork<Dim>& work, std::size_t faces, std::size_t unknowns, bo
 
 template <int Dim>
 void SolveFriction<Dim>::operator()(
-    Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-    Read<FrictionMatrices<Dim>> matrices, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
+    Read<SolverTolerance> tolerance, Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<FrictionMatrices<Dim>> matrices,
+    Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
     Optional<Read<face::Open<Dim>>> open, Optional<Read<FaceExtension<Dim>>> extension,
     Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest, Read<cell::Viscosity> mu_c,
     Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
@@ -247,8 +246,8 @@ void SolveFriction<Dim>::operator()(
   const double per_tau = rates->acceleration / rates->velocity;
   const bool walls_rub = static_cast<bool>(cut);
   resize(*work, Dim * v_f.size(), of_unknown.size(), walls_rub);
-  FrictionSystem<Dim> system{{*splines, *matrices, *cells, *sites, mu_c.span()},
-                             {*grid, *splines, site.span(), neighbour.span()},
+  FrictionSystem<Dim> system{{*mac.splines, *matrices, *cells, *sites, mu_c.span()},
+                             {*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span()},
                              of_unknown.span(),
                              row.span(),
                              {open.span(), {}},
@@ -273,7 +272,7 @@ void SolveFriction<Dim>::operator()(
   if (walls_rub) system.subtract_moving_walls();
   if (!work->multipliers) work->multipliers = new_multipliers<Dim>(system.friction.shared);
   work->multipliers->prepare(
-      *splines, system.incidence,
+      *mac.splines, system.incidence,
       {of_unknown.span(), unknown_site.span(), unknown_neighbour.span(), null_vector.span(), system.friction.shared},
       work->through);
   if (!shared && system.is_stiff()) {
@@ -282,9 +281,9 @@ void SolveFriction<Dim>::operator()(
       work->z[f] = system.passage.share(f / Dim, static_cast<Eigen::Index>(f % Dim)) < 1 ? 0 : work->mass[f];
     });
     if constexpr (Dim == 2) {
-      system.has_coarse = work->coarse.prepare(grid->spacing, system.friction, site.span(), work->z);
+      system.has_coarse = work->coarse.prepare(mac.grid->spacing, system.friction, mac.site.span(), work->z);
     } else {
-      work->coarse.prepare(grid->spacing, system.friction, site.span(), work->z, of_unknown.span());
+      work->coarse.prepare(mac.grid->spacing, system.friction, mac.site.span(), work->z, of_unknown.span());
       system.has_coarse = true;
     }
   }

@@ -11,10 +11,10 @@
 
 #include "components/body.hpp"
 #include "components/friction.hpp"
-#include "components/grid.hpp"
 #include "components/step.hpp"
 #include "engine/run/linear_solver.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/linear/gmres.hpp"
 #include "systems/momentum/face_extension.hpp"
 #include "systems/viscosity/coarse_streams.hpp"
@@ -49,9 +49,8 @@ struct FrictionWork {
 template <int Dim>
 struct SolveFriction {
   static constexpr std::string_view doc = "v_f and lambda_l with friction";
-  void operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+  void operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Uses<MacGrid<Dim>> mac,
                   Read<FrictionMatrices<Dim>> matrices, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<face::Mobility<Dim>> mobility, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<FaceExtension<Dim>>> extension, Optional<Read<CutFriction<Dim>>> cut,
                   Optional<Read<FrictionAtRest<Dim>>> at_rest, Read<cell::Viscosity> mu_c,

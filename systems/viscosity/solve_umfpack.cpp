@@ -50,10 +50,9 @@ void set_force(std::span<const double> of_unknown, std::span<const std::uint32_t
 }  // namespace
 
 template <int Dim>
-void SolveFacesUmfpack<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                        Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                        Read<face::Mobility<Dim>> mobility, Read<face::Predictor<Dim>> predictor,
-                                        Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
+void SolveFacesUmfpack<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<face::Mobility<Dim>> mobility,
+                                        Read<face::Predictor<Dim>> predictor, Read<unknown::Staggered> of_unknown,
+                                        Read<unknown::Site<Dim>> unknown_site,
                                         Read<unknown::Neighbour<Dim>> unknown_neighbour,
                                         Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
                                         Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
@@ -62,12 +61,12 @@ void SolveFacesUmfpack<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid,
                                         Write<multiplier::Force> lambda, Write<SolveReport> report) const {
   const double per_tau = rates->acceleration / rates->velocity;
   ClosedComponents closed;
-  closed.find(
-      laplacian_of<Dim>(*splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(), diagonal.span()),
-      null_vector.span());
+  closed.find(laplacian_of<Dim>(*mac.splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(),
+                                diagonal.span()),
+              null_vector.span());
   WholeMatrix<Dim>& matrix = matrices->frictionless;
-  matrix.start({*grid, *splines, site.span(), neighbour.span()}, mobility.span(), per_tau, of_unknown.span(),
-               grounded_rows(closed, 1 / per_tau, diagonal.span()));
+  matrix.start({*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span()}, mobility.span(), per_tau,
+               of_unknown.span(), grounded_rows(closed, 1 / per_tau, diagonal.span()));
   matrix.factorize();
 
   std::vector<unknown::Sources> sources(source.span().begin(), source.span().end());
@@ -87,9 +86,8 @@ void SolveFacesUmfpack<Dim>::operator()(Read<Rates> rates, Read<Grid<Dim>> grid,
 
 template <int Dim>
 void SolveFrictionUmfpack<Dim>::operator()(
-    Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> friction,
-    Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<staggered::Site<Dim>> site,
-    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c,
+    Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<FrictionMatrices<Dim>> friction, Read<GridCells<Dim>> cells,
+    Read<CellSites> sites, Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c,
     Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
     Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
     Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
@@ -97,13 +95,13 @@ void SolveFrictionUmfpack<Dim>::operator()(
     Update<multiplier::Force> lambda, Update<SolveReport> report) const {
   const double per_tau = rates->acceleration / rates->velocity;
   ClosedComponents closed;
-  closed.find(
-      laplacian_of<Dim>(*splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(), diagonal.span()),
-      null_vector.span());
+  closed.find(laplacian_of<Dim>(*mac.splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(),
+                                diagonal.span()),
+              null_vector.span());
   WholeMatrix<Dim>& matrix = matrices->with_friction;
-  matrix.start({*grid, *splines, site.span(), neighbour.span()}, mobility.span(), per_tau, of_unknown.span(),
-               grounded_rows(closed, 1 / per_tau, diagonal.span()));
-  matrix.add({*splines, *friction, *cells, *sites, mu_c.span()});
+  matrix.start({*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span()}, mobility.span(), per_tau,
+               of_unknown.span(), grounded_rows(closed, 1 / per_tau, diagonal.span()));
+  matrix.add({*mac.splines, *friction, *cells, *sites, mu_c.span()});
   matrix.factorize();
   const std::vector<Vec<Dim>> force = momentum<Dim>(per_tau, mobility.span(), predictor.span(), damping.span());
   std::vector<double> of_unknown_row(of_unknown.size());

@@ -9,10 +9,10 @@
 /// Unknowns are the faces that no wall holds, in the order of their rows and directions, then the active multipliers.
 
 #include "components/friction.hpp"
-#include "components/grid.hpp"
 #include "components/step.hpp"
 #include "engine/run/linear_solver.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/pressure/closed_components.hpp"
 #include "systems/viscosity/friction_matrices.hpp"
 #include "systems/viscosity/whole_matrix.hpp"
@@ -33,8 +33,7 @@ template <int Dim>
 struct SolveFacesUmfpack {
   static constexpr std::string_view doc = "(E84) v_f, damping and shift by sparse LU of all equations at once";
   /// \throws StepRejected if the matrix is singular or the solution not finite, with the size.
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mobility<Dim>> mobility,
+  void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<face::Mobility<Dim>> mobility,
                   Read<face::Predictor<Dim>> predictor, Read<unknown::Staggered> of_unknown,
                   Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
@@ -49,16 +48,14 @@ template <int Dim>
 struct SolveFrictionUmfpack {
   static constexpr std::string_view doc = "(E84) v_f and lambda_l with friction, by sparse LU of all equations at once";
   /// \throws StepRejected if the matrix is singular or the solution not finite, with the size.
-  void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<FrictionMatrices<Dim>> friction, Read<GridCells<Dim>> cells, Read<CellSites> sites,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Mobility<Dim>> mobility, Read<cell::Viscosity> mu_c, Read<face::Predictor<Dim>> predictor,
-                  Read<face::Damping<Dim>> damping, Read<unknown::Staggered> of_unknown,
-                  Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
-                  Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
-                  Read<unknown::NullVector> null_vector, Update<WholeMatrices<Dim>> matrices,
-                  Update<face::BalanceVelocity<Dim>> v_f, Update<multiplier::Force> lambda,
-                  Update<SolveReport> report) const;
+  void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<FrictionMatrices<Dim>> friction,
+                  Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
+                  Read<cell::Viscosity> mu_c, Read<face::Predictor<Dim>> predictor, Read<face::Damping<Dim>> damping,
+                  Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
+                  Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::Conductance<Dim>> conductance,
+                  Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector,
+                  Update<WholeMatrices<Dim>> matrices, Update<face::BalanceVelocity<Dim>> v_f,
+                  Update<multiplier::Force> lambda, Update<SolveReport> report) const;
 };
 
 }  // namespace minamo

@@ -226,10 +226,9 @@ void GatherFaceShift<Dim>::operator()(Uses<FacesToParticles<Dim>> target, Read<f
 }
 
 template <int Dim>
-void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<VolumeRate> rate,
-                                           Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
-                                           Read<staggered::Neighbour<Dim>> neighbour, Read<face::Velocity<Dim>> v_f,
-                                           Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
+void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<VolumeRate> rate,
+                                           Read<face::Velocity<Dim>> v_f, Read<face::Mass<Dim>> m_f,
+                                           Read<multiplier::FillFraction> phi,
                                            Optional<Read<multiplier::OpenShare>> open,
                                            Read<multiplier::LeastFill> least, Read<multiplier::Volume> v_l,
                                            Read<multiplier::Capacity> capacity,
@@ -242,27 +241,27 @@ void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> gr
     return v_l[i] / capacity[i];
   };
   const auto half_full = [&](std::size_t i) {
-    return (phi[i] > 0.5 && own_fill(i).value_or(1) > 0.5) || !splines->has_multiplier(site[i]);
+    return (phi[i] > 0.5 && own_fill(i).value_or(1) > 0.5) || !mac.splines->has_multiplier(mac.site[i]);
   };
   // With the neighbours of neighbours too, holes at the surface that the flow tears would not close.
   const auto is_deep = [&](std::size_t i) {
     if (!half_full(i)) return false;
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
-      if (splines->ends_at(site[i], side)) continue;
-      const std::int32_t j = neighbour[i][side];
+      if (mac.splines->ends_at(mac.site[i], side)) continue;
+      const std::int32_t j = mac.neighbour[i][side];
       if (j == staggered::none || !half_full(static_cast<std::size_t>(j))) return false;
     }
     return true;
   };
   const auto difference = [&](std::size_t i) {
-    return difference_around<Dim>(neighbour.span(), m_f.span(), v_f.span(), i);
+    return difference_around<Dim>(mac.neighbour.span(), m_f.span(), v_f.span(), i);
   };
   for_each_row(source.size(), [&](std::size_t l) {
     const std::size_t i = of_unknown[l];
     double excess = phi[i] - 1;
     if (continued && open && open[i] < 1) excess = beyond_noise(excess, own_fill(i).value_or(phi[i]) - 1);
     // Walls leave lattices that do not fill multipliers exactly, and water that all but rests would be moved for it.
-    if (continued) excess *= disorder(clock->step / grid->spacing * difference(i));
+    if (continued) excess *= disorder(clock->step / mac.grid->spacing * difference(i));
     // A body has no row behind its wall: what is open around tells whether the multiplier lies deep.
     if (excess < 0 && !is_deep(i)) excess = open && least[i] > 0.5 ? std::min(0.0, excess + least_hole) : 0;
     source[l][unknown::volume] = -rate->rate * excess;

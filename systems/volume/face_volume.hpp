@@ -13,7 +13,7 @@
 #include "components/step.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/openings/opening_set.hpp"
 #include "systems/ranks/site_exchange.hpp"
 #include "systems/transfer/bundles.hpp"
@@ -83,9 +83,8 @@ struct GatherFaceShift {
 template <int Dim>
 struct FillFaceVolumeSource {
   static constexpr std::string_view doc = "(E36) (E37) r E_l/V_l, source of the shift";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<VolumeRate> rate, Read<Splines<Dim>> splines,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<face::Velocity<Dim>> v_f, Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
+  void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<VolumeRate> rate, Read<face::Velocity<Dim>> v_f,
+                  Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
                   Optional<Read<multiplier::OpenShare>> open, Read<multiplier::LeastFill> least,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Optional<Read<ContinuedLiquid<Dim>>> continued, Read<unknown::Staggered> of_unknown,

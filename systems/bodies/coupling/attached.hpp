@@ -4,10 +4,10 @@
 
 #include "components/body.hpp"
 #include "components/fluids.hpp"
-#include "components/grid.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 
 namespace minamo {
 
@@ -15,9 +15,7 @@ namespace minamo {
 template <int Dim>
 struct FindAttachedMass {
   static constexpr std::string_view doc = "(E94) mass of the liquid that moves with a body";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<BodySet<Dim>> set,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+  void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Uses<BodyPlacement<Dim>> placement,
                   Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
                   Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
                   Optional<Read<face::Density<Dim>>> rho_f, Write<face::AttachedMass<Dim>> mass,

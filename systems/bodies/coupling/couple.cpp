@@ -251,11 +251,10 @@ void turn_inertia(const BodySet<3>& set, const FreeMotions<3>& motions, const Bo
 
 template <int Dim>
 void CoupleFreeBodies<Dim>::operator()(
-    Read<Clock> clock, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-    Read<SolverTolerance> tolerance, Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode, Read<BodySet<Dim>> set,
-    Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::StopImpulse<Dim>> J_b,
-    Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle, Read<staggered::Site<Dim>> site,
-    Read<staggered::Neighbour<Dim>> neighbour, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
+    Read<Clock> clock, Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<SolverTolerance> tolerance,
+    Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
+    Read<body::Rotation<Dim>> R_b, Read<body::StopImpulse<Dim>> J_b, Read<body::MiddlePosition<Dim>> c_middle,
+    Read<body::MiddleRotation<Dim>> R_middle, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
     Read<face::AttachedTo<Dim>> attached_to, Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
     Read<unknown::Staggered> of_unknown, Read<unknown::Site<Dim>> unknown_site,
     Read<unknown::Neighbour<Dim>> unknown_neighbour, Read<unknown::Conductance<Dim>> conductance,
@@ -271,12 +270,12 @@ void CoupleFreeBodies<Dim>::operator()(
   const BodyStates<Dim> at{c_b.span(), R_b.span(), V, omega};
 
   Fluxes fluxes{MotionColumns(motions.count(), solution.size()), {}, of_ranks(shared)};
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-  const SitePlaces<Dim> places(*grid, *splines);
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
   const auto add_flux = [&](std::size_t l, std::size_t f, std::size_t d, double per_width) {
     const std::int16_t b = closer[f][d][1];
     if (b < 0) return false;
-    const Vec<Dim> r = places.face(site[f], d) - c_middle[static_cast<std::size_t>(b)];
+    const Vec<Dim> r = places.face(mac.site[f], d) - c_middle[static_cast<std::size_t>(b)];
     bool is_free = false;
     motions.for_each_at(static_cast<std::size_t>(b), r, Vec<Dim>::Unit(static_cast<Eigen::Index>(d)),
                         [&](Eigen::Index k, double weight) {
@@ -301,8 +300,8 @@ void CoupleFreeBodies<Dim>::operator()(
   if (enclosures.any()) closed_parts.remove_null_part(null_vector.span(), solution.span());
 
   // S^-1 U.
-  const auto matrix =
-      laplacian_of<Dim>(*splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(), diagonal.span());
+  const auto matrix = laplacian_of<Dim>(*mac.splines, unknown_site.span(), unknown_neighbour.span(), conductance.span(),
+                                        diagonal.span());
   MotionColumns response(motions.count(), solution.size());
   for (std::size_t k = 0; k < response.blocks(); ++k) {
     const SolveReport done =
@@ -334,7 +333,7 @@ void CoupleFreeBodies<Dim>::operator()(
   Eigen::MatrixXd attached_mass = Eigen::MatrixXd::Zero(own.rows(), own.cols());
   Eigen::VectorXd attached_impulse = Eigen::VectorXd::Zero(own.rows());
   for_each_attached<Dim>(places, motions, c_middle.span(),
-                         {site.span(), attached.span(), attached_to.span(), of_ranks(shared)},
+                         {mac.site.span(), attached.span(), attached_to.span(), of_ranks(shared)},
                          [&](std::size_t i, Eigen::Index axis, const Eigen::VectorXd& along) {
                            attached_mass += attached[i][axis] * along * along.transpose();
                            attached_impulse += tau * attached[i][axis] * b_f[i][axis] * along;
@@ -375,7 +374,7 @@ void CoupleFreeBodies<Dim>::operator()(
   const Eigen::VectorXd change =
       inverse * (balances.impulse - transposed_times(unknown::balance) - stiffness * squeezed(unknown::balance));
   const std::vector<Contact> contacts =
-      find_contacts<Dim>(*grid, *set, motions, at, reach_of<Dim>(*set, at, clock->step, 0.1 * grid->spacing));
+      find_contacts<Dim>(*mac.grid, *set, motions, at, reach_of<Dim>(*set, at, clock->step, 0.1 * mac.grid->spacing));
   const auto least = least_in_balances(contacts, clock->step);
   const Eigen::VectorXd pushed = push_apart(contacts, inverse, start + change, least);
   correct(unknown::balance, change + pushed, pressures(change + pushed, squeezed(unknown::balance)));
@@ -393,7 +392,8 @@ void CoupleFreeBodies<Dim>::operator()(
   }
   Eigen::VectorXd end = start + 2 * change;
   if constexpr (Dim == 3) turn_inertia(*set, motions, at, R_middle.span(), omega_mean.span(), clock->step, end);
-  end += push_apart(contacts, inverse, end, least_at_end(contacts, middle, least, 1e-6 * grid->spacing / clock->step));
+  end +=
+      push_apart(contacts, inverse, end, least_at_end(contacts, middle, least, 1e-6 * mac.grid->spacing / clock->step));
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     V_end[b] = motions.velocity_in(end, b);
     omega_end[b] = motions.spin_in(end, b);

@@ -10,6 +10,7 @@
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/pressure/solve.hpp"
 #include "systems/ranks/site_exchange.hpp"
 #include "systems/viscosity/cut_friction.hpp"
@@ -23,14 +24,13 @@ template <int Dim>
 struct CoupleFreeBodies {
   static constexpr std::string_view doc =
       "(E92) (E93) velocities of free bodies, and what they change of the solutions";
-  void operator()(Read<Clock> clock, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<SolverTolerance> tolerance, Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode,
-                  Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b,
-                  Read<body::StopImpulse<Dim>> J_b, Read<body::MiddlePosition<Dim>> c_middle,
-                  Read<body::MiddleRotation<Dim>> R_middle, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::BodyForce<Dim>> b_f,
-                  Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
-                  Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<unknown::Staggered> of_unknown,
+  void operator()(Read<Clock> clock, Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<SolverTolerance> tolerance,
+                  Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode, Read<BodySet<Dim>> set,
+                  Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::StopImpulse<Dim>> J_b,
+                  Read<body::MiddlePosition<Dim>> c_middle, Read<body::MiddleRotation<Dim>> R_middle,
+                  Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
+                  Read<face::AttachedTo<Dim>> attached_to, Read<face::Closed<Dim>> closed,
+                  Read<face::Closer<Dim>> closer, Read<unknown::Staggered> of_unknown,
                   Read<unknown::Site<Dim>> unknown_site, Read<unknown::Neighbour<Dim>> unknown_neighbour,
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
                   Read<unknown::NullVector> null_vector, Read<unknown::Source> source, Read<multiplier::Volume> v_l,

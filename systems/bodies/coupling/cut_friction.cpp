@@ -269,13 +269,13 @@ FrictionAtRest<Dim> friction_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
 
 template <int Dim>
 void FindCutFriction<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
-                                      Read<BodySet<Dim>> set, Read<FrictionAtRest<Dim>> at_rest,
-                                      Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                                      Uses<BodyPlacement<Dim>> placement, Read<FrictionAtRest<Dim>> at_rest,
                                       Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
                                       Write<CutFriction<Dim>> cut) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const PlacedBodies<Dim> bodies(placement);
   cut->motion.clear();
-  for (std::size_t b = 0; b < set->bodies.size(); ++b) cut->motion.push_back(rigid_vector<Dim>(V_b[b], omega_b[b]));
+  for (std::size_t b = 0; b < placement.set->bodies.size(); ++b)
+    cut->motion.push_back(rigid_vector<Dim>(V_b[b], omega_b[b]));
   cut->place.assign(cells->cells.size(), CutFriction<Dim>::whole);
   cut->moving.clear(faces_of_cell<Dim>(splines->degree));
   std::vector<std::size_t> moving;
@@ -293,8 +293,8 @@ void FindCutFriction<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
   }
   cut->moving.add(moving.size());
   for_each_row(moving.size(), [&](std::size_t k) {
-    fill_cell_of_degree<Dim>({*set, bodies, true, grid->spacing}, *grid, *splines, cells->cells[moving[k]].node,
-                             cut->moving, k);
+    fill_cell_of_degree<Dim>({*placement.set, bodies, true, grid->spacing}, *grid, *splines,
+                             cells->cells[moving[k]].node, cut->moving, k);
   });
 }
 

@@ -5,7 +5,7 @@
 
 #include "components/body.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/bodies/body_set.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/viscosity/cut_friction.hpp"
 
@@ -22,10 +22,10 @@ double cut_friction_bytes(const BodySet<Dim>& set, const Grid<Dim>& grid, int de
 template <int Dim>
 struct FindCutFriction {
   static constexpr std::string_view doc = "(E110) friction matrices of cells that bodies cut";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<BodySet<Dim>> set,
-                  Read<FrictionAtRest<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b,
-                  Read<body::MeanSpin<Dim>> omega_b, Write<CutFriction<Dim>> cut) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
+                  Uses<BodyPlacement<Dim>> placement, Read<FrictionAtRest<Dim>> at_rest,
+                  Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
+                  Write<CutFriction<Dim>> cut) const;
 };
 
 }  // namespace minamo

@@ -75,33 +75,32 @@ CutMultipliers find_cut(const Incidence<Dim>& incidence, const Splines<Dim>& spl
 
 template <int Dim>
 void FindDivergenceAhead<Dim>::operator()(
-    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
+    Read<Clock> clock, Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement, Read<body::Velocity<Dim>> V_b,
     Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells, Read<CellSites> sites,
     Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
-    Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Read<staggered::Site<Dim>> site,
-    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f, Read<face::Open<Dim>> open,
+    Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Read<face::Mass<Dim>> m_f, Read<face::Open<Dim>> open,
     Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi, Read<multiplier::Volume> v_l,
     Optional<Read<SiteExchange>> shared, Update<multiplier::Curvature> curvature) const {
   const auto gradient = grad_v_p.span();
   if (!grad_v_p) return;
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
-  const WallMotion<Dim> walls{bodies, set->any_moves(), 3 * grid->spacing, c_b.span(), V_b.span(), omega_b.span()};
+  const PlacedBodies<Dim> bodies(placement);
+  const WallMotion<Dim> walls{
+      bodies, placement.set->any_moves(), 3 * mac.grid->spacing, placement.c_b.span(), V_b.span(), omega_b.span()};
   const double half_step = 0.5 * clock->step;
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
 
   const CutMultipliers cut =
-      find_cut<Dim>(incidence, *splines, site.span(), m_f.span(), open.span(), share.span(), v_l.span());
+      find_cut<Dim>(incidence, *mac.splines, mac.site.span(), m_f.span(), open.span(), share.span(), v_l.span());
 
-  std::vector<Vec<Dim>> turn(site.size(), Vec<Dim>::Zero());
-  with_degree(splines->degree, [&](auto degree) {
+  std::vector<Vec<Dim>> turn(mac.site.size(), Vec<Dim>::Zero());
+  with_degree(mac.splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       const std::uint32_t* rows = sites->of(c);
       bool is_near = false;
       for_each_site<Dim, K>([&](std::size_t k, const Index<Dim>&) { is_near = is_near || cut.has_face[rows[k]] != 0; });
       if (!is_near) return;
-      const CellFrame<Dim> frame(*grid, *splines, cell.node);
+      const CellFrame<Dim> frame(*mac.grid, *mac.splines, cell.node);
       for (std::size_t p = cell.begin; p < cell.end; ++p) {
         const SplineWeights<Dim, K> weights(frame, frame.local(y_p[p]));
         const auto wall = walls.at(y_p[p]);
@@ -124,7 +123,7 @@ void FindDivergenceAhead<Dim>::operator()(
   divide_by_mass<Dim>(m_f.span(), turn);
 
   const Passage<Dim> passage{open.span(), {}};
-  for_each_row(site.size(), [&](std::size_t i) {
+  for_each_row(mac.site.size(), [&](std::size_t i) {
     if (cut.is_cut[i] == 0) return;
     curvature[i] = v_l[i] * liquid_indicator(phi[i]) * incidence.divergence(i, turn, passage);
   });

@@ -13,8 +13,8 @@
 #include "components/staggered.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/bodies/body_set.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/bodies/body_placement.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -24,14 +24,12 @@ namespace minamo {
 template <int Dim>
 struct FindDivergenceAhead {
   static constexpr std::string_view doc = "(E120) divergence of the middle near bodies";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+  void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement,
                   Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
-                  Read<face::Open<Dim>> open, Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
-                  Read<multiplier::Volume> v_l, Optional<Read<SiteExchange>> shared,
+                  Read<face::Mass<Dim>> m_f, Read<face::Open<Dim>> open, Read<multiplier::OpenShare> share,
+                  Read<multiplier::FillFraction> phi, Read<multiplier::Volume> v_l, Optional<Read<SiteExchange>> shared,
                   Update<multiplier::Curvature> curvature) const;
 };
 

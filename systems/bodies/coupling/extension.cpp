@@ -243,20 +243,22 @@ class FacesOnSide {
 }  // namespace
 
 template <int Dim>
-void FindFaceExtension<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<BodySet<Dim>> set,
-    Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
-    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells,
-    Read<CellSites> cell_sites, Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
-    Optional<Read<SurfaceTension>> tension, Optional<Read<SiteExchange>> shared, Read<staggered::Site<Dim>> site,
-    Read<face::Held> held, Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
-    Read<multiplier::OpenShare> share, Write<FaceExtension<Dim>> extension) const {
+void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                        Read<StaggeredIndex<Dim>> rows, Uses<BodyPlacement<Dim>> placement,
+                                        Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                                        Optional<Read<HiddenSites>> hidden, Read<GridCells<Dim>> cells,
+                                        Read<CellSites> cell_sites, Read<particle::Volume> V_p,
+                                        Read<particle::QuadraturePosition<Dim>> y_p,
+                                        Optional<Read<SurfaceTension>> tension, Optional<Read<SiteExchange>> shared,
+                                        Read<staggered::Site<Dim>> site, Read<face::Held> held,
+                                        Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
+                                        Read<multiplier::OpenShare> share, Write<FaceExtension<Dim>> extension) const {
   constexpr std::size_t most = power(rows_across, Dim);
   const SitePlaces<Dim> places(*grid, *splines);
-  const WallsAround<Dim> walls{*set, {*set, c_b.span(), R_b.span()}};
-  const bool any_sticks = set->any_sticks();
-  const bool any_moves = set->any_moves();
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
+  const WallsAround<Dim> walls{*placement.set, PlacedBodies<Dim>(placement)};
+  const bool any_sticks = placement.set->any_sticks();
+  const bool any_moves = placement.set->any_moves();
+  const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   std::optional<FacesOnSide<Dim>> on_side;
   if (dry && dry->hides_any()) on_side.emplace(*splines, *rows, *dry, *hidden);
@@ -323,7 +325,7 @@ void FindFaceExtension<Dim>::operator()(
       around.filled[around.count] = filled[row][target.direction];
       around.offset[around.count++] = offset;
     });
-    if (set->parts_liquid && !is_of_one_side && lies_between<Dim>(around))
+    if (placement.set->parts_liquid && !is_of_one_side && lies_between<Dim>(around))
       keep_nearer_side<Dim>(around, {open_sites, own, direction}, steps_to);
     const auto weight = std::span(extension->weight).subspan(target.begin, most);
     std::copy_n(around.row.begin(), around.count,
@@ -333,7 +335,7 @@ void FindFaceExtension<Dim>::operator()(
     target.sticks = walls.sticks(wall);
     if (target.sticks) {
       const auto b = static_cast<std::size_t>(wall);
-      const Vec<Dim> y = nearest_of_surface<Dim>(*set->bodies[b].shape, walls.bodies.placement(b), x);
+      const Vec<Dim> y = nearest_of_surface<Dim>(*placement.set->bodies[b].shape, walls.bodies.placement(b), x);
       fit_beside_wall<Dim>(around, (y - x) / grid->spacing, weight);
     } else if (around.count > 0) {
       fit<Dim>(around, weight);
@@ -343,7 +345,7 @@ void FindFaceExtension<Dim>::operator()(
     if (wall < 0) return;
     // Of the velocity less that of the body: w(x) + sum e_k (v_k - w(x_k)).
     target.wall = wall;
-    const Vec<Dim> r = x - c_b[static_cast<std::size_t>(wall)];
+    const Vec<Dim> r = x - placement.c_b[static_cast<std::size_t>(wall)];
     target.lever = rigid_lever<Dim>(r, target.direction);
     for (std::size_t k = 0; k < around.count; ++k)
       target.lever -= weight[k] * rigid_lever<Dim>(r + grid->spacing * around.offset[k], target.direction);

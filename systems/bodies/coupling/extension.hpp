@@ -18,7 +18,7 @@
 #include "components/surface_tension.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/bodies/body_set.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/momentum/face_extension.hpp"
@@ -34,9 +34,8 @@ template <int Dim>
 struct FindFaceExtension {
   static constexpr std::string_view doc = "(E87) what velocities of closed faces are made of";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
-                  Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
-                  Optional<Read<HiddenSites>> hidden, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Read<GridCells<Dim>> cells, Read<CellSites> cell_sites,
+                  Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                  Optional<Read<HiddenSites>> hidden, Read<GridCells<Dim>> cells, Read<CellSites> cell_sites,
                   Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p,
                   Optional<Read<SurfaceTension>> tension, Optional<Read<SiteExchange>> shared,
                   Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Open<Dim>> open,

@@ -52,18 +52,19 @@ void set_columns(measure::Columns& columns, const std::string& name, const BodyR
 }  // namespace
 
 template <int Dim>
-void PushBodies<Dim>::operator()(
-    Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-    Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Force> lambda,
-    Read<Rates> rates, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
-    Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
-    Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
-    Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
-    Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
-    Optional<Read<surface::ForceOnBodies<Dim>>> lines, Optional<Read<SiteExchange>> shared, Write<body::Force<Dim>> F_b,
-    Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const {
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-  const SitePlaces<Dim> places(*grid, *splines);
+void PushBodies<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<BodySet<Dim>> set,
+                                 Read<multiplier::Force> lambda, Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
+                                 Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
+                                 Read<multiplier::Row> row, Read<unknown::Solution> solution,
+                                 Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
+                                 Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old,
+                                 Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
+                                 Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
+                                 Optional<Read<surface::ForceOnBodies<Dim>>> lines, Optional<Read<SiteExchange>> shared,
+                                 Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
+                                 Update<body::Work> W_b) const {
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     F_b[b].setZero();
     T_b[b].setZero();
@@ -81,13 +82,13 @@ void PushBodies<Dim>::operator()(
   };
   std::vector<RigidVector<Dim>> impulse(set->bodies.size(), RigidVector<Dim>::Zero());
   // One after the other: the same sums on any number of threads.
-  for (std::size_t i = 0; i < site.size(); ++i) {
+  for (std::size_t i = 0; i < mac.site.size(); ++i) {
     if (!owns(of_ranks(shared), i)) continue;
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       if (attached_to[i][d] >= 0) {
         const auto b = static_cast<std::size_t>(attached_to[i][d]);
-        const Vec<Dim> r = places.face(site[i], d) - c_b[b];
+        const Vec<Dim> r = places.face(mac.site[i], d) - c_b[b];
         const Vec<Dim> change = rigid_velocity(V_b[b], omega_b[b], r) - rigid_velocity(V_old[b], omega_old[b], r);
         push(b, r, attached[i][axis] * (b_f[i][axis] - per_tau * change[axis]) * Vec<Dim>::Unit(axis));
       }
@@ -95,7 +96,7 @@ void PushBodies<Dim>::operator()(
       const double drop = incidence.gradient(i, d, at);
       const double damped = incidence.gradient(i, d, damping);
       if (drop == 0 && damped == 0) continue;
-      const Vec<Dim> x = places.face(site[i], d);
+      const Vec<Dim> x = places.face(mac.site[i], d);
       for (const std::size_t moving : {0, 1}) {
         if (closer[i][d][moving] < 0) continue;
         const auto b = static_cast<std::size_t>(closer[i][d][moving]);

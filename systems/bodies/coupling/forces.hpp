@@ -3,14 +3,13 @@
 /// (E90) What the liquid does to bodies.
 
 #include "components/body.hpp"
-#include "components/grid.hpp"
 #include "components/measure.hpp"
 #include "components/step.hpp"
 #include "components/surface_tension.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
 #include "systems/bodies/body_set.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 #include "systems/viscosity/cut_friction.hpp"
 
@@ -22,16 +21,14 @@ namespace minamo {
 template <int Dim>
 struct PushBodies {
   static constexpr std::string_view doc = "(E90) force, torque and work of the pressure on bodies";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                  Read<multiplier::Force> lambda, Read<Rates> rates, Read<face::BodyForce<Dim>> b_f,
-                  Read<face::AttachedMass<Dim>> attached, Read<face::AttachedTo<Dim>> attached_to,
-                  Read<multiplier::Row> row, Read<unknown::Solution> solution, Read<face::Closed<Dim>> closed,
-                  Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b, Read<body::Velocity<Dim>> V_old,
-                  Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
-                  Optional<Read<FrictionOnWalls<Dim>>> friction, Optional<Read<surface::ForceOnBodies<Dim>>> lines,
-                  Optional<Read<SiteExchange>> shared, Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
-                  Update<body::Work> W_b) const;
+  void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<BodySet<Dim>> set, Read<multiplier::Force> lambda,
+                  Read<Rates> rates, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
+                  Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
+                  Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old, Read<body::MeanVelocity<Dim>> V_b,
+                  Read<body::MeanSpin<Dim>> omega_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
+                  Optional<Read<surface::ForceOnBodies<Dim>>> lines, Optional<Read<SiteExchange>> shared,
+                  Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
 };
 
 /// (E90)  What particles that a body stops, (E89), give it: force, torque and work of their impulse. A free body takes

@@ -9,10 +9,9 @@ namespace minamo {
 
 template <int Dim>
 void FindBlocksNearBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<ReachOnRanks> reach,
-                                           Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b,
-                                           Read<body::MiddleRotation<Dim>> R_b, Write<BlocksNearBodies> blocks) const {
+                                           Uses<BodyPlacement<Dim>> placement, Write<BlocksNearBodies> blocks) const {
   constexpr int sites_near = 4;  // of a body: those that it cuts, and those that tell of them
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const PlacedBodies<Dim> bodies(placement);
   const CellBlocks<Dim> all(*grid, grid->cells);
   const int layers = layers_of_ghosts(splines->degree, reach->sites);
   blocks->sites = sites_of_continuation;

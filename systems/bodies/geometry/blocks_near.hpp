@@ -2,10 +2,9 @@
 /// \file
 /// Which blocks of cells have a body near: there a rank has to know more of what others have than elsewhere.
 
-#include "components/body.hpp"
 #include "components/grid.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/bodies/body_set.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/grid/splines.hpp"
 #include "systems/ranks/ghost_cells.hpp"
 
@@ -19,9 +18,8 @@ inline constexpr int sites_of_continuation = 18;
 template <int Dim>
 struct FindBlocksNearBodies {
   static constexpr std::string_view doc = "blocks of cells that have a body near";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<ReachOnRanks> reach, Read<BodySet<Dim>> set,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                  Write<BlocksNearBodies> blocks) const;
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<ReachOnRanks> reach,
+                  Uses<BodyPlacement<Dim>> placement, Write<BlocksNearBodies> blocks) const;
 };
 
 }  // namespace minamo

@@ -114,24 +114,22 @@ void find_versions(const OpenSites<Dim>& open, bool has_sides, ContinuedLiquid<D
 }  // namespace
 
 template <int Dim>
-void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+void ContinueLiquid<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement,
                                      Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
-                                     Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                                     Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                     Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
+                                     Read<StaggeredIndex<Dim>> rows, Read<multiplier::OpenShare> open,
                                      Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l,
                                      Read<multiplier::Capacity> capacity, Optional<Read<SiteExchange>> shared,
                                      Update<face::ExactShare<Dim>> share, Update<multiplier::SurfaceDistance> psi,
                                      Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
                                      Write<ContinuedLiquid<Dim>> continued) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
-  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
-  const OpenSites<Dim> open_sites{*splines, *rows, open.span(), open_face.span(), cuts};
-  const std::vector<double> is_near = list_cut_multipliers<Dim>(*splines, *rows, site.span(), neighbour.span(),
-                                                                open.span(), share.span(), open_sites, *continued);
-  find_versions<Dim>(open_sites, set->parts_liquid, *continued);
-  const typename Continuation<Dim>::Columns columns{*splines,    *rows,      site.span(), open.span(),
-                                                    fill.span(), psi.span(), n_l.span()};
+  const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
+  const SiteCuts<Dim> cuts(*mac.grid, *mac.splines, *at_rest, bodies);
+  const OpenSites<Dim> open_sites{*mac.splines, *rows, open.span(), open_face.span(), cuts};
+  const std::vector<double> is_near = list_cut_multipliers<Dim>(
+      *mac.splines, *rows, mac.site.span(), mac.neighbour.span(), open.span(), share.span(), open_sites, *continued);
+  find_versions<Dim>(open_sites, placement.set->parts_liquid, *continued);
+  const typename Continuation<Dim>::Columns columns{*mac.splines, *rows,      mac.site.span(), open.span(),
+                                                    fill.span(),  psi.span(), n_l.span()};
   Continuation<Dim> continuation(columns, cuts, *continued);
   constexpr Index<Dim> here{};
   continuation.tell([&](KnownLiquid<Dim>& known, std::size_t c, std::size_t side) {
@@ -141,7 +139,7 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     if (!is_cut(known.fill)) return true;
     const double measured = v_l[*row] / capacity[*row] * open[*row];
     hold_own_volume(cuts, measured, known);
-    known.fill = SplineFraction<Dim>(*splines, known.site, known.normal)(known.psi).share;
+    known.fill = SplineFraction<Dim>(*mac.splines, known.site, known.normal)(known.psi).share;
     return true;
   });
   bool is_all_told = true;
@@ -172,16 +170,16 @@ void ContinueLiquid<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     n_l[*row] = known->normal;
     if (fill[*row] > 0) fill[*row] = known->fill;  // without particles not all of its faces have rows
   }
-  for_each_row(is_all_told && !continued->any_parted ? 0 : site.size(), [&](std::size_t i) {
+  for_each_row(is_all_told && !continued->any_parted ? 0 : mac.site.size(), [&](std::size_t i) {
     if (is_near[i] == 0) return;
     for (std::size_t d = 0; d < Dim; ++d) {
       double& of_face = share[i][static_cast<Eigen::Index>(d)];
       if (of_face == 0) continue;
-      const Index<Dim> from = side_of_face<Dim>(*splines, site.span(), neighbour.span(), open.span(), i, d);
-      for_each_multiplier_of_face<Dim>(*splines, site[i], d, [&](const Index<Dim>& other) {
+      const Index<Dim> from = side_of_face<Dim>(*mac.splines, mac.site.span(), mac.neighbour.span(), open.span(), i, d);
+      for_each_multiplier_of_face<Dim>(*mac.splines, mac.site[i], d, [&](const Index<Dim>& other) {
         const auto c = continued->rows.find(other);
         if (!c) return;
-        const auto version = continued->version(*c, splines->steps(other, from));
+        const auto version = continued->version(*c, mac.splines->steps(other, from));
         if (!version || continuation.told(*version) == nullptr) of_face = 0;
       });
     }

@@ -4,7 +4,9 @@
 /// there.
 
 #include "components/liquid.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -14,10 +16,8 @@ namespace minamo {
 template <int Dim>
 struct ContinueLiquid {
   static constexpr std::string_view doc = "(E135) the liquid continued into bodies";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> open,
+  void operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
+                  Optional<Read<DrySides<Dim>>> dry, Read<StaggeredIndex<Dim>> rows, Read<multiplier::OpenShare> open,
                   Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Optional<Read<SiteExchange>> shared, Update<face::ExactShare<Dim>> share,
                   Update<multiplier::SurfaceDistance> psi, Update<multiplier::SurfaceNormal<Dim>> n_l,

@@ -450,69 +450,69 @@ double SiteCuts<Dim>::open_below(const Index<Dim>& site, double psi, const Vec<D
 }
 
 template <int Dim>
-void CutFaces<Dim>::operator()(
-    Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
-    Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden, Read<body::MiddlePosition<Dim>> c_b,
-    Read<body::MiddleRotation<Dim>> R_b, Read<body::MeanVelocity<Dim>> V_b, Read<body::Velocity<Dim>> V_old,
-    Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
-    Read<staggered::Neighbour<Dim>> neighbour, Write<face::Open<Dim>> open, Write<face::OpenVolume<Dim>> open_volume,
-    Write<face::WallFlux<Dim>> flux, Write<face::OldWallFlux<Dim>> old_flux, Write<face::Closed<Dim>> closed,
-    Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share, Update<multiplier::Capacity> capacity) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
-  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
+void CutFaces<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
+                               Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
+                               Read<body::MeanVelocity<Dim>> V_b, Read<body::Velocity<Dim>> V_old,
+                               Read<body::Spin<Dim>> omega_old, Read<body::MeanSpin<Dim>> omega_b,
+                               Write<face::Open<Dim>> open, Write<face::OpenVolume<Dim>> open_volume,
+                               Write<face::WallFlux<Dim>> flux, Write<face::OldWallFlux<Dim>> old_flux,
+                               Write<face::Closed<Dim>> closed, Write<face::Closer<Dim>> closer,
+                               Write<multiplier::OpenShare> share, Update<multiplier::Capacity> capacity) const {
+  const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
+  const SiteCuts<Dim> cuts(*mac.grid, *mac.splines, *at_rest, bodies);
   const SitePlaces<Dim>& places = cuts.places();
   const auto is_hidden = [&](std::size_t i) { return hidden && hidden->is_hidden(i); };
   const HiddenSites* of_hidden = hidden ? &*hidden : nullptr;
   const auto cut_of_hidden = [&](std::size_t i) {
     const double of_side =
-        splines->has_multiplier(site[i]) ? cuts.share_from_row(of_hidden, site.span(), i, site[i]) : 1;
+        mac.splines->has_multiplier(mac.site[i]) ? cuts.share_from_row(of_hidden, mac.site.span(), i, mac.site[i]) : 1;
     return SiteCut<Dim>{Vec<Dim>::Zero(), of_side};
   };
-  for_each_row(site.size(), [&](std::size_t i) {
-    const SiteCut<Dim> cut = is_hidden(i) ? cut_of_hidden(i) : cuts.at(site[i]);
+  for_each_row(mac.site.size(), [&](std::size_t i) {
+    const SiteCut<Dim> cut = is_hidden(i) ? cut_of_hidden(i) : cuts.at(mac.site[i]);
     open[i] = cut.open;
     share[i] = cut.share;
     capacity[i] *= cut.share;
   });
-  if (set->any_moves()) close_gaps<Dim>(cuts, site.span(), neighbour.span(), open.span());
+  if (placement.set->any_moves()) close_gaps<Dim>(cuts, mac.site.span(), mac.neighbour.span(), open.span());
   // The nearest wall is the one that hides.
   const auto open_by_resting = [&](const Vec<Dim>& x) {
     return std::abs(bodies.distance(x, false)) < std::abs(bodies.distance(x, true)) ? 0.0 : 1.0;
   };
-  for_each_row(site.size(), [&](std::size_t i) {
+  for_each_row(mac.site.size(), [&](std::size_t i) {
     flux[i].setZero();
     old_flux[i].setZero();
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       const double by_resting =
-          is_hidden(i) ? open_by_resting(places.face(site[i], d)) : cuts.by_resting(site[i]).open[axis];
+          is_hidden(i) ? open_by_resting(places.face(mac.site[i], d)) : cuts.by_resting(mac.site[i]).open[axis];
       closed[i][d] = {1 - by_resting, by_resting - open[i][axis]};
       closer[i][d] = {-1, -1};
       if (open[i][axis] == 1) continue;
-      const Vec<Dim> x = places.face(site[i], d);
+      const Vec<Dim> x = places.face(mac.site[i], d);
       for (const bool moving : {false, true}) {
         if (closed[i][d][moving] == 0) continue;
         closer[i][d][moving] = static_cast<std::int16_t>(bodies.nearest(x, moving).body);
       }
       if (closer[i][d][1] < 0) continue;
       const auto b = static_cast<std::size_t>(closer[i][d][1]);
-      const Vec<Dim> r = x - c_b[b];
+      const Vec<Dim> r = x - placement.c_b[b];
       flux[i][axis] = closed[i][d][1] * rigid_velocity(V_b[b], omega_b[b], r)[axis];
       old_flux[i][axis] = closed[i][d][1] * rigid_velocity(V_old[b], omega_old[b], r)[axis];
     }
   });
-  for_each_row(site.size(), [&](std::size_t i) {
+  for_each_row(mac.site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto share_of = [&](const Index<Dim>& at) {
-        const std::int32_t below = neighbour[i][2 * d];
-        const std::int32_t row = at == site[i] ? static_cast<std::int32_t>(i) : below;
+        const std::int32_t below = mac.neighbour[i][2 * d];
+        const std::int32_t row = at == mac.site[i] ? static_cast<std::int32_t>(i) : below;
         const bool has_row = row != staggered::none && !(is_hidden(static_cast<std::size_t>(row)) &&
                                                          hidden->has_faces_alone(static_cast<std::size_t>(row)));
         if (has_row) return share[static_cast<std::size_t>(row)];
-        const std::size_t other = at == site[i] && below != staggered::none ? static_cast<std::size_t>(below) : i;
-        return cuts.share_from_row(of_hidden, site.span(), other, at);
+        const std::size_t other = at == mac.site[i] && below != staggered::none ? static_cast<std::size_t>(below) : i;
+        return cuts.share_from_row(of_hidden, mac.site.span(), other, at);
       };
-      open_volume[i][static_cast<Eigen::Index>(d)] = cuts.open_volume(site[i], d, share_of);
+      open_volume[i][static_cast<Eigen::Index>(d)] = cuts.open_volume(mac.site[i], d, share_of);
     }
   });
 }

@@ -5,10 +5,10 @@
 
 #include "components/grid.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/bodies/body_set.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/thin_walls.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/grid/sites_around.hpp"
-#include "systems/grid/splines.hpp"
 
 namespace minamo {
 
@@ -173,6 +173,8 @@ class PlacedBodies {
   /// \param dry  what of the surroundings of bodies counts as part of them; null: nothing
   PlacedBodies(const BodySet<Dim>& set, std::span<const Vec<Dim>> position, std::span<const Mat<Dim>> rotation,
                const DrySides<Dim>* dry = nullptr);
+  explicit PlacedBodies(const BodyPlacement<Dim>& placement, const DrySides<Dim>* dry = nullptr)
+      : PlacedBodies(*placement.set, placement.c_b.span(), placement.R_b.span(), dry) {}
   static PlacedBodies at_start(const BodySet<Dim>& set);
 
   struct Nearest {
@@ -263,12 +265,10 @@ double SiteCuts<Dim>::open_volume(const Index<Dim>& site, std::size_t d, const S
 template <int Dim>
 struct CutFaces {
   static constexpr std::string_view doc = "(E85) what bodies leave open of faces and multipliers";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+  void operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
+                  Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
                   Read<body::MeanVelocity<Dim>> V_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
-                  Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Write<face::Open<Dim>> open,
+                  Read<body::MeanSpin<Dim>> omega_b, Write<face::Open<Dim>> open,
                   Write<face::OpenVolume<Dim>> open_volume, Write<face::WallFlux<Dim>> flux,
                   Write<face::OldWallFlux<Dim>> old_flux, Write<face::Closed<Dim>> closed,
                   Write<face::Closer<Dim>> closer, Write<multiplier::OpenShare> share,

@@ -134,27 +134,26 @@ std::optional<DrySides<Dim>> dry_sides_of(const BodySet<Dim>& set, const Grid<Di
 }
 
 template <int Dim>
-void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                                   Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
-                                   Read<body::MiddleRotation<Dim>> R_b, Read<particle::QuadraturePosition<Dim>> y_p,
+void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Uses<BodyPlacement<Dim>> placement,
+                                   Read<StaticCut<Dim>> at_rest, Read<particle::QuadraturePosition<Dim>> y_p,
                                    Optional<Read<Ranks>> ranks, Update<DrySides<Dim>> dry) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), &*dry);
+  const PlacedBodies<Dim> bodies(placement, &*dry);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   dry->sites = splines->sites();
-  dry->views.resize(set->bodies.size());
+  dry->views.resize(placement.set->bodies.size());
   std::vector<std::size_t> changed_at_rest;
   bool any_changed = false;
-  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
+  for (std::size_t b = 0; b < placement.set->bodies.size(); ++b) {
     if (!dry->of_body[b]) continue;
     ThinWalls<Dim>& walls = *dry->of_body[b];
-    const Shape<Dim>& shape = *set->bodies[b].shape;
+    const Shape<Dim>& shape = *placement.set->bodies[b].shape;
     for_each_row(y_p.size(), [&](std::size_t p) {
       for_each_image<Dim>(*grid, y_p[p],
                           [&](const Vec<Dim>& y) { walls.light(shape, bodies.placement(b).to_body(y)); });
     });
     if (ranks) walls.share_light(*ranks->all);
     const bool has_changed = walls.find_dry();
-    const bool moves = set->bodies[b].moves();
+    const bool moves = placement.set->bodies[b].moves();
     if (!has_changed && !(moves && walls.may_hide_any())) continue;
     any_changed = true;
     if (!moves) changed_at_rest.push_back(b);

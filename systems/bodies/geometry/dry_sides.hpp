@@ -5,6 +5,7 @@
 #include "components/particle.hpp"
 #include "engine/run/communicator.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 
 namespace minamo {
@@ -17,9 +18,8 @@ std::optional<DrySides<Dim>> dry_sides_of(const BodySet<Dim>& set, const Grid<Di
 template <int Dim>
 struct FindDrySides {
   static constexpr std::string_view doc = "(E136) dry sides of thin walls";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Read<particle::QuadraturePosition<Dim>> y_p,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Uses<BodyPlacement<Dim>> placement,
+                  Read<StaticCut<Dim>> at_rest, Read<particle::QuadraturePosition<Dim>> y_p,
                   Optional<Read<Ranks>> ranks, Update<DrySides<Dim>> dry) const;
 };
 

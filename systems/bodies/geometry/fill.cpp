@@ -26,15 +26,15 @@ constexpr double inside_below = 1e-6;
 }  // namespace
 
 template <int Dim>
-void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                                       Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
-                                       Optional<Read<HiddenSites>> hidden, Read<body::MiddlePosition<Dim>> c_b,
-                                       Read<body::MiddleRotation<Dim>> R_b, Read<staggered::Site<Dim>> site,
-                                       Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::OpenShare> share,
-                                       Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                                       Update<multiplier::FillFraction> phi, Update<multiplier::FillAround> around,
+void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                       Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
+                                       Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
+                                       Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                       Read<multiplier::OpenShare> share, Read<multiplier::Volume> v_l,
+                                       Read<multiplier::Capacity> capacity, Update<multiplier::FillFraction> phi,
+                                       Update<multiplier::FillAround> around,
                                        Update<multiplier::LeastFill> least) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
+  const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const double cell_volume = std::pow(grid->spacing, Dim);
   struct Beside {
@@ -98,24 +98,22 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
 }
 
 template <int Dim>
-void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
-                                    Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
-                                    Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
-                                    Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                                    Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                                    Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open_face,
-                                    Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
-                                    Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least,
-                                    Read<face::Mass<Dim>> m_f, Optional<Read<face::Density<Dim>>> rho_f,
-                                    Optional<Read<SiteExchange>> shared, Write<face::UncutMass<Dim>> uncut) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), dry ? &*dry : nullptr);
-  const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
+void FindUncutMass<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Uses<BodyPlacement<Dim>> placement,
+                                    Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
+                                    Optional<Read<HiddenSites>> hidden, Read<StaggeredIndex<Dim>> rows,
+                                    Read<face::Open<Dim>> open_face, Read<face::OpenVolume<Dim>> open_volume,
+                                    Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+                                    Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
+                                    Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
+                                    Write<face::UncutMass<Dim>> uncut) const {
+  const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
+  const SiteCuts<Dim> cuts(*mac.grid, *mac.splines, *at_rest, bodies);
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {
     constexpr double of_empty = 1e-3;
     double liquid = 2 * of_empty;
     double open = liquid * open_volume[i][static_cast<Eigen::Index>(d)];
-    for (const std::int32_t l : {static_cast<std::int32_t>(i), neighbour[i][2 * d]}) {
+    for (const std::int32_t l : {static_cast<std::int32_t>(i), mac.neighbour[i][2 * d]}) {
       if (l == staggered::none) continue;
       const auto row = static_cast<std::size_t>(l);
       liquid += phi[row];
@@ -126,18 +124,18 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
   // Where no particle is, no row.
   const auto open_empty = [&](std::size_t from, const Index<Dim>& at, std::size_t d) {
     return cuts.open_volume(at, d, [&](const Index<Dim>& l) {
-      return cuts.share_from_row(hidden ? &*hidden : nullptr, site.span(), from, l);
+      return cuts.share_from_row(hidden ? &*hidden : nullptr, mac.site.span(), from, l);
     });
   };
   const bool hides_any = dry && dry->hides_any();
   // None if a thin wall parts either of its sites from that of the face.
   const auto face_beside = [&](std::size_t i, std::size_t side, const Index<Dim>& at, std::size_t d) {
-    const std::int32_t j = neighbour[i][side];
-    if (!hides_any || !dry->has_view(site[i])) return j;
+    const std::int32_t j = mac.neighbour[i][side];
+    if (!hides_any || !dry->has_view(mac.site[i])) return j;
     const auto row = rows->find(at);
-    if (!row || dry->parts(site[i], at)) return staggered::none;
-    const auto below = site_beside(*splines, site[i], 2 * d);
-    const auto below_at = site_beside(*splines, at, 2 * d);
+    if (!row || dry->parts(mac.site[i], at)) return staggered::none;
+    const auto below = site_beside(*mac.splines, mac.site[i], 2 * d);
+    const auto below_at = site_beside(*mac.splines, at, 2 * d);
     if (below && below_at && dry->parts(*below, *below_at)) return staggered::none;
     return static_cast<std::int32_t>(*row);
   };
@@ -145,12 +143,12 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       uncut[i][axis] = m_f[i][axis];
-      if (open_volume[i][axis] == 1 || !splines->has_face(site[i], d)) continue;
+      if (open_volume[i][axis] == 1 || !mac.splines->has_face(mac.site[i], d)) continue;
       double open = open_liquid(i, d);
       const double from_beside = std::max(0.0, 1 - open / enough_open);
       for (std::size_t side = 0; side < 2 * Dim && from_beside > 0; ++side) {
-        const auto beside = site_beside(*splines, site[i], side);
-        if (side / 2 == d || !beside || !splines->has_face(*beside, d)) continue;
+        const auto beside = site_beside(*mac.splines, mac.site[i], side);
+        if (side / 2 == d || !beside || !mac.splines->has_face(*beside, d)) continue;
         const std::int32_t j = face_beside(i, side, *beside, d);
         open += from_beside *
                 (j == staggered::none ? open_empty(i, *beside, d) : open_liquid(static_cast<std::size_t>(j), d));
@@ -167,13 +165,14 @@ void FindUncutMass<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spl
     std::vector<std::uint32_t> cut;
     for (std::size_t i = 0; i < m_f.size(); ++i) {
       if (open_volume[i][axis] == 1 || open_face[i][axis] == 0 || m_f[i][axis] == 0) continue;
-      if (!splines->has_face(site[i], d)) continue;
+      if (!mac.splines->has_face(mac.site[i], d)) continue;
       // Where the liquid fills the grid a face has the mass of a whole one, (E68).
-      if (filled_indicator(least_fill_of_face<Dim>(*splines, site[i], neighbour[i], least.span(), i, d)) < 1)
+      if (filled_indicator(least_fill_of_face<Dim>(*mac.splines, mac.site[i], mac.neighbour[i], least.span(), i, d)) <
+          1)
         cut.push_back(static_cast<std::uint32_t>(i));
     }
-    level_with_surface<Dim>({*splines, *rows, site.span(), open_volume.span(), share.span(), phi.span(), m_f.span(), d,
-                             std::pow(grid->spacing, Dim), density},
+    level_with_surface<Dim>({*mac.splines, *rows, mac.site.span(), open_volume.span(), share.span(), phi.span(),
+                             m_f.span(), d, std::pow(mac.grid->spacing, Dim), density},
                             std::move(cut), uncut.span());
   }
   if (shared) shared->copy_from_owner(uncut.span());

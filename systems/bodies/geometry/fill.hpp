@@ -6,8 +6,9 @@
 #include "components/fluids.hpp"
 #include "components/grid.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/ranks/site_exchange.hpp"
 
 namespace minamo {
@@ -17,9 +18,8 @@ namespace minamo {
 template <int Dim>
 struct FillBesideBodies {
   static constexpr std::string_view doc = "(E86) fill fraction near bodies";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Uses<BodyPlacement<Dim>> placement,
                   Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<multiplier::OpenShare> share, Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Update<multiplier::FillFraction> phi, Update<multiplier::FillAround> around,
@@ -31,13 +31,11 @@ struct FillBesideBodies {
 template <int Dim>
 struct FindUncutMass {
   static constexpr std::string_view doc = "(E86) mass of faces, were nothing cut away";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<BodySet<Dim>> set,
+  void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Uses<BodyPlacement<Dim>> placement,
                   Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                  Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Open<Dim>> open,
-                  Read<face::OpenVolume<Dim>> open_volume, Read<multiplier::OpenShare> share,
-                  Read<multiplier::FillFraction> phi, Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
+                  Read<StaggeredIndex<Dim>> rows, Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
+                  Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,
+                  Read<multiplier::LeastFill> least, Read<face::Mass<Dim>> m_f,
                   Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
                   Write<face::UncutMass<Dim>> uncut) const;
 };

@@ -290,15 +290,15 @@ void join_seen_sites(const AllCells<Dim>& cells, const HiddenSites& hidden,
 }  // namespace
 
 template <int Dim>
-void SplitCells<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                                 Read<DrySides<Dim>> dry, Read<body::MiddlePosition<Dim>> c_b,
-                                 Read<body::MiddleRotation<Dim>> R_b, Read<particle::QuadraturePosition<Dim>> y_p,
+void SplitCells<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Uses<BodyPlacement<Dim>> placement,
+                                 Read<DrySides<Dim>> dry, Read<particle::QuadraturePosition<Dim>> y_p,
                                  Resize<Particles> particles, Update<GridCells<Dim>> cells, Resize<Cells> rows,
                                  Write<HiddenSites> hidden) const {
   hidden->of_cell.assign(cells->cells.size(), 0);
   if (!dry->hides_any()) return;
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span(), &*dry);
-  const auto of_particle = hidden_from_particles<Dim>(*grid, *splines, *set, *dry, bodies, *cells, y_p.span());
+  const PlacedBodies<Dim> bodies(placement, &*dry);
+  const auto of_particle =
+      hidden_from_particles<Dim>(*grid, *splines, *placement.set, *dry, bodies, *cells, y_p.span());
   std::vector<std::uint32_t> order(y_p.size());
   std::iota(order.begin(), order.end(), 0U);
   std::vector<std::uint32_t> number{};  // of the first new cell, by cell before, and of the end

@@ -5,6 +5,7 @@
 #include "components/cells.hpp"
 #include "components/particle.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/ranks/ghost_cells.hpp"
 
@@ -14,9 +15,8 @@ namespace minamo {
 template <int Dim>
 struct SplitCells {
   static constexpr std::string_view doc = "(E136) one cell for the particles of each side of a thin wall";
-  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set, Read<DrySides<Dim>> dry,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
-                  Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
+  void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Uses<BodyPlacement<Dim>> placement,
+                  Read<DrySides<Dim>> dry, Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
                   Update<GridCells<Dim>> cells, Resize<Cells> rows, Write<HiddenSites> hidden) const;
 };
 

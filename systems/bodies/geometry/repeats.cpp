@@ -52,14 +52,14 @@ std::optional<std::size_t> axis_where_it_ends(const Shape<Dim>& shape, const Pla
 
 template <int Dim>
 void RequireRepeats<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                     Read<BodySet<Dim>> set, Read<body::MiddlePosition<Dim>> c_b,
-                                     Read<body::MiddleRotation<Dim>> R_b) const {
+                                     Uses<BodyPlacement<Dim>> placement) const {
   const double reach = reach_over_ends<Dim>(*grid, *splines);
   const double time = clock->time;
-  for (std::size_t b = 0; b < set->bodies.size(); ++b) {
-    const auto& body = set->bodies[b];
+  for (std::size_t b = 0; b < placement.set->bodies.size(); ++b) {
+    const auto& body = placement.set->bodies[b];
     if (!body.moves()) continue;
-    const auto axis = axis_where_it_ends<Dim>(*body.shape, {body.pivot, c_b[b], R_b[b]}, *grid, reach);
+    const auto axis =
+        axis_where_it_ends<Dim>(*body.shape, {body.pivot, placement.c_b[b], placement.R_b[b]}, *grid, reach);
     if (!axis) continue;
     throw std::runtime_error(
         fmt::format("body \"{}\" comes nearer than {:.4g} m to an end of the periodic axis {} at t = {:.6g} s, and is "

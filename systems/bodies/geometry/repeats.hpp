@@ -7,6 +7,7 @@
 #include "components/grid.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 
 #include <optional>
@@ -28,8 +29,8 @@ std::optional<std::size_t> axis_where_it_ends(const Shape<Dim>& shape, const Pla
 template <int Dim>
 struct RequireRepeats {
   static constexpr std::string_view doc = "stop the run if a body comes to the end of a periodic axis";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodySet<Dim>> set,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b) const;
+  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                  Uses<BodyPlacement<Dim>> placement) const;
 };
 
 }  // namespace minamo

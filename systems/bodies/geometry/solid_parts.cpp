@@ -61,10 +61,9 @@ void find_resting(const Windows<Dim>& windows, const OccupiedCells<Dim>& cells, 
 
 template <int Dim>
 void FindSolidParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<GridCells<Dim>> cells, Read<StirGrid> stir,
-                                     Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
-                                     Read<body::MiddlePosition<Dim>> c_b, Read<body::MiddleRotation<Dim>> R_b,
+                                     Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
                                      Update<RestingParts> resting, Write<SolidParts> solid) const {
-  const PlacedBodies<Dim> bodies(*set, c_b.span(), R_b.span());
+  const PlacedBodies<Dim> bodies(placement);
   const Windows<Dim> windows{*grid, bodies, stir->parts};
   const bool any_rests = !at_rest->of.empty();
   if (any_rests) find_resting<Dim>(windows, *cells, *resting);

@@ -6,6 +6,7 @@
 #include "components/cells.hpp"
 #include "components/grid.hpp"
 #include "engine/schedule/system.hpp"
+#include "systems/bodies/body_placement.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/volume/face_volume.hpp"
 
@@ -28,9 +29,9 @@ struct RestingParts {
 template <int Dim>
 struct FindSolidParts {
   static constexpr std::string_view doc = "(E74) C_s, what bodies fill of the parts of cells";
-  void operator()(Read<Grid<Dim>> grid, Read<GridCells<Dim>> cells, Read<StirGrid> stir, Read<BodySet<Dim>> set,
-                  Read<StaticCut<Dim>> at_rest, Read<body::MiddlePosition<Dim>> c_b,
-                  Read<body::MiddleRotation<Dim>> R_b, Update<RestingParts> resting, Write<SolidParts> solid) const;
+  void operator()(Read<Grid<Dim>> grid, Read<GridCells<Dim>> cells, Read<StirGrid> stir,
+                  Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest, Update<RestingParts> resting,
+                  Write<SolidParts> solid) const;
 };
 
 }  // namespace minamo

@@ -38,20 +38,19 @@ std::vector<bool> full_components(const ClosedComponents& closed, std::span<cons
 }
 
 template <int Dim>
-void RequireRoom<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
-                                  Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
-                                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Closed<Dim>> closed,
-                                  Read<face::Closer<Dim>> closer, Read<face::Open<Dim>> open,
-                                  Optional<Read<face::Prescribed<Dim>>> w_f, Read<multiplier::Volume> v_l,
-                                  Read<multiplier::Capacity> capacity, Read<unknown::Staggered> of_unknown,
-                                  Read<unknown::NullVector> n_l, Read<MultiplierSolver<Dim>> solver) const {
+void RequireRoom<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<body::MiddlePosition<Dim>> c_b,
+                                  Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
+                                  Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer,
+                                  Read<face::Open<Dim>> open, Optional<Read<face::Prescribed<Dim>>> w_f,
+                                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
+                                  Read<unknown::Staggered> of_unknown, Read<unknown::NullVector> n_l,
+                                  Read<MultiplierSolver<Dim>> solver) const {
   const ClosedComponents& components = solver->closed();
   const std::vector<bool> is_full = full_components(components, of_unknown.span(), v_l.span(), capacity.span());
-  const Incidence<Dim> incidence(*grid, *splines, site.span(), neighbour.span());
-  const SitePlaces<Dim> places(*grid, *splines);
-  const MovingWalls<Dim> walls{places,     site.span(), closed.span(), closer.span(),
-                               c_b.span(), V_b.span(),  omega_b.span()};
+  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
+  const MovingWalls<Dim> walls{places,     mac.site.span(), closed.span(), closer.span(),
+                               c_b.span(), V_b.span(),      omega_b.span()};
   const auto flux = [&](std::size_t f, std::size_t d) {
     const auto axis = static_cast<Eigen::Index>(d);
     return walls.flux(f, d) + (w_f ? open[f][axis] * w_f[f][axis] : 0);

@@ -3,11 +3,10 @@
 /// (E88) Liquid that walls and bodies enclose all around, and that moving ones, or inflow, leave less room, or more.
 
 #include "components/body.hpp"
-#include "components/grid.hpp"
 #include "components/openings.hpp"
 #include "engine/run/clock.hpp"
 #include "engine/schedule/system.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 #include "systems/pressure/solve.hpp"
 
 #include <span>
@@ -32,10 +31,8 @@ std::vector<bool> full_components(const ClosedComponents& closed, std::span<cons
 template <int Dim>
 struct RequireRoom {
   static constexpr std::string_view doc = "(E88) reject the step if bodies squeeze liquid that is enclosed";
-  void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                  Read<body::MiddlePosition<Dim>> c_b, Read<body::MeanVelocity<Dim>> V_b,
-                  Read<body::MeanSpin<Dim>> omega_b, Read<staggered::Site<Dim>> site,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<face::Closed<Dim>> closed,
+  void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<body::MiddlePosition<Dim>> c_b,
+                  Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Read<face::Closed<Dim>> closed,
                   Read<face::Closer<Dim>> closer, Read<face::Open<Dim>> open, Optional<Read<face::Prescribed<Dim>>> w_f,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Read<unknown::Staggered> of_unknown, Read<unknown::NullVector> n_l,
