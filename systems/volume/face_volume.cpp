@@ -263,7 +263,10 @@ void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>>
     // Walls leave lattices that do not fill multipliers exactly, and water that all but rests would be moved for it.
     if (continued) excess *= disorder(clock->step / mac.grid->spacing * difference(i));
     // A body has no row behind its wall: what is open around tells whether the multiplier lies deep.
-    if (excess < 0 && !is_deep(i)) excess = open && least[i] > 0.5 ? std::min(0.0, excess + least_hole) : 0;
+    if (excess < 0 && !is_deep(i)) {
+      const bool tells = open && open[i] >= own_fill_from;
+      excess = tells && least[i] > 0.5 ? std::min(0.0, excess + least_hole) : 0;
+    }
     source[l][unknown::volume] = -rate->rate * excess;
   });
 }
