@@ -20,7 +20,7 @@ from forked import call  # noqa: E402
 PROGRAM = os.environ["PROGRAM"]
 WORK = Path(os.environ["WORK"])
 PAGE = (ROOT / "scenes/OWN_CASE.md").read_text()
-MODULES = {"tools/figures": "figuring", "tools/compare": "comparing"}  # what wrappers call that install packages
+MODULES = {"tools/report": "reporting", "tools/figures": "figuring", "tools/compare": "comparing"}  # what wrappers call that install packages
 COMMANDS = ("check", "graph", "list", "schema", "study")  # of tools/run; whatever else is a scene
 LONG = "[400, 100]"  # the grid of a run that takes half a minute: here its first steps alone
 
@@ -70,7 +70,7 @@ class OwnCase(unittest.TestCase):
 
     def test_every_command_runs_without_a_word_of_trouble(self):
         self.assertGreaterEqual(len(self.commands), 9)
-        for tool in ("tools/run check", "tools/run sluice.json", "tools/report", *MODULES):
+        for tool in ("tools/run check", "tools/run sluice.json", *MODULES):
             self.assertTrue(any(command.startswith(tool) for command in self.commands), tool)
         for command, done in self.done.items():
             with self.subTest(command):

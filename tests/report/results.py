@@ -33,7 +33,7 @@ class Results:
 
     def report(self, *arguments: object) -> subprocess.CompletedProcess[str]:
         """tools/report with these arguments, the graph drawn by the program under test."""
-        return call(self.source / "tools/report", [str(part) for part in ("--program", self.program, *arguments)])
+        return call("reporting", [str(part) for part in ("--program", self.program, *arguments)])
 
     def page(self, *folders: Path, name: str = "") -> Path:
         """The page on these folders; under another name than report.html of the first folder if one is given."""
