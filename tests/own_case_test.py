@@ -20,7 +20,8 @@ from forked import call  # noqa: E402
 PROGRAM = os.environ["PROGRAM"]
 WORK = Path(os.environ["WORK"])
 PAGE = (ROOT / "scenes/OWN_CASE.md").read_text()
-MODULES = {"tools/report": "reporting", "tools/figures": "figuring", "tools/compare": "comparing"}  # what wrappers call that install packages
+# What wrappers call that install packages.
+MODULES = {"tools/report": "reporting", "tools/figures": "figuring", "tools/compare": "comparing"}
 COMMANDS = ("check", "graph", "list", "schema", "study")  # of tools/run; whatever else is a scene
 LONG = "[400, 100]"  # the grid of a run that takes half a minute: here its first steps alone
 

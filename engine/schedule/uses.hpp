@@ -3,12 +3,11 @@
 /// Parameters of systems that come in families: a bundle is a struct of views, and stands for all of them.
 ///
 /// \code
-/// template <int Dim>
-/// struct StaggeredRows {
-///   Read<staggered::Site<Dim>> site;
-///   Read<staggered::Neighbour<Dim>> neighbour;
+/// struct HeightAndTotal {
+///   Read<Height> h;
+///   Update<Total> T;
 /// };
-/// void operator()(Uses<StaggeredRows<Dim>> rows, Write<face::Held> held) const;  // rows.site[i], ...
+/// void operator()(Uses<HeightAndTotal> of, Write<Slope> s) const;  // of.h[row], *of.T
 /// \endcode
 
 #include "engine/storage/world.hpp"
