@@ -32,11 +32,6 @@ struct NearLiquid : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.near_liquid", "", "1", Lifetime::scratch};
 };
 
-/// 1 near multipliers that the surface passes, 0 in the depth; of those that no body cuts. [1]
-struct NearSurface : Column<Staggered, double> {
-  static constexpr ComponentInfo info{"multiplier.near_surface", "", "1", Lifetime::scratch};
-};
-
 /// The largest share w_f of exact integrals at the faces around: where there is none, nobody asks for the surface. [1]
 struct NearExact : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.near_exact", "", "1", Lifetime::scratch};

@@ -6,7 +6,6 @@
 #include "systems/momentum/face_density.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace minamo {
 
@@ -32,11 +31,6 @@ constexpr double steady = 2;
 /// those of the particles: in a flow that strains, exact integrals are no better, and let particles gain energy.
 constexpr double still_to = 0.05;
 constexpr double moving_from = 0.2;
-/// In the depth next to a body, as many times these: the body alone cuts the liquid there, and its shape is known.
-constexpr double farther_in_depth = 2;
-/// Fill of a whole multiplier up to which the surface passes it, and from which on it does not.
-constexpr double surface_to = 0.7;
-constexpr double deep_from = 0.78;
 /// In the depth of the liquid masses are those of the full grid (E68) to this: there is nothing to replace.
 constexpr double as_full = 1e-12;
 
@@ -48,10 +42,10 @@ std::int32_t face_beside(const RowsOfSites<Dim>& of, std::size_t i, std::size_t 
   return is_parted ? staggered::none : j;
 }
 
-/// Froude number of a cell, by the faces next to one that have mass; `fall` is h |q|.
+/// 1 where the liquid is all but at rest, 0 where it moves, by the faces next to one that have mass; `fall` is h |q|.
 template <int Dim>
-double froude_number(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> v_f,
-                     std::size_t i, std::size_t d, double fall) {
+double stillness(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, std::span<const Vec<Dim>> v_f,
+                 std::size_t i, std::size_t d, double fall) {
   const auto axis = static_cast<Eigen::Index>(d);
   double squares = 0;
   for (std::size_t e = 0; e < Dim; ++e) {
@@ -65,7 +59,8 @@ double froude_number(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, 
     }
     squares += most * most;
   }
-  return fall > 0 ? std::sqrt(squares / fall) : std::numeric_limits<double>::infinity();
+  if (!(fall > 0)) return 0;
+  return std::clamp((moving_from - std::sqrt(squares / fall)) / (moving_from - still_to), 0.0, 1.0);
 }
 
 /// The largest value within some steps along walls: over multipliers that bodies cut and particles touch.
@@ -89,18 +84,6 @@ void spread_along_walls(const RowsOfSites<Dim>& of, std::span<const double> open
     });
     for_each_row(cut.size(), [&](std::size_t k) { value[cut[k]] = buffer[cut[k]]; });
   }
-}
-
-/// 1 within some steps of a multiplier that the surface passes, as far as those tell that no body cuts.
-template <int Dim>
-void find_near_surface(const RowsOfSites<Dim>& of, std::span<const double> open, std::span<const double> v_l,
-                       std::span<const double> capacity, std::span<double> near, std::span<double> buffer) {
-  for_each_row(near.size(), [&](std::size_t i) {
-    const bool tells = v_l[i] > 0 && capacity[i] > 0 && open[i] == 1;
-    near[i] = tells ? std::clamp((deep_from - v_l[i] / capacity[i]) / (deep_from - surface_to), 0.0, 1.0) : 0;
-  });
-  const auto is_at_edge = near_any<Dim, liquid_reach>(of, [&](std::size_t i) { return of.lacks_one_beside(i); });
-  spread_largest<Dim, liquid_reach>(of, near, buffer, [&](std::size_t i) { return is_at_edge[i] != 0; });
 }
 
 }  // namespace
@@ -182,8 +165,7 @@ void FindExactShare<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, 
                                      Optional<Read<multiplier::OpenShare>> open,
                                      Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry,
                                      Optional<Read<SiteExchange>> shared, Write<multiplier::NearLiquid> near,
-                                     Write<multiplier::NearSurface> surface, Write<multiplier::NearExact> buffer,
-                                     Write<face::ExactShare<Dim>> share) const {
+                                     Write<multiplier::NearExact> buffer, Write<face::ExactShare<Dim>> share) const {
   for_each_row(near.size(), [&](std::size_t i) {
     near[i] = capacity[i] == 0 || (open && open[i] < least_open_share) ? 0 : v_l[i] / capacity[i];
   });
@@ -194,8 +176,6 @@ void FindExactShare<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, 
   if (open) {
     spread_along_walls<Dim>(of, open.span(), v_l.span(), near.span(), buffer.span());
     if (shared) shared->copy_from_owner(near.span());
-    find_near_surface<Dim>(of, open.span(), v_l.span(), capacity.span(), surface.span(), buffer.span());
-    if (shared) shared->copy_from_owner(surface.span());
   }
   for_each_row(near.size(), [&](std::size_t i) {
     const double t = std::clamp((near[i] - near_from) / (near_to - near_from), 0.0, 1.0);
@@ -215,19 +195,15 @@ void FindExactShare<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, 
       if (!open_face && std::abs(of_full_grid - 1) < as_full) continue;
       // On the high side of the liquid there are rows that no particle touches, on its low side none.
       double liquid = 1;
-      double at_surface = open ? 0 : 1;
       bool any = false;
       for (const std::int32_t l : {static_cast<std::int32_t>(i), below}) {
         if (l == staggered::none || v_l[static_cast<std::size_t>(l)] == 0) continue;
         liquid = std::min(liquid, near[static_cast<std::size_t>(l)]);
-        if (open) at_surface = std::max(at_surface, surface[static_cast<std::size_t>(l)]);
         any = true;
       }
       if (!any || liquid == 0) continue;
-      const double farther = at_surface + farther_in_depth * (1 - at_surface);
       const double fall = mac.grid->spacing * size_at_face<Dim>(of, m_f.span(), q_f.span(), i, d);
-      const double froude = froude_number<Dim>(of, m_f.span(), v_f.span(), i, d, fall) / farther;
-      share[i][axis] = liquid * std::clamp((moving_from - froude) / (moving_from - still_to), 0.0, 1.0);
+      share[i][axis] = liquid * stillness<Dim>(of, m_f.span(), v_f.span(), i, d, fall);
     }
   });
   if (shared) shared->copy_from_owner(share.span());

@@ -39,8 +39,8 @@ struct FindExactShare {
                   Read<face::PressureAcceleration<Dim>> q_f, Optional<Read<face::Open<Dim>>> open_face,
                   Optional<Read<multiplier::OpenShare>> open, Optional<Read<face::Density<Dim>>> rho_f,
                   Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
-                  Write<multiplier::NearLiquid> near, Write<multiplier::NearSurface> surface,
-                  Write<multiplier::NearExact> buffer, Write<face::ExactShare<Dim>> share) const;
+                  Write<multiplier::NearLiquid> near, Write<multiplier::NearExact> buffer,
+                  Write<face::ExactShare<Dim>> share) const;
 };
 
 /// (E134)  v*_f += tau (rho_f V^_f/m_f - 1) q_f.
