@@ -1,3 +1,4 @@
+#include "systems/bodies/bodies_part.hpp"
 #include "systems/equal_order/moments.hpp"
 #include "systems/grid/filled_nodes.hpp"
 #include "systems/grid/lattice.hpp"
@@ -5,6 +6,7 @@
 #include "systems/liquid/exact_volume.hpp"
 #include "systems/liquid/liquid_surface.hpp"
 #include "systems/liquid/unseen_liquid.hpp"
+#include "systems/ranks/ghost_cells.hpp"
 #include "systems/scene/discretization.hpp"
 #include "systems/scene/parts.hpp"
 #include "systems/scene/schemes.hpp"
@@ -27,6 +29,16 @@ void set_places(Scene& scene, LatticePlaces of_equal_order) {
 Contribution read_mixed(Input&, Scene& scene) {
   set_places(scene, LatticePlaces::nearer_to_walls);
   return {};
+}
+
+Contribution read_exact(Input& input, Scene& scene) {
+  set_places(scene, LatticePlaces::nearer_to_walls);
+  if (input.describing() || !is_conforming(scene)) return {};
+  return [](const Scene& of, Recipe& recipe) {
+    if (of.facts.find<BodiesOfScene>() != nullptr) return;  // (E140) is not asked
+    const int sites = sites_to_tellers(of.facts.get<Discretization>().degree);
+    recipe.seed([sites](const Scene&, World& world, SeedProblems&) { reach_on_ranks(world, sites); });
+  };
 }
 
 Contribution read_particles(Input&, Scene& scene) {
@@ -76,7 +88,7 @@ void add_quadrature(SystemRegistry& registry) {
   registry.add<AddExactPressure>("add_exact_pressure", OnRanks::own);
   registry.add(Quadrature{{"mixed", "exact inside the liquid, by particles at its surface", read_mixed}});
   registry.add(Quadrature{
-      {"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals", read_mixed}});
+      {"exact", "mixed, and at the surface of a liquid nearly at rest pressure meets exact integrals", read_exact}});
   registry.add(Quadrature{{"particles", "by particles alone", read_particles}});
   const DefaultScheme fallback{
       recommended_quadrature,

@@ -3,6 +3,7 @@
 #include "systems/grid/sites_around.hpp"
 #include "systems/liquid/spline_fraction.hpp"
 #include "systems/liquid/spread.hpp"
+#include "systems/liquid/unseen_liquid.hpp"
 
 #include <bit>
 #include <cmath>
@@ -140,9 +141,6 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
                                         Write<multiplier::SurfaceNormal<Dim>> n_l, Write<multiplier::NearExact> near,
                                         Write<multiplier::ContinuedFill> continued) const {
   const Whole is_whole{open.span()};
-  // The integrals of a face reach K - 1 multipliers beyond the two next to it, planes are fitted to those around, and
-  // without bodies (E140) goes K - 1 multipliers on from what is told to what is not, back, and there again, in its
-  // first sweep.
   for_each_row(phi.size(), [&](std::size_t i) {
     near[i] = share[i].maxCoeff();
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -156,15 +154,20 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
         {*splines, *rows, site.span(), neighbour.span(), hiding(dry)}, near.span(), psi.span(), [&](std::size_t i) {
           return near[i] == 0 && liquid::may_be_at_surface(*splines, site[i], neighbour[i], phi.span(), i);
         });
+    if (shared) shared->copy_from_owner(near.span());
   };
+  // The integrals of a face reach K - 1 multipliers beyond the two next to it, planes are fitted to those around, and
+  // without bodies (E140) goes K - 1 multipliers on from what is told to what is not, back, and there again, in its
+  // first sweep: in two parts, for a rank does not know so far.
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
-    if (open)
+    if (open) {
       spread(std::integral_constant<int, K>());
-    else
-      spread(std::integral_constant<int, 4 * K - 3>());
+    } else {
+      spread(std::integral_constant<int, sites_to_tellers(K)>());
+      spread(std::integral_constant<int, 2 * (K - 1)>());
+    }
   });
-  if (shared) shared->copy_from_owner(near.span());
   std::vector<std::uint8_t> wanted(phi.size());
   for_each_row(phi.size(), [&](std::size_t i) {
     wanted[i] = near[i] > 0 && is_cut(phi[i]) && is_whole(i) &&

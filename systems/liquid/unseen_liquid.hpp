@@ -12,6 +12,10 @@
 
 namespace minamo {
 
+/// How many sites away from a face the multipliers are whose planes tell of those that its integral reaches: K - 1
+/// beyond the two next to it, and as many again.
+constexpr int sites_to_tellers(int degree) { return 2 * degree - 1; }
+
 /// (E140)  psi_l of multipliers that are full or empty by their particles, from the planes around.
 template <int Dim>
 struct FindUnseenLiquid {
