@@ -185,9 +185,8 @@ class Alike(unittest.TestCase):
             self.check("sticky", SCENES / "dam_break_3d.json", [*SPACE, *sticky], [3])
 
     def test_other_liquids(self):
-        exact = ["--set", "/solver={\"tolerance\": 1e-12}"]
-        self.check("bingham", SCENES / "slump.json", [*exact, "--set", "/time/end=0.02"], [2])
-        self.check("two_liquids", SCENES / "lock_exchange.json", [*exact, "--set", "/time/end=0.2"], [3])
+        self.check("bingham", SCENES / "slump.json", [*EXACT, "--set", "/time/end=0.02"], [2])
+        self.check("two_liquids", SCENES / "lock_exchange.json", [*EXACT, "--set", "/time/end=0.2"], [3])
         self.check("sponge", SCENES / "dam_break.json",
                    [*DAM_BREAK, "--set", "/time/end=0.1", "--set", '/sponge=[{"where": "x > 0.1", "rate": "20*x"}]'], [2])
 
@@ -227,7 +226,7 @@ class Alike(unittest.TestCase):
                 self.assert_alike(folder, alone)
 
     def test_the_surface_is_told_from_as_far_as_it_is_by_one_process(self):
-        """Planes five multipliers away tell of the force on a face: a rank has to know so far. Else positions are
+        """Planes three multipliers away tell of the force on a face: a rank has to know so far. Else positions are
         1e-12 m apart when the front has run a few cells, and grow apart."""
         options = [*EXACT, "--steps", "60"]
         expected = last_frame(run("far_alone", 0, SCENES / "wave_under_lid.json", *options)[0])

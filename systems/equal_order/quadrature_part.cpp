@@ -32,7 +32,7 @@ Contribution read_mixed(Input&, Scene& scene) {
 }
 
 Contribution read_exact(Input& input, Scene& scene) {
-  set_places(scene, LatticePlaces::nearer_to_walls);
+  read_mixed(input, scene);
   if (input.describing() || !is_conforming(scene)) return {};
   return [](const Scene& of, Recipe& recipe) {
     if (of.facts.find<BodiesOfScene>() != nullptr) return;  // (E140) is not asked
