@@ -154,6 +154,30 @@ class Configuring(unittest.TestCase):
         self.assertTrue(seen, "nothing until the build has ended")
         self.assertEqual(said, "Building all: 1 of 9, about 2 min left\n")
 
+    def build(self, script):
+        """A build by a cmake that runs the script in its folder."""
+        folder = self.tree / "build"
+        folder.mkdir(exist_ok=True)
+        (self.tree / "bin/cmake").write_text(f"#!/bin/sh\ncd {folder}\n{script}")
+        path = f"{self.tree / 'bin'}:{os.environ['PATH']}"
+        return subprocess.run(["bash", "-c", f"set -e; source {self.tree}/tools/setup; build {folder} all"], text=True,
+                              env=os.environ | {"PATH": path}, stderr=subprocess.PIPE)
+
+    def test_precompiled_headers_are_made_anew_where_a_package_has_brought_others(self):
+        stale = "test -e some.pch || exit 0; echo fatal error: file a.h has been modified since the precompiled header"
+        (self.tree / "build/folder").mkdir(parents=True)
+        for header in ("build/some.pch", "build/folder/other.pch"):
+            (self.tree / header).touch()
+        built = self.build(f"{stale}; exit 1\n")
+        self.assertEqual(built.returncode, 0)
+        self.assertIn("Headers of a package have changed", built.stderr)
+        self.assertEqual(list((self.tree / "build").rglob("*.pch")), [])
+
+    def test_a_build_that_fails_is_not_tried_again(self):
+        built = self.build("echo once >> calls; echo error; exit 1\n")
+        self.assertNotEqual(built.returncode, 0)
+        self.assertEqual((self.tree / "build/calls").read_text(), "once\n")
+
 
 if __name__ == "__main__":
     WORK.mkdir(parents=True, exist_ok=True)

@@ -116,10 +116,26 @@ void gather_faces_with_gradient(const FaceTarget<Dim>& target, const AtFace& at_
   gather_faces_by_cell<Dim>(target, at_face, [&](std::size_t, std::size_t p, const Jet<Dim>& q) { use(p, q); });
 }
 
-/// use(p, q(y_p)) for every particle.
+/// use(p, q(y_p)) for every particle. Of its own, because derivatives are computed as well where `use` is not inlined.
 template <int Dim, class AtFace, class Use>
 void gather_faces(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
-  gather_faces_by_cell<Dim>(target, at_face, [&](std::size_t, std::size_t p, const Jet<Dim>& q) { use(p, q.value); });
+  with_degree(target.splines.degree, [&](auto degree) {
+    constexpr int K = degree();
+    for_each_cell<Dim>(target.cells, [&](std::size_t c, const auto& cell) {
+      const CellFrame<Dim> frame(target.grid, target.splines, cell.node);
+      const FacePolynomials<Dim, K> q(frame, target.sites.of(c), at_face);
+      for_each_group(cell, [&](const Group& group) {
+        const LanePlace<Dim> xi = local<Dim>(frame, target.y_p, group);
+        std::array<Four, static_cast<std::size_t>(Dim)> value;
+        for_each_direction<Dim>([&](auto d) { value[d()] = q.template at<d(), Four>(xi).value; });
+        for_each_lane(group, [&](std::size_t lane, std::size_t p) {
+          Vec<Dim> q_p;
+          for (int d = 0; d < Dim; ++d) q_p[d] = value[static_cast<std::size_t>(d)][lane];
+          use(p, q_p);
+        });
+      });
+    });
+  });
 }
 
 }  // namespace minamo

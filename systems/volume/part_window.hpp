@@ -5,7 +5,7 @@
 /// side by side.
 
 #include "components/staggered.hpp"
-#include "systems/grid/site_support.hpp"
+#include "systems/grid/lanes.hpp"
 
 namespace minamo {
 
@@ -66,9 +66,10 @@ class PartWindow {
     }
   }
 
-  void clear() { std::fill_n(value_.begin(), power(side_, Dim), 0.0); }
+  void clear() { std::fill_n(value_.begin(), power(side_, Dim) + 1, 0.0); }
   void load(std::span<const double> fill) {
     for_each([&](double& value, std::size_t at) { value = fill[at]; }, [](double& value) { value = 0; });
+    value_[power(side_, Dim)] = 0;
   }
   void add_to(std::span<double> fill) {
     for_each([&](const double& value, std::size_t at) { fill[at] += value; }, [](double&) {});
@@ -85,29 +86,35 @@ class PartWindow {
   /// Adds an amount around a point.
   void add(const Vec<Dim>& xi, double amount) {
     const auto axis = weights(xi);
+    const Four x = three(axis[0].weight);
     if constexpr (Dim == 2) {
-      add_plane(axis[0], axis[1], axis[1].first * side_ + axis[0].first, amount);
+      add_plane(x, axis[1], axis[1].first * side_ + axis[0].first, amount);
     } else {
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t start = ((axis[2].first + c) * side_ + axis[1].first) * side_ + axis[0].first;
-        add_plane(axis[0], axis[1], start, amount * axis[2].weight[c]);
+        add_plane(x, axis[1], start, amount * axis[2].weight[c]);
       }
     }
   }
   /// Gradient at a point, per part.
   Vec<Dim> gradient(const Vec<Dim>& xi) const {
     const auto axis = weights(xi);
+    const Four weight = three(axis[0].weight);
+    const Four slope = three(axis[0].slope);
     if constexpr (Dim == 2) {
-      const auto plane = plane_sums(axis[0], axis[1], axis[1].first * side_ + axis[0].first);
-      return {plane[1], plane[2]};
+      const auto [value, along_y] = plane_sums(axis[1], axis[1].first * side_ + axis[0].first);
+      return {sum_of_lanes(slope * value), sum_of_lanes(weight * along_y)};
     } else {
-      Vec<3> sum = Vec<3>::Zero();
+      Four value{};
+      Four along_y{};
+      Four along_z{};
       for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t start = ((axis[2].first + c) * side_ + axis[1].first) * side_ + axis[0].first;
-        const auto plane = plane_sums(axis[0], axis[1], start);
-        sum += Vec<3>(axis[2].weight[c] * plane[1], axis[2].weight[c] * plane[2], axis[2].slope[c] * plane[0]);
+        const auto of = plane_sums(axis[1], ((axis[2].first + c) * side_ + axis[1].first) * side_ + axis[0].first);
+        value += axis[2].weight[c] * of.value;
+        along_y += axis[2].weight[c] * of.along_y;
+        along_z += axis[2].slope[c] * of.value;
       }
-      return sum;
+      return {sum_of_lanes(slope * value), sum_of_lanes(weight * along_y), sum_of_lanes(weight * along_z)};
     }
   }
 
@@ -144,23 +151,30 @@ class PartWindow {
       return {PartWeights(xi[0], parts_), PartWeights(xi[1], parts_), PartWeights(xi[2], parts_)};
     }
   }
-  void add_plane(const PartWeights& x, const PartWeights& y, std::size_t start, double amount) {
+  /// Lines of three are read and written with the number behind them, whose weight is zero.
+  static Four three(const std::array<double, 3>& of) { return {of[0], of[1], of[2], 0}; }
+  Four line(std::size_t start) const {
+    Four of;
+    std::memcpy(&of, value_.data() + start, sizeof of);
+    return of;
+  }
+  void add_plane(const Four& x, const PartWeights& y, std::size_t start, double amount) {
     for (std::size_t b = 0; b < 3; ++b) {
-      const double share = amount * y.weight[b];
-      double* line = value_.data() + start + b * side_;
-      for (std::size_t a = 0; a < 3; ++a) line[a] += share * x.weight[a];
+      const Four sum = line(start + b * side_) + amount * y.weight[b] * x;
+      std::memcpy(value_.data() + start + b * side_, &sum, sizeof sum);
     }
   }
-  /// Value and slopes along x and y.
-  std::array<double, 3> plane_sums(const PartWeights& x, const PartWeights& y, std::size_t start) const {
-    std::array<double, 3> sum{};
+  /// Of the lines of a plane, by place along x: the value and its slope along y.
+  struct PlaneSums {
+    Four value;
+    Four along_y;
+  };
+  PlaneSums plane_sums(const PartWeights& y, std::size_t start) const {
+    PlaneSums sum{};
     for (std::size_t b = 0; b < 3; ++b) {
-      const double* of = value_.data() + start + b * side_;
-      const double line = x.weight[0] * of[0] + x.weight[1] * of[1] + x.weight[2] * of[2];
-      const double slope = x.slope[0] * of[0] + x.slope[1] * of[1] + x.slope[2] * of[2];
-      sum[0] += y.weight[b] * line;
-      sum[1] += y.weight[b] * slope;
-      sum[2] += y.slope[b] * line;
+      const Four of = line(start + b * side_);
+      sum.value += y.weight[b] * of;
+      sum.along_y += y.slope[b] * of;
     }
     return sum;
   }
@@ -171,7 +185,7 @@ class PartWindow {
   std::array<std::int32_t, support_size<Dim>> around_;       ///< x fastest
   std::array<AxisMap, static_cast<std::size_t>(Dim)> cell_;  ///< 0 below, 1 own, 2 above, by place in the window
   std::array<AxisMap, static_cast<std::size_t>(Dim)> part_;  ///< within that cell
-  std::array<double, power(most_parts + 2, Dim)> value_;
+  std::array<double, power(most_parts + 2, Dim) + 1> value_;  ///< and one behind the last line
 };
 
 }  // namespace minamo
