@@ -114,7 +114,7 @@ def compare(scene, arguments, folder):
             yield ranks, False, found
             continue
         text = "{:.1e} h, {:.1e} h per step, {:.1e} of the energy, alike until {:g} s".format(*found)
-        alike = max(found[:3]) <= arguments.within
+        alike = bool(max(found[:3]) <= arguments.within)
         if arguments.twice:
             run(program, scene, arguments, f"{folder}/{ranks}_again")
             others = same_bits.differences(f"{folder}/{ranks}", f"{folder}/{ranks}_again")

@@ -1,13 +1,17 @@
 """tests/same_on_ranks.py, with programs that differ and scenes that are refused. In the environment: PROGRAM (minamo),
 MPI_PROGRAM (minamo-mpi), WORK."""
 
+import argparse
 import json
 import os
 import pathlib
 import subprocess
 import sys
 import unittest
+from unittest import mock
 
+import numpy as np
+import same_on_ranks
 from support.stand_in import with_arguments
 
 TESTS = pathlib.Path(__file__).resolve().parent
@@ -31,6 +35,15 @@ class SameOnRanks(unittest.TestCase):
         done = self.compare(other, DAM_BREAK)
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn("dam_break.json, 2: DIFFERS, ", done.stdout)
+
+    def test_a_run_differs_whatever_differs_most(self):
+        arguments = argparse.Namespace(program="", mpi_program="", ranks=[2], within=1e-9, twice=False)
+        for most in range(3):
+            found = [0.0, 0.0, 0.0, np.float64(0.1)]
+            found[most] = np.float64(1)
+            with mock.patch.multiple(same_on_ranks, run=lambda *_: (0, ""), differences=lambda *_, of=found: of):
+                [(_, is_alike, _)] = same_on_ranks.compare(DAM_BREAK, arguments, "")
+            self.assertIs(is_alike, False)
 
     def test_a_scene_that_is_refused_is_named(self):
         scene = json.loads(DAM_BREAK.read_text(encoding="utf8"))
