@@ -58,6 +58,25 @@ template <int Dim>
   return place;
 }
 
+/// The vector in a lane.
+template <std::size_t Dim>
+[[gnu::always_inline]] inline Vec<static_cast<int>(Dim)> in_lane(const std::array<Four, Dim>& of, std::size_t lane) {
+  Vec<static_cast<int>(Dim)> vector;
+  for (std::size_t d = 0; d < Dim; ++d) vector[static_cast<Eigen::Index>(d)] = of[d][lane];
+  return vector;
+}
+
+/// The numbers of every lane as a vector: lane k of vector j is lane j of vector k.
+[[gnu::always_inline]] inline std::array<Four, lanes> transposed(const std::array<Four, lanes>& of) {
+  const Four even_low = __builtin_shufflevector(of[0], of[1], 0, 4, 2, 6);
+  const Four odd_low = __builtin_shufflevector(of[0], of[1], 1, 5, 3, 7);
+  const Four even_high = __builtin_shufflevector(of[2], of[3], 0, 4, 2, 6);
+  const Four odd_high = __builtin_shufflevector(of[2], of[3], 1, 5, 3, 7);
+  return {
+      __builtin_shufflevector(even_low, even_high, 0, 1, 4, 5), __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5),
+      __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7), __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7)};
+}
+
 inline constexpr Four of_lane{0, 1, 2, 3};  ///< the number of every lane
 
 /// Sum over the lanes, always in the same order.

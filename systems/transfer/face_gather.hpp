@@ -128,11 +128,7 @@ void gather_faces(const FaceTarget<Dim>& target, const AtFace& at_face, const Us
         const LanePlace<Dim> xi = local<Dim>(frame, target.y_p, group);
         std::array<Four, static_cast<std::size_t>(Dim)> value;
         for_each_direction<Dim>([&](auto d) { value[d()] = q.template at<d(), Four>(xi).value; });
-        for_each_lane(group, [&](std::size_t lane, std::size_t p) {
-          Vec<Dim> q_p;
-          for (int d = 0; d < Dim; ++d) q_p[d] = value[static_cast<std::size_t>(d)][lane];
-          use(p, q_p);
-        });
+        for_each_lane(group, [&](std::size_t lane, std::size_t p) { use(p, in_lane(value, lane)); });
       });
     });
   });
