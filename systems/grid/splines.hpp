@@ -79,6 +79,11 @@ class SplineAxis {
     const int from_high = cells_ - 1 - cell < degree_ ? cells_ - 1 - cell : degree_ - 1;
     return static_cast<std::size_t>(from_low * degree_ + from_high);
   }
+  /// The cells that all have the same splines, from the first to one behind the last.
+  std::array<int, 2> inner_cells() const {
+    if (periodic_) return {0, cells_};
+    return {degree_ - 1, cells_ - degree_ + 1};
+  }
   const TruncatedPowers& powers_of_multiplier(int j) const { return powers_[multiplier_kind(j)]; }
   /// Greville point of a multiplier from the low end of the axis, in units of h.
   double place(int j) const {

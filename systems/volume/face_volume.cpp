@@ -122,12 +122,14 @@ struct CellsAround {
 
  private:
   std::int32_t by_row(std::size_t c, const Index<Dim>& offset) const {
-    auto row = static_cast<std::int32_t>(sites.of(c)[0]);
     // First up: the sites there are the cell's own, and from them down those of the cell around, if it has particles.
-    for (const int side : {2, 0}) {
-      for (std::size_t d = 0; d < Dim && row != staggered::none; ++d) {
-        if (offset[d] == side) row = neighbour[static_cast<std::size_t>(row)][2 * d + (side == 2 ? 1 : 0)];
-      }
+    std::size_t up = 0;
+    std::size_t stride = 1;
+    for (std::size_t d = 0; d < Dim; ++d, stride *= static_cast<std::size_t>(splines.degree) + 1)
+      up += offset[d] == 2 ? stride : 0;
+    auto row = static_cast<std::int32_t>(sites.of(c)[up]);
+    for (std::size_t d = 0; d < Dim && row != staggered::none; ++d) {
+      if (offset[d] == 0) row = neighbour[static_cast<std::size_t>(row)][2 * d];
     }
     return row;
   }
@@ -163,14 +165,23 @@ void FillParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines
     const std::uint32_t lowest = *index->find(splines->site(ghosts->cells[c - own].at, {}));
     parts->cell_of_site[lowest] = static_cast<std::int32_t>(c);
   }
-  const double per_volume = std::pow(stir->parts / grid->spacing, Dim);
   const CellsAround<Dim> around{*splines,         *cells, *sites, *index, hidden ? &*hidden : nullptr,
                                 neighbour.span(), *parts};
+  parts->around.resize(own * support_size<Dim>);
+  for_each_cell<Dim>(*cells, [&](std::size_t c, const auto&) {
+    for_each_support<Dim>([&](std::size_t k, const Index<Dim>& offset) {
+      parts->around[c * support_size<Dim> + k] = around.at(c, offset);
+    });
+  });
+  const double per_volume = std::pow(stir->parts / grid->spacing, Dim);
   for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
     const CellFrame<Dim> frame(*grid, *splines, cell.node);
-    PartWindow<Dim> window(stir->parts, *splines, cell.node, [&](const auto& offset) { return around.at(c, offset); });
+    PartWindow<Dim> window(stir->parts, *splines, cell.node, parts->template around_cell<Dim>(c));
     window.clear();
-    for (std::size_t p = cell.begin; p < cell.end; ++p) window.add(frame.local(y_p[p]), V_p[p] * per_volume);
+    for_each_group(cell, [&](const Group& group) {
+      const Four amount = per_volume * of_group(group, [&](std::size_t p) { return V_p[p]; });
+      window.add(group, local<Dim>(frame, y_p.span(), group), amount);
+    });
     window.add_to(parts->fill);
   });
   if (shared) add_up_parts<Dim>(*shared, *splines, *cells, *ghosts, *index, per_cell, parts->fill);
@@ -180,13 +191,9 @@ template <int Dim>
 void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                                     Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<StirGrid> stir,
                                     Read<PartFill> parts, Optional<Read<SolidParts>> solid,
-                                    Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                                    Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
-                                    Read<StaggeredIndex<Dim>> index, Optional<Read<HiddenSites>> hidden,
-                                    Write<particle::Stir<Dim>> s_p) const {
+                                    Read<multiplier::FillFraction> phi, Read<face::NewVelocity<Dim>> v_f,
+                                    Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::Stir<Dim>> s_p) const {
   const double spacing = grid->spacing / stir->parts;
-  const CellsAround<Dim> around{*splines,         *cells, *sites, *index, hidden ? &*hidden : nullptr,
-                                neighbour.span(), *parts};
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell<Dim>(*cells, [&](std::size_t c, const auto& cell) {
@@ -201,15 +208,17 @@ void StirParticles<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Rea
       const auto jet = jet_at<Dim, K>(q, SplineWeights<Dim, K>(frame, middle), SplineSlopes<Dim, K>(frame, middle));
       const double strain = (jet.gradient + jet.gradient.transpose()).norm() / std::sqrt(2.0);
       const double per_gradient = -stir_strength * clock->step * strain * spacing;  // slopes are per part
-      PartWindow<Dim> window(stir->parts, *splines, cell.node,
-                             [&](const auto& offset) { return around.at(c, offset); });
+      PartWindow<Dim> window(stir->parts, *splines, cell.node, parts->template around_cell<Dim>(c));
       window.load(parts->fill);
       if (solid) window.add(*solid, c);
       Vec<Dim> mean = Vec<Dim>::Zero();
-      for (std::size_t p = cell.begin; p < cell.end; ++p) {
-        s_p[p] = per_gradient * window.gradient(frame.local(y_p[p]));
-        mean += s_p[p];
-      }
+      for_each_group(cell, [&](const Group& group) {
+        const auto gradient = window.gradient(local<Dim>(frame, y_p.span(), group));
+        for_each_lane(group, [&](std::size_t lane, std::size_t p) {
+          s_p[p] = per_gradient * in_lane(gradient, lane);
+          mean += s_p[p];
+        });
+      });
       mean /= static_cast<double>(cell.end - cell.begin);
       for (std::size_t p = cell.begin; p < cell.end; ++p) s_p[p] -= mean;
     });

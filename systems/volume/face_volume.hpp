@@ -64,10 +64,8 @@ struct StirParticles {
   static constexpr std::string_view doc = "(E74) s_p, away from where particles lie close";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<StirGrid> stir, Read<PartFill> parts, Optional<Read<SolidParts>> solid,
-                  Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
-                  Read<face::NewVelocity<Dim>> v_f, Read<particle::QuadraturePosition<Dim>> y_p,
-                  Read<StaggeredIndex<Dim>> index, Optional<Read<HiddenSites>> hidden,
-                  Write<particle::Stir<Dim>> s_p) const;
+                  Read<multiplier::FillFraction> phi, Read<face::NewVelocity<Dim>> v_f,
+                  Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::Stir<Dim>> s_p) const;
 };
 
 /// (E38)  d_p = sum_f N_f d_f.
