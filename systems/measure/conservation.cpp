@@ -1,10 +1,8 @@
 #include "systems/measure/conservation.hpp"
 
 #include "engine/schedule/parallel.hpp"
-#include "systems/grid/site_support.hpp"
+#include "systems/grid/lanes.hpp"
 #include "systems/time/body_force.hpp"
-
-#include <Eigen/Geometry>
 
 #include <cmath>
 #include <functional>
@@ -13,50 +11,72 @@ namespace minamo {
 
 namespace {
 
+/// Angular momentum in every lane.
 template <int Dim>
-using Rotation = Vec<rotations<Dim>>;
+using LaneRotation = std::array<Four, rotations<Dim>>;
 
 /// x times v.
 template <int Dim>
-Rotation<Dim> cross(const Vec<Dim>& x, const Vec<Dim>& v) {
+LaneRotation<Dim> cross(const LanePlace<Dim>& x, const LanePlace<Dim>& v) {
+  const auto about = [&](std::size_t a, std::size_t b) { return x[a] * v[b] - x[b] * v[a]; };
   if constexpr (Dim == 3) {
-    return x.cross(v);
+    return {about(1, 2), about(2, 0), about(0, 1)};
   } else {
-    return Rotation<2>(x[0] * v[1] - x[1] * v[0]);
+    return {about(0, 1)};
   }
 }
 
 /// sum_d D_dd e_d x dv/dx_d: what a velocity gradient adds to (x_I - x_p) x v on average over the support.
-template <int Dim>
-Rotation<Dim> affine_spin(const Vec<Dim>& spread, const Mat<Dim>& grad_v) {
-  const auto about = [&](int a, int b) { return spread[a] * grad_v(b, a) - spread[b] * grad_v(a, b); };
+/// \param derivative  derivative(a, b) of component a of the velocity along b
+template <int Dim, class Derivative>
+LaneRotation<Dim> affine_spin(const LanePlace<Dim>& spread, const Derivative& derivative) {
+  const auto about = [&](std::size_t a, std::size_t b) {
+    return spread[a] * derivative(b, a) - spread[b] * derivative(a, b);
+  };
   if constexpr (Dim == 3) {
     return {about(1, 2), about(2, 0), about(0, 1)};
   } else {
-    return Rotation<2>(about(0, 1));
+    return {about(0, 1)};
   }
 }
 
 /// The diagonal of D_p: h^2/4, and h^2 s (1 - s) at a distance s h < h/2 from a wall. [m^2]
 template <int Dim>
-Vec<Dim> support_spread(const Grid<Dim>& grid, const Vec<Dim>& x) {
-  Vec<Dim> spread;
+LanePlace<Dim> support_spread(const Grid<Dim>& grid, const LanePlace<Dim>& x) {
+  LanePlace<Dim> spread;
   for (int d = 0; d < Dim; ++d) {
-    const double to_wall = std::max(0.0, std::min(x[d] - grid.low[d], grid.high[d] - x[d]));
-    const bool at_wall = !grid.periodic[static_cast<std::size_t>(d)] && to_wall < 0.5 * grid.spacing;
-    spread[d] = at_wall ? to_wall * (grid.spacing - to_wall) : 0.25 * grid.spacing * grid.spacing;
+    const auto axis = static_cast<std::size_t>(d);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double to_wall = std::max(0.0, std::min(x[axis][lane] - grid.low[d], grid.high[d] - x[axis][lane]));
+      const bool at_wall = !grid.periodic[axis] && to_wall < 0.5 * grid.spacing;
+      spread[axis][lane] = at_wall ? to_wall * (grid.spacing - to_wall) : 0.25 * grid.spacing * grid.spacing;
+    }
   }
   return spread;
 }
 
 /// The same of the faces of a direction, along the other axes. [m^2]
 template <int Dim>
-Vec<Dim> face_spread(const Grid<Dim>& grid, const Splines<Dim>& splines, const Vec<Dim>& x) {
-  Vec<Dim> spread;
+LanePlace<Dim> face_spread(const Grid<Dim>& grid, const Splines<Dim>& splines, const LanePlace<Dim>& x) {
+  const double square = grid.spacing * grid.spacing;
+  LanePlace<Dim> spread;
   for (int d = 0; d < Dim; ++d) {
-    const SplineAxis& axis = splines.axis[static_cast<std::size_t>(d)];
-    const AxisPlace at = axis_place(axis, (x[d] - grid.low[d]) / grid.spacing);
-    spread[d] = grid.spacing * grid.spacing * polynomial<3>(axis.of_cell(at.cell).across_moment, at.xi);
+    const auto axis = static_cast<std::size_t>(d);
+    const SplineAxis& along = splines.axis[axis];
+    const Four r = (x[axis] - grid.low[d]) / grid.spacing;
+    const auto is_inner = [&](std::size_t lane) {
+      return r[lane] >= along.inner_cells()[0] && r[lane] < along.inner_cells()[1];
+    };
+    if (is_inner(0) && is_inner(1) && is_inner(2) && is_inner(3)) {
+      Four xi;
+      for (std::size_t lane = 0; lane < lanes; ++lane) xi[lane] = r[lane] - static_cast<int>(r[lane]);
+      spread[axis] = square * polynomial<3>(along.of_cell(static_cast<int>(r[0])).across_moment, xi);
+      continue;
+    }
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const AxisPlace at = axis_place(along, r[lane]);
+      spread[axis][lane] = square * polynomial<3>(along.of_cell(at.cell).across_moment, at.xi);
+    }
   }
   return spread;
 }
@@ -147,17 +167,42 @@ void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Optional<Read<Spline
                                       Optional<Read<Ranks>> ranks, Write<measure::Momentum<Dim>> momentum) const {
   const Vec<Dim> centre = centre_of_mass<Dim>(m_p.span(), x_p.span(), ranks);
   const auto gradient = grad_v_p.span();
-  const auto spread_at = [&](const Vec<Dim>& x) {
+  const auto spread_at = [&](const LanePlace<Dim>& x) {
     return splines ? face_spread<Dim>(*grid, *splines, x) : support_spread<Dim>(*grid, x);
   };
-  *momentum = reduce_rows(
-      m_p.size(), measure::Momentum<Dim>{},
-      [&](std::size_t p) {
-        Rotation<Dim> spin = cross<Dim>(x_p[p] - centre, v_p[p]);
-        if (!gradient.empty()) spin += affine_spin<Dim>(spread_at(x_p[p]), gradient[p]);
-        return measure::Momentum<Dim>{m_p[p] * v_p[p], m_p[p] * spin};
-      },
-      add<Dim>);
+  const auto of_particles = [&](const Group& group) {
+    const Four last = of_group(group, [&](std::size_t p) { return m_p[p]; });
+    const Four m = of_lane >= static_cast<double>(group.count) ? Four{} : last;
+    LanePlace<Dim> x;
+    LanePlace<Dim> arm;
+    LanePlace<Dim> v;
+    for (int d = 0; d < Dim; ++d) {
+      const auto axis = static_cast<std::size_t>(d);
+      x[axis] = of_group(group, [&](std::size_t p) { return x_p[p][d]; });
+      v[axis] = of_group(group, [&](std::size_t p) { return v_p[p][d]; });
+      arm[axis] = x[axis] - centre[d];
+    }
+    LaneRotation<Dim> spin = cross<Dim>(arm, v);
+    if (!gradient.empty()) {
+      const auto affine = affine_spin<Dim>(spread_at(x), [&](std::size_t a, std::size_t b) {
+        return of_group(group, [&](std::size_t p) {
+          return gradient[p](static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+        });
+      });
+      for (std::size_t k = 0; k < spin.size(); ++k) spin[k] += affine[k];
+    }
+    measure::Momentum<Dim> sum;
+    for (std::size_t d = 0; d < Dim; ++d) sum.linear[static_cast<Eigen::Index>(d)] = sum_of_lanes(m * v[d]);
+    for (std::size_t k = 0; k < spin.size(); ++k) sum.angular[static_cast<Eigen::Index>(k)] = sum_of_lanes(m * spin[k]);
+    return sum;
+  };
+  const std::size_t particles = m_p.size();
+  *momentum = reduce_rows((particles + lanes - 1) / lanes, measure::Momentum<Dim>{},
+                          [&](std::size_t group) {
+                            const std::size_t first = lanes * group;
+                            return of_particles({first, std::min(lanes, particles - first)});
+                          },
+                          add<Dim>);
   add_up_on_all<Dim>(ranks, momentum->linear);
   add_up_on_all<rotations<Dim>>(ranks, momentum->angular);
 }
