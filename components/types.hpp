@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace minamo {
@@ -48,6 +49,15 @@ template <int Dim>
 Vec<Dim> vec_of(const std::vector<double>& numbers) {
   return Eigen::Map<const Vec<Dim>>(numbers.data());
 }
+
+/// A box with sides along the axes, infinite unless told. [m]
+template <int Dim>
+struct Bounds {
+  Vec<Dim> low = Vec<Dim>::Constant(-std::numeric_limits<double>::infinity());
+  Vec<Dim> high = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());
+
+  bool finite() const { return low.allFinite() && high.allFinite(); }
+};
 
 /// Nodes that carry a particle: 3 per direction.
 template <int Dim>

@@ -4,21 +4,11 @@
 
 #include "components/types.hpp"
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace minamo {
-
-/// A box with sides along the axes that a shape lies in; infinite where the shape is. [m]
-template <int Dim>
-struct Bounds {
-  Vec<Dim> low = Vec<Dim>::Constant(-std::numeric_limits<double>::infinity());
-  Vec<Dim> high = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());
-
-  bool finite() const { return low.allFinite() && high.allFinite(); }
-};
 
 /// The half space normal . x <= offset.
 template <int Dim>
