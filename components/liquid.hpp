@@ -108,7 +108,7 @@ struct SidesAround {
     return steps;
   }
   /// Places up to a step away along every axis, x fastest.
-  static constexpr std::array<std::size_t, power(3, Dim)> places_beside = [] {
+  static constexpr std::array<std::size_t, power(3, Dim)> adjacent_places = [] {
     std::array<std::size_t, power(3, Dim)> places{};
     for (std::size_t k = 0; k < places.size(); ++k) {
       std::size_t rest = k;

@@ -81,12 +81,12 @@ std::uint64_t GrowingGroup::add_name(const std::string& name) {
 }
 
 void GrowingGroup::add(const std::string& name, std::uint64_t address) {
-  Split beside = insert(*root_, {add_name(name), address});
-  if (!beside) return;
+  Split split = insert(*root_, {add_name(name), address});
+  if (!split) return;
   auto above = std::make_unique<Node>();
   above->level = root_->level + 1;
   above->children.push_back(std::move(root_));
-  above->children.push_back(std::move(beside));
+  above->children.push_back(std::move(split));
   root_ = std::move(above);
 }
 
@@ -118,9 +118,9 @@ GrowingGroup::Split GrowingGroup::insert_here(Node& node, const hdf5::Symbol& sy
 GrowingGroup::Split GrowingGroup::insert_below(Node& node, const hdf5::Symbol& symbol) const {
   std::size_t k = 0;
   while (k + 1 < node.children.size() && name_at(node.children[k]->last_name()) < name_at(symbol.name)) ++k;
-  Split beside = insert(*node.children[k], symbol);
-  if (!beside) return nullptr;
-  node.children.insert(node.children.begin() + static_cast<std::ptrdiff_t>(k + 1), std::move(beside));
+  Split split = insert(*node.children[k], symbol);
+  if (!split) return nullptr;
+  node.children.insert(node.children.begin() + static_cast<std::ptrdiff_t>(k + 1), std::move(split));
   auto upper = upper_half(node.children, 2 * hdf5::tree_k);
   if (upper.empty()) return nullptr;
   return std::make_unique<Node>(Node{.level = node.level, .symbols = {}, .children = std::move(upper)});

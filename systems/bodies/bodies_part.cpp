@@ -312,7 +312,7 @@ void add_bodies(SystemRegistry& registry) {
   registry.add<FindCutFriction>("find_cut_friction", OnRanks::own);
   registry.add<ExtendOldVelocity>("extend_old_velocity", OnRanks::own);
   registry.add<FindDivergenceAhead>("find_divergence_ahead", OnRanks::adds_up);
-  registry.add<FillBesideBodies>("fill_beside_bodies", OnRanks::own);
+  registry.add<FillNearBodies>("fill_near_bodies", OnRanks::own);
   registry.add<ContinueLiquid>("continue_liquid", OnRanks::exchanges);
   registry.add<FindUncutMass>("find_uncut_mass", OnRanks::exchanges);
   registry.add<FindAttachedMass>("find_attached_mass", OnRanks::own);

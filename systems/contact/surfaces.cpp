@@ -28,13 +28,13 @@ void FindSeparatingRows<Dim>::operator()(Read<BodySet<Dim>> set, Read<Splines<Di
   separating->rows.clear();
   for (std::size_t i = 0; i < site.size(); ++i) {
     if (!splines->has_multiplier(site[i])) continue;
-    bool is_beside = false;
+    bool is_adjacent = false;
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::int32_t above = neighbour[i][2 * d + 1];
-      is_beside = is_beside || separates(i, d);
-      is_beside = is_beside || (above != staggered::none && separates(static_cast<std::size_t>(above), d));
+      is_adjacent = is_adjacent || separates(i, d);
+      is_adjacent = is_adjacent || (above != staggered::none && separates(static_cast<std::size_t>(above), d));
     }
-    if (is_beside) separating->rows.push_back({static_cast<std::uint32_t>(i), released[i] != 0});
+    if (is_adjacent) separating->rows.push_back({static_cast<std::uint32_t>(i), released[i] != 0});
   }
 }
 
@@ -56,9 +56,9 @@ void FillEmptyFaces<Dim>::operator()(Read<staggered::Neighbour<Dim>> neighbour, 
         if ((known[i] >> d & 1) != 0) continue;
         double sum = 0;
         int count = 0;
-        for (const std::int32_t beside : neighbour[i]) {
-          if (beside == staggered::none || (known[static_cast<std::size_t>(beside)] >> d & 1) == 0) continue;
-          sum += v_f[static_cast<std::size_t>(beside)][d];
+        for (const std::int32_t adjacent : neighbour[i]) {
+          if (adjacent == staggered::none || (known[static_cast<std::size_t>(adjacent)] >> d & 1) == 0) continue;
+          sum += v_f[static_cast<std::size_t>(adjacent)][d];
           ++count;
         }
         if (count == 0) continue;

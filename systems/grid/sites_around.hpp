@@ -10,7 +10,7 @@ namespace minamo {
 
 /// The site next to one towards a side, 2 d below and 2 d + 1 above along axis d, if there is one.
 template <int Dim>
-std::optional<Index<Dim>> site_beside(const Splines<Dim>& splines, const Index<Dim>& site, std::size_t side) {
+std::optional<Index<Dim>> adjacent_site(const Splines<Dim>& splines, const Index<Dim>& site, std::size_t side) {
   Index<Dim> steps{};
   steps[side / 2] = side % 2 == 0 ? -1 : 1;
   return splines.site_at(site, steps);

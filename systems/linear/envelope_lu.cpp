@@ -36,14 +36,14 @@ bool EnvelopeLu::factorize() {
   for (std::size_t j = 0; j < first_.size(); ++j) {
     for (std::size_t i = first_[j]; i <= j; ++i) {
       Tile above = Tile::Zero();
-      Tile beside = Tile::Zero();
+      Tile sum = Tile::Zero();
       for (std::size_t k = std::max(first_[i], first_[j]); k < i; ++k) {
         above.noalias() += lower_[start_[i] + k].lazyProduct(upper_[start_[j] + k]);
-        beside.noalias() += lower_[start_[j] + k].lazyProduct(upper_[start_[i] + k]);
+        sum.noalias() += lower_[start_[j] + k].lazyProduct(upper_[start_[i] + k]);
       }
       upper_[start_[j] + i] -= above;
       Tile& tile = lower_[start_[j] + i];
-      tile = ((tile - beside) * upper_[start_[i] + i]).eval();
+      tile = ((tile - sum) * upper_[start_[i] + i]).eval();
     }
     Tile& diagonal = upper_[start_[j] + j];
     diagonal = diagonal.partialPivLu().inverse().eval();

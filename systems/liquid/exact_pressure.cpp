@@ -36,7 +36,7 @@ constexpr double as_full = 1e-12;
 
 /// The face of the same direction next to one, unless a thin wall parts them.
 template <int Dim>
-std::int32_t face_beside(const RowsOfSites<Dim>& of, std::size_t i, std::size_t d, std::size_t side) {
+std::int32_t adjacent_face(const RowsOfSites<Dim>& of, std::size_t i, std::size_t d, std::size_t side) {
   const std::int32_t j = of.neighbour[i][side];
   const bool is_parted = j != staggered::none && of.parts_faces(i, d, static_cast<std::size_t>(j), d);
   return is_parted ? staggered::none : j;
@@ -51,7 +51,7 @@ double stillness(const RowsOfSites<Dim>& of, std::span<const Vec<Dim>> m_f, std:
   for (std::size_t e = 0; e < Dim; ++e) {
     double most = 0;
     for (const std::size_t side : {2 * e, 2 * e + 1}) {
-      const std::int32_t j = face_beside(of, i, d, side);
+      const std::int32_t j = adjacent_face(of, i, d, side);
       if (j == staggered::none) continue;
       const auto other = static_cast<std::size_t>(j);
       if (m_f[other][axis] == 0) continue;
@@ -116,7 +116,7 @@ void FindPressureAcceleration<Dim>::operator()(
   const RowsOfSites<Dim> of{*mac.splines, *rows, mac.site.span(), mac.neighbour.span(), hiding(dry)};
   // What goes over rows axis by axis would depend on the order of the axes where a site has none.
   const auto is_at_edge =
-      near_any<Dim, 1>(of, [&](std::size_t i) { return of.lacks_one_beside(i) || of.is_near_thin_wall(i); });
+      near_any<Dim, 1>(of, [&](std::size_t i) { return of.lacks_neighbour(i) || of.is_near_thin_wall(i); });
   using Sums = typename face::PressureSums<Dim>::value_type;
   const std::vector<Sums> of_face(sums.begin(), sums.end());
   // Axis by axis over the faces next to a face, ...

@@ -305,7 +305,7 @@ bool is_detached(const Liquid<Dim>& of, std::size_t i, std::size_t d, const Inde
     return fill > unseen_fill || (liquid::is_cut(fill) && of.continued->wetness[*version] < dry);
   };
   if (lacks_particles(of.site[i], static_cast<std::int32_t>(i))) return true;
-  const auto below = site_beside(of.splines, of.site[i], 2 * d);
+  const auto below = adjacent_site(of.splines, of.site[i], 2 * d);
   return below && lacks_particles(*below, of.neighbour[i][2 * d]);
 }
 

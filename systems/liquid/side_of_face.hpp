@@ -13,7 +13,7 @@ template <int Dim>
 Index<Dim> side_of_face(const Splines<Dim>& splines, std::span<const Index<Dim>> site,
                         std::span<const typename staggered::Neighbour<Dim>::value_type> neighbour,
                         std::span<const double> open, std::size_t i, std::size_t d) {
-  const auto below = site_beside(splines, site[i], 2 * d);
+  const auto below = adjacent_site(splines, site[i], 2 * d);
   if (!below) return site[i];
   if (!splines.has_multiplier(site[i])) return *below;
   const std::int32_t row = neighbour[i][2 * d];

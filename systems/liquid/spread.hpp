@@ -29,14 +29,14 @@ struct RowsOfSites {
   /// Whether one parts a face of direction d from a face of direction e: all their sites.
   bool parts_faces(std::size_t i, std::size_t d, std::size_t j, std::size_t e) const {
     if (dry == nullptr) return false;
-    const auto below_i = site_beside(splines, site[i], 2 * d);
-    const auto below_j = site_beside(splines, site[j], 2 * e);
+    const auto below_i = adjacent_site(splines, site[i], 2 * d);
+    const auto below_j = adjacent_site(splines, site[j], 2 * e);
     return dry->parts(site[i], site[j]) && (!below_i || dry->parts(*below_i, site[j])) &&
            (!below_j || (dry->parts(site[i], *below_j) && (!below_i || dry->parts(*below_i, *below_j))));
   }
 
   /// Whether a site next to one has no row, though the grid goes on.
-  bool lacks_one_beside(std::size_t i) const {
+  bool lacks_neighbour(std::size_t i) const {
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (neighbour[i][side] == staggered::none && !splines.ends_at(site[i], side)) return true;
     }

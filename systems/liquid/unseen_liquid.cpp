@@ -263,7 +263,7 @@ void FindUnseenForce<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid,
         const auto u = unseen->rows.find(at);
         return u ? unseen->depth[*u] * cell_volume * mac.splines->widths(at) / mac.splines->axis[d].width(at[d]) : 0.0;
       };
-      const auto below = site_beside(*mac.splines, mac.site[i], 2 * d);
+      const auto below = adjacent_site(*mac.splines, mac.site[i], 2 * d);
       const double difference = (below ? of_multiplier(*below) : 0.0) - of_multiplier(mac.site[i]);
       if (difference == 0) continue;
       const double most = largest_force * volume[i][axis];

@@ -15,7 +15,7 @@ namespace {
 
 /// How far the box reaches to either side of a plane, the less of the two. [m]
 template <int Dim>
-double room_beside(const GridScene& grid, const Vec<Dim>& point, const Vec<Dim>& normal) {
+double room_around(const GridScene& grid, const Vec<Dim>& point, const Vec<Dim>& normal) {
   double below = 0;
   double above = 0;
   for (int d = 0; d < Dim; ++d) {
@@ -43,7 +43,7 @@ void read_plane(Input& input, const Scene& scene, typename Meters<Dim>::Meter& m
   meter.normal.stableNormalize();
   if (scene.grid.spacing == 0) return;  // the grid has problems of its own
   constexpr double least = 1e-3;        // of a cell: what passes sooner is at the side already
-  meter.width = std::min(scene.grid.spacing, room_beside<Dim>(scene.grid, meter.point, meter.normal));
+  meter.width = std::min(scene.grid.spacing, room_around<Dim>(scene.grid, meter.point, meter.normal));
   if (meter.width < least * scene.grid.spacing)
     input.problem("point", "the plane does not pass the inside of the box", "a plane with liquid on both sides of it");
 }

@@ -88,10 +88,10 @@ class KnownMultipliers {
 
 /// (E139)  The linear field nearest to the pressures of multipliers around a point, at the point.
 template <int Dim>
-class PressureBeside {
+class PressureNear {
  public:
-  PressureBeside(const Grid<Dim>& grid, const Splines<Dim>& splines, const KnownMultipliers<Dim>& known,
-                 const PlacedBodies<Dim>& bodies)
+  PressureNear(const Grid<Dim>& grid, const Splines<Dim>& splines, const KnownMultipliers<Dim>& known,
+               const PlacedBodies<Dim>& bodies)
       : grid_(grid), splines_(splines), known_(known), bodies_(bodies) {}
 
   /// Calls use(site) for the multipliers that the pressure at a point is made of.
@@ -186,7 +186,7 @@ struct Load {
 /// The multipliers that the pressures on all patches are made of.
 template <int Dim>
 std::vector<Index<Dim>> sites_of(const Patches<Dim>& patches, const PlacedBodies<Dim>& bodies,
-                                 const PressureBeside<Dim>& pressure) {
+                                 const PressureNear<Dim>& pressure) {
   std::vector<Index<Dim>> sites;
   for (const auto& patch : patches.patches) {
     for (const Piece<Dim>& piece : patch.pieces) {
@@ -219,7 +219,7 @@ void MeasurePatches<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
   const PlacedBodies<Dim> bodies(placement);
   const PlacedBodies<Dim> and_dry_sides(placement, dry ? &*dry : nullptr);
   KnownMultipliers<Dim> known(*rows, share.span(), p_l.span());
-  const PressureBeside<Dim> pressure(*grid, *splines, known, bodies);
+  const PressureNear<Dim> pressure(*grid, *splines, known, bodies);
   if (shared) known.share(*splines, sites_of<Dim>(*patches, bodies, pressure), *shared);
   // Where it is looked whether a piece is covered, before the surface.
   const double before = 0.01 * grid->spacing;

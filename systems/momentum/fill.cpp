@@ -113,8 +113,8 @@ void FindFill<Dim>::operator()(Read<Splines<Dim>> splines, Read<staggered::Site<
   const auto empty_room = [&](std::size_t i, std::size_t side) {
     const SplineAxis& along = splines->axis[side / 2];
     const int own = site[i][side / 2];
-    const int beside = along.periodic() ? own : own + (side % 2 == 0 ? -1 : 1);
-    return capacity[i] * along.width(beside) / along.width(own);
+    const int adjacent = along.periodic() ? own : own + (side % 2 == 0 ? -1 : 1);
+    return capacity[i] * along.width(adjacent) / along.width(own);
   };
   const auto neighbour_of = [&](std::size_t i, std::size_t side) {
     const std::int32_t j = neighbour[i][side];

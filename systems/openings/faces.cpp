@@ -211,7 +211,7 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
   for (std::size_t i = 0; shared && i < v_l.size(); ++i) {
     if (!shared->owns(i)) v_l[i] = 0;
   }
-  const auto is_beside = [&](const Index<Dim>& cell, std::size_t side) {
+  const auto is_adjacent = [&](const Index<Dim>& cell, std::size_t side) {
     return set->opens(side) && cell[side / 2] == (side % 2 == 0 ? 0 : grid->cells[side / 2] - 1);
   };
   // y_p is kept inside the box; how far outside a particle is tells where it would be.
@@ -226,7 +226,7 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
     constexpr int K = degree();
     for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
       bool is_at_end = false;
-      for (std::size_t side = 0; side < 2 * Dim; ++side) is_at_end = is_at_end || is_beside(cell.node, side);
+      for (std::size_t side = 0; side < 2 * Dim; ++side) is_at_end = is_at_end || is_adjacent(cell.node, side);
       if (!is_at_end) return;
       const CellFrame<Dim> frame(*grid, *splines, cell.node);
       const std::uint32_t* rows = sites->of(c);
@@ -238,7 +238,7 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
           std::array<std::optional<double>, 2> s;
           for (const std::size_t end : {0, 1}) {
             const std::size_t side = 2 * e + end;
-            if (is_beside(cell.node, side) && set->at(*grid, *splines, side, y_p[p]) != no_opening)
+            if (is_adjacent(cell.node, side) && set->at(*grid, *splines, side, y_p[p]) != no_opening)
               s[end] = distance(p, side) / size;
           }
           weights[e] = end_weights<K>(*frame.splines[e], xi[static_cast<Eigen::Index>(e)], s);

@@ -90,9 +90,9 @@ class Columns {
       for (const std::size_t end : {0, 1}) {
         const double inside = end == 0 ? x[d] - grid_.low[d] : grid_.high[d] - x[d];
         if (inside > rounding * spacing_) continue;
-        const int beside = set.at(grid_, splines, 2 * e + end, x);
-        const bool is_own = beside != no_opening && set.openings[static_cast<std::size_t>(beside)].is_inflow()
-                                ? static_cast<int>(number) < beside
+        const int adjacent = set.at(grid_, splines, 2 * e + end, x);
+        const bool is_own = adjacent != no_opening && set.openings[static_cast<std::size_t>(adjacent)].is_inflow()
+                                ? static_cast<int>(number) < adjacent
                                 : inward_of(2 * e + end) * along[d] > 0;
         if (!is_own || inside < -rounding * spacing_) return false;
       }

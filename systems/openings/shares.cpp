@@ -14,7 +14,7 @@ constexpr int parts = Dim == 2 ? 32 : 8;
 
 /// How far next to a middle it is tried, on both sides, as a share of a part: of edges that lie on middles either side
 /// of the box has the half, whatever rounding says.
-constexpr double beside = 1e-6;
+constexpr double aside = 1e-6;
 
 /// Shares of a face that `where` and bodies leave.
 struct Tried {
@@ -48,7 +48,7 @@ Tried try_face(const Vec<Dim>& x, std::size_t axis, const std::optional<Expressi
     for (std::size_t e = 0; e < Dim; ++e) {
       const auto d = static_cast<Eigen::Index>(e);
       if (e == axis) continue;
-      const double place = 0.5 + (tries[e] % 2 == 0 ? -beside : beside);
+      const double place = 0.5 + (tries[e] % 2 == 0 ? -aside : aside);
       at[d] += width[d] * (tries[e] / 2 + place) / parts<Dim>;
       const double length = grid.high[d] - grid.low[d];
       if (grid.periodic[e]) at[d] -= length * std::floor((at[d] - grid.low[d]) / length);
@@ -67,8 +67,8 @@ Tried try_face(const Vec<Dim>& x, std::size_t axis, const std::optional<Expressi
 
 /// Whether a wall next to an opening holds a face across it, as no-slip walls do.
 template <int Dim>
-bool is_held_beside(const Sides<Dim>& sides, const OpeningSet<Dim>& set, std::size_t own, const Index<Dim>& site,
-                    std::size_t d) {
+bool is_held_next_to(const Sides<Dim>& sides, const OpeningSet<Dim>& set, std::size_t own, const Index<Dim>& site,
+                     std::size_t d) {
   for (std::size_t side = 0; side < 2 * Dim; ++side) {
     const std::size_t e = side / 2;
     if (side == own || e == d || sides.splines.axis[e].periodic()) continue;
@@ -107,7 +107,7 @@ void find_shares(OpeningSet<Dim>& set, const std::vector<std::optional<Expressio
       if (!opening.is_prescribed()) share = share >= least_of_outflow ? 1 : 0;
       open += share;
       if (share == 0) continue;
-      if (is_held_beside<Dim>(sides, set, opening.side, site, axis)) {
+      if (is_held_next_to<Dim>(sides, set, opening.side, site, axis)) {
         opening.held[k] = share;
         continue;
       }

@@ -170,10 +170,10 @@ class PressureMass {
       double rooms = 2 * room;
       for (std::size_t side = 0; side < 2 * Dim; ++side) {
         if (splines_.ends_at(site[i], side)) continue;
-        const auto j = rows.find(*site_beside(splines_, site[i], side));
-        const double beside = j ? cell_volume * splines_.widths(site[*j]) : room;
-        if (j) filled += std::min(volume_[*j], crowded_from * beside);
-        rooms += beside;
+        const auto j = rows.find(*adjacent_site(splines_, site[i], side));
+        const double adjacent = j ? cell_volume * splines_.widths(site[*j]) : room;
+        if (j) filled += std::min(volume_[*j], crowded_from * adjacent);
+        rooms += adjacent;
       }
       fill[i] = std::max(fill[i], filled / rooms);
     }

@@ -79,7 +79,7 @@ class PressureOfFewParticles {
     constexpr double few = 0.75;
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (!splines_.ends_at(site_[i], side)) continue;
-      const auto j = beside(i, side ^ 1);
+      const auto j = adjacent(i, side ^ 1);
       if (j && volume_[i] / whole_volume(i) < few * std::min(1.0, volume_[*j] / whole_volume(*j))) return true;
     }
     return false;
@@ -97,16 +97,16 @@ class PressureOfFewParticles {
   }
   double whole_volume(std::size_t i) const { return cell_volume_ * splines_.widths(site_[i]); }
   bool is_inside(std::size_t i) const { return lumped_[i] == 0 && open_share(i) < inside_below; }
-  std::optional<std::uint32_t> beside(std::size_t i, std::size_t side) const {
+  std::optional<std::uint32_t> adjacent(std::size_t i, std::size_t side) const {
     if (splines_.ends_at(site_[i], side)) return {};
-    return rows_.find(*site_beside(splines_, site_[i], side));
+    return rows_.find(*adjacent_site(splines_, site_[i], side));
   }
   /// phi_l of (E86), as far as the sites around have particles; the multiplier itself counts `own` times.
   double filled_share(std::size_t i, double own) const {
     double filled = own * volume_[i];
     double open = own * open_share(i) * whole_volume(i);
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
-      const auto j = beside(i, side);
+      const auto j = adjacent(i, side);
       if (!j) continue;
       filled += volume_[*j];
       open += open_share(*j) * whole_volume(*j);
@@ -120,7 +120,7 @@ class PressureOfFewParticles {
     double least = open_share(i) < telling_from ? 1 : filled_share(i, 2);
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines_.ends_at(site_[i], side)) continue;
-      const auto j = beside(i, side);
+      const auto j = adjacent(i, side);
       if (!j || open_share(*j) < telling_from) continue;
       least = std::min(least, open_share(*j) == 1 ? volume_[*j] / whole_volume(*j) : filled_share(*j, 2));
     }

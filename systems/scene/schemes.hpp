@@ -61,7 +61,7 @@ struct RepeatsBalances {
 /// What an integrator asks of the start and of the transfer.
 struct IntegratorNeeds {
   /// The system that configures standing steps for what particles carry of the step before.
-  std::string configure_beside;
+  std::string also_configured;
   /// Whether velocity gradients move on with their particles, (E62): not where the weights lag behind by a step.
   bool gradients_move = true;
 };

@@ -35,7 +35,7 @@ struct SimplexOfBox {
 inline constexpr int divisions_of_box = 2;
 
 /// Two divisions of a square or a cube, each along the diagonals of its faces that the other leaves: together they
-/// prefer no diagonal. Beside each other, those of the one kind fit those of the other.
+/// prefer no diagonal. Next to each other, those of the one kind fit those of the other.
 template <int Dim>
 constexpr auto symmetric_simplices_of_box() {
   if constexpr (Dim == 2) {

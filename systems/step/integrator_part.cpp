@@ -14,13 +14,13 @@ namespace minamo {
 namespace {
 
 Contribution read_midpoint(Input&, Scene& scene) {
-  scene.facts.set(IntegratorNeeds{.configure_beside = "place_quadrature_step_ahead", .gradients_move = true});
+  scene.facts.set(IntegratorNeeds{.also_configured = "place_quadrature_step_ahead", .gradients_move = true});
   return {};
 }
 
 Contribution read_newmark(Input& input, Scene& scene) {
   // The weights lag behind by more than what moving gradients mend.
-  scene.facts.set(IntegratorNeeds{.configure_beside = "place_quadrature_step_before", .gradients_move = false});
+  scene.facts.set(IntegratorNeeds{.also_configured = "place_quadrature_step_before", .gradients_move = false});
   NewmarkParameters parameters;
   parameters.beta = input.number("beta", {.doc = "Newmark's beta", .fallback = 0.25, .at_most = 0.5, .above = 0});
   parameters.gamma = input.number("gamma", {.doc = "Newmark's gamma", .fallback = 0.5, .at_least = 0.5, .at_most = 1});

@@ -67,7 +67,7 @@ std::vector<System> make_start(const Scene& scene, const ForceWork& work) {
     if (!holds(row.all, scene)) continue;
     std::vector<System> after;
     for (const std::string& system : row.after) append(after, systems_named(scene, system, When::standing));
-    stand(recipe.make(scene.facts.get<IntegratorNeeds>().configure_beside), after);
+    stand(recipe.make(scene.facts.get<IntegratorNeeds>().also_configured), after);
   }
   for (const Recipe::StandingStep& step : recipe.standing_steps()) stand(step.configure, step.after);
   // The pressure that the first frame shows.

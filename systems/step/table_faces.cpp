@@ -69,7 +69,7 @@ const StepTable& table_of_faces() {
 
               {"material", "find_fill"},
               {"material", "shear_particles", both, {shear_dependent}},
-              {"material", "fill_beside_bodies", both, {bodies}},
+              {"material", "fill_near_bodies", both, {bodies}},
               {"material", "find_divergence_ahead", both, {bodies}},
               {"material", "find_uncut_mass", both, {bodies}},
               {"material", "find_attached_mass", both, {bodies}},
@@ -91,7 +91,7 @@ const StepTable& table_of_faces() {
               {"assemble", "find_unseen_force", both, {exact, no_bodies}},
               {"assemble", "add_exact_pressure", both, {exact}},
               {"assemble", "assemble_multipliers"},
-              {"assemble", "<cell_viscosity>", both, {viscous}},  // behind fill_beside_bodies
+              {"assemble", "<cell_viscosity>", both, {viscous}},  // behind fill_near_bodies
               {"assemble", "rub_faces", both, {explicit_viscosity}},
               {"assemble", "add_face_inertia", both, {inertia}},
               {"assemble", "add_surface_tension", both, {surface_tension}},

@@ -96,8 +96,8 @@ SurfaceCube<Dim>::SurfaceCube(const SurfaceLattice<Dim>& lattice, std::span<cons
   }
   is_cut_ = false;
   for (const Node& node : node_) is_cut_ = is_cut_ || (node.psi > 0) != (node_[0].psi > 0);
-  is_beside_wall_ = (node_[0].on | node_[corners - 1].on) != 0;
-  if (!is_cut_ && !is_beside_wall_ && bodies == nullptr) return;
+  meets_wall_ = (node_[0].on | node_[corners - 1].on) != 0;
+  if (!is_cut_ && !meets_wall_ && bodies == nullptr) return;
   for (Node& node : node_) node.x = lattice.place(node.at);
   if (bodies != nullptr) find_bodies(*bodies);
 }
@@ -115,7 +115,7 @@ void SurfaceCube<Dim>::find_bodies(const SurfaceBodies<Dim>& bodies) {
 
 template <int Dim>
 void SurfaceCube<Dim>::add_to(Piece& piece) const {
-  if (is_beside_wall_) add_wetted(piece);
+  if (meets_wall_) add_wetted(piece);
   if (!is_cut_ && !has_body_) return;
   if constexpr (Dim == 2) {
     // Along the higher diagonal, as in the mirror. What lies along the one or the other changes from one to the other

@@ -7,7 +7,7 @@
 #include "components/surface_tension.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/shapes/simplices.hpp"
-#include "systems/surface_tension/beside_bodies.hpp"
+#include "systems/surface_tension/near_bodies.hpp"
 #include "systems/surface_tension/surface_lattice.hpp"
 
 namespace minamo {
@@ -97,7 +97,7 @@ class SurfaceCube {
 
   std::array<Node, corners> node_;
   bool is_cut_;
-  bool is_beside_wall_;
+  bool meets_wall_;
   bool has_body_ = false;  ///< whether a node lies in a body
   std::int32_t body_ = staggered::none;
   double cosine_of_body_ = 0;

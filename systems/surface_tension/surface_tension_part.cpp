@@ -2,8 +2,8 @@
 #include "systems/ranks/ghost_cells.hpp"
 #include "systems/scene/parts.hpp"
 #include "systems/scene/schemes.hpp"
-#include "systems/surface_tension/beside_bodies.hpp"
 #include "systems/surface_tension/free_surface.hpp"
+#include "systems/surface_tension/near_bodies.hpp"
 #include "systems/surface_tension/tension.hpp"
 
 #include <spdlog/fmt/fmt.h>

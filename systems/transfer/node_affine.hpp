@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// APIC's affine part of a nodal field, C_p of (E45), from its gradient and second derivatives; and what it has besides
-/// the gradient: the part of a grid's angular momentum that a scheme which carries the gradient would lose.
+/// APIC's affine part of a nodal field, C_p of (E45), from its gradient and second derivatives; and what it has in
+/// addition to the gradient: the part of a grid's angular momentum that a scheme which carries the gradient would lose.
 ///
 /// (E71)  C_p - grad v_p = sum_d T_d/(2 D_d) d_d^2 v (x) e_d, D_d = h^2/4 the second and T_d = h^3 (xi_d/4 - xi_d^3)
 /// the third moment of the weights along an axis, h xi from the middle of the dual cell to the particle. Ours. In the

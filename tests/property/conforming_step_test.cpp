@@ -300,11 +300,11 @@ TEST_CASE("a gap between particles is no surface, a hole is one", "[property]") 
   CHECK(least[middle] < 0.85);
   // Next to the surface none counts as full.
   const auto phi = world.column<multiplier::FillFraction>();
-  const auto is_beside_air = [&](std::int32_t j) {
+  const auto is_next_to_air = [&](std::int32_t j) {
     return j != staggered::none && capacity[static_cast<std::size_t>(j)] > 0 && phi[static_cast<std::size_t>(j)] < 0.6;
   };
   for (std::size_t i = 0; i < phi.size(); ++i) {
-    if (std::any_of(neighbour[i].begin(), neighbour[i].end(), is_beside_air)) CHECK(least[i] < 0.9);
+    if (std::any_of(neighbour[i].begin(), neighbour[i].end(), is_next_to_air)) CHECK(least[i] < 0.9);
   }
 }
 

@@ -17,7 +17,7 @@ using scene_run::SceneRun;
 namespace {
 
 /// A square of 1 m with cells of 5 cm and a layer of liquid; gaps under 0.1 m are thin.
-Json beside_bodies(const std::string& bodies) {
+Json near_bodies(const std::string& bodies) {
   Json scene = Json::parse(R"({
     "dimension": 2, "grid": {"low": [0, 0], "high": [1, 1], "cells": [20, 20]},
     "fluid": {"density": 1000, "viscosity": 1e-3},
@@ -29,7 +29,7 @@ Json beside_bodies(const std::string& bodies) {
 
 /// The same with a third direction, 0.5 m and a gap under 0.1 m.
 Json around_bodies(const std::string& bodies) {
-  Json scene = beside_bodies(bodies);
+  Json scene = near_bodies(bodies);
   scene["dimension"] = 3;
   scene["grid"] = Json::parse(R"({"low": [0, 0, 0], "high": [0.5, 0.5, 0.5], "cells": [10, 10, 10]})");
   scene["particles"] = Json::parse(R"([{"shape": {"box": {"low": [0, 0, 0], "high": [0.5, 0.5, 0.1]}}}])");
@@ -45,7 +45,7 @@ std::vector<std::string> sentences_of(const Json& scene) {
 
 TEST_CASE("a thin gap between a body and a side is told with its place and width", "[unit]") {
   const auto found =
-      sentences_of(beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, 0.3], "high": [0.3, 0.5]}}}])"));
+      sentences_of(near_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, 0.3], "high": [0.3, 0.5]}}}])"));
   REQUIRE(found.size() == 1);
   CHECK_THAT(found[0], Contains("a gap of 0.02 m between body \"a\" and the low side of x at x = 0.01, y = 0."));
   CHECK_THAT(found[0], Contains("thinner than two cells, 0.1 m"));
@@ -53,7 +53,7 @@ TEST_CASE("a thin gap between a body and a side is told with its place and width
 
 TEST_CASE("a thin gap near a body that reaches through the sides is told", "[unit]") {
   const auto found =
-      sentences_of(beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, -1], "high": [0.3, 2]}}}])"));
+      sentences_of(near_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, -1], "high": [0.3, 2]}}}])"));
   const auto tells = [](const std::string& sentence) {
     return sentence.find("a gap of 0.02 m between body \"a\" and the low side of x at x = 0.01") != std::string::npos;
   };
@@ -66,20 +66,20 @@ TEST_CASE("a thin gap between two bodies is told once, a wide one not", "[unit]"
                            {{"name": "b", "shape": {{"box": {{"low": [{}, 0.3], "high": [0.8, 0.7]}}}}}}])",
                        x);
   };
-  const auto found = sentences_of(beside_bodies(bodies(0.46)));
+  const auto found = sentences_of(near_bodies(bodies(0.46)));
   REQUIRE(found.size() == 1);
   // The middle is at 0.43 to the distance of the samples.
   CHECK_THAT(found[0], Contains("a gap of 0.06 m") && Contains("between body \"a\" and \"b\" at x = 0.4"));
-  CHECK(sentences_of(beside_bodies(bodies(0.501))).empty());
+  CHECK(sentences_of(near_bodies(bodies(0.501))).empty());
 }
 
 TEST_CASE("a body in the place of another one is told once", "[unit]") {
   const std::string motion = GENERATE(R"("wall": "slip")", R"("motion": {"free": {"density": 500}})");
   const double radius = GENERATE(0.1, 0.15);
   const auto found = sentences_of(
-      beside_bodies(fmt::format(R"([{{"name": "a", "shape": {{"ball": {{"center": [0.5, 0.5], "radius": {}}}}}, {}}},
+      near_bodies(fmt::format(R"([{{"name": "a", "shape": {{"ball": {{"center": [0.5, 0.5], "radius": {}}}}}, {}}},
                       {{"name": "b", "shape": {{"ball": {{"center": [0.5, 0.5], "radius": 0.1}}}}, {}}}])",
-                                radius, motion, motion)));
+                              radius, motion, motion)));
   REQUIRE(found.size() == 1);
   CHECK_THAT(found[0], Contains("body \"b\" lies in the place of \"a\""));
 }
@@ -98,11 +98,11 @@ TEST_CASE("where bodies touch, stand on each other, reach through a side or meet
           {"name": "b", "shape": {"box": {"low": [0.35, 0.3], "high": [0.5, 0.5]}}},
           {"name": "between", "shape": {"box": {"low": [0.29, 0.25], "high": [0.36, 0.55]}}}])");
   CAPTURE(bodies);
-  for (const auto& sentence : sentences_of(beside_bodies(bodies))) CHECK_THAT(sentence, !Contains("gap"));
+  for (const auto& sentence : sentences_of(near_bodies(bodies))) CHECK_THAT(sentence, !Contains("gap"));
 }
 
 TEST_CASE("a side that is periodic has no gap next to it", "[unit]") {
-  Json scene = beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [-1, 0.3], "high": [2, 0.5]}}}])");
+  Json scene = near_bodies(R"([{"name": "a", "shape": {"box": {"low": [-1, 0.3], "high": [2, 0.5]}}}])");
   scene["walls"] = Json::parse(R"({"x": "periodic"})");
   for (const auto& sentence : sentences_of(scene)) CHECK_THAT(sentence, !Contains("gap"));
 }
@@ -116,7 +116,7 @@ TEST_CASE("gaps in 3-D are found", "[unit]") {
 }
 
 TEST_CASE("a free body that overlaps a side or another body is told how deep", "[unit]") {
-  const auto found = sentences_of(beside_bodies(R"([
+  const auto found = sentences_of(near_bodies(R"([
     {"name": "log", "shape": {"box": {"low": [-0.02, 0.3], "high": [0.3, 0.5]}}, "motion": {"free": {"density": 500}}},
     {"name": "step", "shape": {"box": {"low": [0.27, 0.2], "high": [0.5, 0.6]}}}])"));
   REQUIRE(found.size() == 2);
@@ -130,10 +130,10 @@ TEST_CASE("bodies at rest that overlap are told which, how deep and where; those
                            {{"name": "b", "shape": {{"box": {{"low": [{}, 0.2], "high": [0.8, 0.7]}}}}}}])",
                        x);
   };
-  const auto found = sentences_of(beside_bodies(bodies(0.47)));
+  const auto found = sentences_of(near_bodies(bodies(0.47)));
   REQUIRE(found.size() == 1);
   CHECK_THAT(found[0], Contains("body \"a\" overlaps \"b\" by 0.03 m at the start, at x = 0."));
-  CHECK(sentences_of(beside_bodies(bodies(0.5))).empty());
+  CHECK(sentences_of(near_bodies(bodies(0.5))).empty());
 }
 
 TEST_CASE("bodies in 3-D that overlap are told", "[unit]") {
@@ -149,13 +149,13 @@ TEST_CASE("bodies in 3-D that overlap are told", "[unit]") {
 
 TEST_CASE("liquid that bodies take the place of is told by its volume", "[unit]") {
   const std::string bodies = R"([{"name": "a", "shape": {"box": {"low": [0.3, -0.1], "high": [0.5, 0.04]}}}])";
-  CHECK(sentences_of(beside_bodies(bodies)) ==
+  CHECK(sentences_of(near_bodies(bodies)) ==
         std::vector<std::string>{"bodies take the place of 0.008 m^2 of the liquid, 8 %, which is cut away"});
 }
 
 TEST_CASE("check and run warn of bodies, and still run", "[scene]") {
   const Folder folder;
-  Json scene = beside_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, 0.3], "high": [0.3, 0.5]}}}])");
+  Json scene = near_bodies(R"([{"name": "a", "shape": {"box": {"low": [0.02, 0.3], "high": [0.3, 0.5]}}}])");
   scene["time"] = Json::parse(R"({"end": 0.002, "step": 1e-3})");
   std::ofstream(folder / "a.json") << scene.dump();
   const auto checked = output_of_program(folder / "", {"check", "a.json"});
@@ -189,8 +189,8 @@ TEST_CASE("a mesh whose triangles turn inward is told once, by check and by run"
 
 TEST_CASE("a thin wall is told once, with its place, if it is wet on both sides", "[unit]") {
   const auto wall = [](double thickness) {
-    return beside_bodies(fmt::format(
-        R"([{{"name": "wall", "shape": {{"box": {{"low": [0.5, -1], "high": [{}, 2]}}}}}}])", 0.5 + thickness));
+    return near_bodies(fmt::format(R"([{{"name": "wall", "shape": {{"box": {{"low": [0.5, -1], "high": [{}, 2]}}}}}}])",
+                                   0.5 + thickness));
   };
   const auto of_wall = [](const Json& scene) {
     auto found = sentences_of(scene);

@@ -7,9 +7,9 @@
 #include "components/surface_tension.hpp"
 #include "systems/grid/quadratic_spline.hpp"
 #include "systems/step/time_plan.hpp"
-#include "systems/surface_tension/beside_bodies.hpp"
 #include "systems/surface_tension/capillary_step.hpp"
 #include "systems/surface_tension/free_surface.hpp"
+#include "systems/surface_tension/near_bodies.hpp"
 #include "systems/surface_tension/surface_cube.hpp"
 #include "systems/surface_tension/tension.hpp"
 

@@ -257,12 +257,12 @@ TEST_CASE("near a body the fill is that of the open volumes around, at a side, t
     double filled = 2 * volume[i];
     double open = 2 * room(open_volume, site);
     for (std::size_t side = 0; side < 4; ++side) {
-      const auto beside = site_beside(splines, site, side);
-      if (!beside || !splines.has_multiplier(*beside)) continue;
+      const auto adjacent = adjacent_site(splines, site, side);
+      if (!adjacent || !splines.has_multiplier(*adjacent)) continue;
       const std::int32_t j = world.column<staggered::Neighbour<2>>()[i][side];
       if (j != staggered::none) filled += volume[static_cast<std::size_t>(j)];
-      open += room(open_volume, *beside);
-      at_side += j == staggered::none && splines.widths(*beside) < 1 && room(open_volume, *beside) > 0;
+      open += room(open_volume, *adjacent);
+      at_side += j == staggered::none && splines.widths(*adjacent) < 1 && room(open_volume, *adjacent) > 0;
     }
     CHECK(world.column<multiplier::FillFraction>()[i] == Approx(filled / open).epsilon(5e-3));
   }

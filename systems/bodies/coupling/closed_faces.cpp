@@ -10,8 +10,8 @@ namespace {
 
 /// The body that a face is closed by, or that liquid is attached to there; -1: none.
 template <int Dim>
-int body_beside(const typename face::AttachedTo<Dim>::value_type& attached,
-                const typename face::Closer<Dim>::value_type& closer, std::size_t d) {
+int adjacent_body(const typename face::AttachedTo<Dim>::value_type& attached,
+                  const typename face::Closer<Dim>::value_type& closer, std::size_t d) {
   if (attached[d] >= 0) return attached[d];
   return closer[d][1] >= 0 ? closer[d][1] : closer[d][0];
 }
@@ -40,9 +40,9 @@ void CountClosedFaces<Dim>::operator()(
   // Particles got momentum at a face; what moves with the body (E94) is part of its force already.
   const auto give = [&](std::size_t i, std::size_t d, double momentum) {
     if (!owns(of_ranks(shared), i)) return;
-    const int beside = body_beside<Dim>(attached_to[i], closer[i], d);
-    if (beside < 0 || !counts<Dim>(set->bodies[static_cast<std::size_t>(beside)])) return;
-    const auto b = static_cast<std::size_t>(beside);
+    const int adjacent = adjacent_body<Dim>(attached_to[i], closer[i], d);
+    if (adjacent < 0 || !counts<Dim>(set->bodies[static_cast<std::size_t>(adjacent)])) return;
+    const auto b = static_cast<std::size_t>(adjacent);
     const auto axis = static_cast<Eigen::Index>(d);
     const Vec<Dim> r = places.face(site[i], d) - c_b[b];
     const Vec<Dim> change = rigid_velocity(V_b[b], omega_b[b], r) - rigid_velocity(V_old[b], omega_old[b], r);
@@ -62,8 +62,8 @@ void CountClosedFaces<Dim>::operator()(
   for (std::size_t i = 0; i < site.size(); ++i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
-      const bool is_beside = open_volume[i][axis] != 1 || open[i][axis] != 1;
-      if (!is_beside || (done[i] >> d & 1) != 0 || mobility[i][axis] == 0) continue;
+      const bool is_adjacent = open_volume[i][axis] != 1 || open[i][axis] != 1;
+      if (!is_adjacent || (done[i] >> d & 1) != 0 || mobility[i][axis] == 0) continue;
       const double in_balance = open[i][axis] / mobility[i][axis];
       give(i, d, (m_f[i][axis] - in_balance) * (v_new[i][axis] - v_old[i][axis]));
     }

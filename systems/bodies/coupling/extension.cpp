@@ -94,7 +94,7 @@ void fit(const Around<Dim>& around, std::span<double> weight) {
 /// The same for the linear function that is zero at a place on the wall, with weights 1/r^2: no face alone decides.
 /// \param wall  its offset, in units of h
 template <int Dim>
-void fit_beside_wall(const Around<Dim>& around, const Vec<Dim>& wall, std::span<double> weight) {
+void fit_near_wall(const Around<Dim>& around, const Vec<Dim>& wall, std::span<double> weight) {
   Mat<Dim> normal = Mat<Dim>::Zero();
   double sum = 0;
   for (std::size_t k = 0; k < around.count; ++k) {
@@ -205,13 +205,13 @@ class FacesOnSide {
   /// from both sides, at the end of a wall.
   bool is_of_one_side(std::size_t row, const Index<Dim>& site, std::size_t d) const {
     if (hidden_.seen_from(HiddenSites::face(row, d)).empty()) return hidden_.is_hidden(row);
-    const auto below = site_beside(splines_, site, 2 * d);
+    const auto below = adjacent_site(splines_, site, 2 * d);
     const auto lower = below ? rows_.find(*below) : std::nullopt;
     return !lower || !hidden_.sees(HiddenSites::face(*rows_.find(site), d), *lower) || !dry_.parts(site, *below);
   }
   /// Whether no wall parts an open face from the closed one of a row.
   bool has(std::size_t row, const Index<Dim>& site, const Index<Dim>& open, std::size_t d) const {
-    const auto below = site_beside(splines_, open, 2 * d);
+    const auto below = adjacent_site(splines_, open, 2 * d);
     const bool by_particles = is_of_one_side(row, site, d);
     const auto is_seen = [&](const Index<Dim>& other) {
       return by_particles ? is_seen_by_particles(HiddenSites::face(row, d), other) : is_seen_from(site, other, d);
@@ -219,7 +219,7 @@ class FacesOnSide {
     return is_seen(open) || (below && is_seen(*below));
   }
   bool is_parted(std::size_t row, const Index<Dim>& site, std::size_t d) const {
-    const auto below = site_beside(splines_, site, 2 * d);
+    const auto below = adjacent_site(splines_, site, 2 * d);
     return hidden_.is_hidden(row) || (below && dry_.parts(site, *below));
   }
 
@@ -230,7 +230,7 @@ class FacesOnSide {
   }
   /// From any of the two sites of a face.
   bool is_seen_from(const Index<Dim>& site, const Index<Dim>& other, std::size_t d) const {
-    const auto below = site_beside(splines_, site, 2 * d);
+    const auto below = adjacent_site(splines_, site, 2 * d);
     return !dry_.parts(site, other) || (below && !dry_.parts(*below, other));
   }
 
@@ -336,7 +336,7 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
     if (target.sticks) {
       const auto b = static_cast<std::size_t>(wall);
       const Vec<Dim> y = nearest_of_surface<Dim>(*placement.set->bodies[b].shape, walls.bodies.placement(b), x);
-      fit_beside_wall<Dim>(around, (y - x) / grid->spacing, weight);
+      fit_near_wall<Dim>(around, (y - x) / grid->spacing, weight);
     } else if (around.count > 0) {
       fit<Dim>(around, weight);
     } else {

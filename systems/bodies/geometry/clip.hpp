@@ -80,14 +80,14 @@ double open_piece(const Vec<3>& low, const Vec<3>& along, const Vec<3>& across, 
   const Vec<3> e = 0.5 * along;
   const Vec<3> f = 0.5 * across;
   const double below = distance(low + e);
-  const double beside = distance(low + along + f);
+  const double adjacent = distance(low + along + f);
   const double above = distance(low + e + across);
   const double before = distance(low + f);
   const double middle = distance(low + e + f);
   const int left = more_halvings - 1;
   return 0.25 * (open_piece(low, e, f, {around[0], below, middle, before}, left, distance) +
-                 open_piece(low + e, e, f, {below, around[1], beside, middle}, left, distance) +
-                 open_piece(low + e + f, e, f, {middle, beside, around[2], above}, left, distance) +
+                 open_piece(low + e, e, f, {below, around[1], adjacent, middle}, left, distance) +
+                 open_piece(low + e + f, e, f, {middle, adjacent, around[2], above}, left, distance) +
                  open_piece(low + f, e, f, {before, middle, above, around[3]}, left, distance));
 }
 

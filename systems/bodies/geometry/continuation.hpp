@@ -103,8 +103,9 @@ class Continuation {
       for_each_site_around<Dim, Around::reach>(of.splines, wanted.site[c], [&](const auto& site, const auto& steps) {
         Teller& one = tellers_[v][*Around::place(steps)];
         one = teller(site, view, find, find_told);
-        const bool is_beside = std::all_of(steps.begin(), steps.end(), [](int along) { return std::abs(along) <= 1; });
-        one.is_empty = one.is_empty && is_beside;  // farther away it tells nothing
+        const bool is_adjacent =
+            std::all_of(steps.begin(), steps.end(), [](int along) { return std::abs(along) <= 1; });
+        one.is_empty = one.is_empty && is_adjacent;  // farther away it tells nothing
       });
     });
     find_empty();
@@ -164,7 +165,7 @@ class Continuation {
     SiteRows<Dim> empty;
     empty.start(of_.splines.sites());
     const auto for_each_empty = [&](std::size_t v, const auto& use) {
-      for (const std::size_t place : Around::places_beside) {
+      for (const std::size_t place : Around::adjacent_places) {
         if (tellers_[v][place].is_empty) use(tellers_[v][place], site_of(v, place));
       }
     };
@@ -191,7 +192,7 @@ class Continuation {
         rows_at_surface_.push_back(i);
       }
     }
-    beside_row_.resize(rows_at_surface_.size());
+    tellers_of_row_.resize(rows_at_surface_.size());
     for_each_row(rows_at_surface_.size(), [&](std::size_t r) {
       const Index<Dim>& site = of_.site[rows_at_surface_[r]];
       const SideView<Dim> view(of_.splines, wanted_, site);
@@ -199,7 +200,7 @@ class Continuation {
       Finder find_told(wanted_.rows);
       std::size_t k = 0;
       for_each_site_around<Dim, 1>(of_.splines, site, [&](const Index<Dim>& other, const auto&) {
-        Teller& one = beside_row_[r][k++];
+        Teller& one = tellers_of_row_[r][k++];
         one = teller(other, view, find, find_told);
         one.is_empty = one.is_empty && is_open(other);
       });
@@ -247,7 +248,7 @@ class Continuation {
     };
     is_row_at_surface_.resize(rows_at_surface_.size());
     for_each_row(rows_at_surface_.size(), [&](std::size_t r) {
-      is_row_at_surface_[r] = std::any_of(beside_row_[r].begin(), beside_row_[r].end(), [&](const Teller& one) {
+      is_row_at_surface_[r] = std::any_of(tellers_of_row_[r].begin(), tellers_of_row_[r].end(), [&](const Teller& one) {
         return is_other(one, of_.fill[rows_at_surface_[r]]);
       });
     });
@@ -255,7 +256,7 @@ class Continuation {
     for_each_row(told_.size(), [&](std::size_t v) {
       is_version_at_surface_[v] = 0;
       if (is_told_[v] == 0 || !liquid::is_cut(told_[v].fill) || told_[v].normal.squaredNorm() == 0) return;
-      const auto& places = Around::places_beside;
+      const auto& places = Around::adjacent_places;
       is_version_at_surface_[v] = std::any_of(
           places.begin(), places.end(), [&](std::size_t place) { return is_other(tellers_[v][place], told_[v].fill); });
     });
@@ -305,7 +306,7 @@ class Continuation {
   std::vector<std::array<Teller, Around::sites>> tellers_;  ///< by version and SidesAround::place()
   std::vector<std::size_t> rows_at_surface_;                ///< that tell
   std::vector<std::int32_t> place_of_row_;                  ///< among these, or none
-  std::vector<std::array<Teller, power(3, Dim)>> beside_row_;
+  std::vector<std::array<Teller, power(3, Dim)>> tellers_of_row_;
   std::vector<std::uint8_t> is_row_at_surface_;  ///< with what is told so far
   std::vector<std::uint8_t> is_version_at_surface_;
   std::vector<KnownLiquid<Dim>> told_;

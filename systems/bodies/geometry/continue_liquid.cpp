@@ -70,7 +70,7 @@ std::vector<double> list_cut_multipliers(const Splines<Dim>& splines, const Stag
                                          const OpenSites<Dim>& open_sites, ContinuedLiquid<Dim>& continued) {
   // Most rows have no body near, and all others around: only those next to some that have not are looked at.
   const RowsOfSites<Dim> all{splines, rows, site, neighbour};
-  const auto may_lack = [&](std::size_t i) { return open[i] < 1 || all.lacks_one_beside(i); };
+  const auto may_lack = [&](std::size_t i) { return open[i] < 1 || all.lacks_neighbour(i); };
   std::vector<double> is_near;
   with_degree(splines.degree, [&](auto degree) { is_near = near_any<Dim, degree()>(all, may_lack); });
   continued.rows.start(splines.sites());

@@ -20,10 +20,11 @@ void close_gaps(const SiteCuts<Dim>& cuts, std::span<const Index<Dim>> site,
     if (open[i][axis] == 0 || open[i][axis] >= sliver || open[i][axis] == cuts.by_resting(site[i]).open[axis])
       return false;
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
-      const auto beside = site_beside(splines, site[i], side);
-      if (side / 2 == d || !beside || !splines.has_face(*beside, d)) continue;
+      const auto adjacent = adjacent_site(splines, site[i], side);
+      if (side / 2 == d || !adjacent || !splines.has_face(*adjacent, d)) continue;
       const std::int32_t j = neighbour[i][side];
-      const double share = j == staggered::none ? cuts.at(*beside).open[axis] : open[static_cast<std::size_t>(j)][axis];
+      const double share =
+          j == staggered::none ? cuts.at(*adjacent).open[axis] : open[static_cast<std::size_t>(j)][axis];
       if (share >= sliver) return false;
     }
     return true;
@@ -52,7 +53,7 @@ SiteCut<Dim> SiteCuts<Dim>::cut_from(const Index<Dim>& site, const Distance& dis
   const bool hides_any = bodies_.dry() != nullptr && bodies_.dry()->hides_any();
   const auto at_face = [&](const Vec<Dim>& x, std::size_t d) {
     const double from_site = distance(x, site);
-    const auto below = hides_any ? site_beside(places_.splines(), site, 2 * d) : std::nullopt;
+    const auto below = hides_any ? adjacent_site(places_.splines(), site, 2 * d) : std::nullopt;
     return below ? std::max(from_site, distance(x, *below)) : from_site;
   };
   SiteCut<Dim> cut = cut_site<Dim>(
@@ -65,7 +66,7 @@ template <int Dim>
 void SiteCuts<Dim>::close_hidden(const Index<Dim>& site, SiteCut<Dim>& cut) const {
   if (bodies_.dry() == nullptr || !bodies_.dry()->hides_any()) return;
   for (std::size_t d = 0; d < Dim; ++d) {
-    const auto below = site_beside(places_.splines(), site, 2 * d);
+    const auto below = adjacent_site(places_.splines(), site, 2 * d);
     if (below && bodies_.dry()->parts(site, *below)) cut.open[static_cast<Eigen::Index>(d)] = 0;
   }
 }

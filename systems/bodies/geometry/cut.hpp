@@ -83,7 +83,7 @@ class SiteCuts {
 template <int Dim>
 template <class ShareOf>
 double SiteCuts<Dim>::open_volume(const Index<Dim>& site, std::size_t d, const ShareOf& share) const {
-  const auto below = site_beside(places_.splines(), site, 2 * d);
+  const auto below = adjacent_site(places_.splines(), site, 2 * d);
   if (!below) return share(site);
   if (site[d] >= places_.splines().axis[d].multipliers()) return share(*below);
   return 0.5 * (share(site) + share(*below));

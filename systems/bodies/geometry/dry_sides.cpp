@@ -91,7 +91,7 @@ void find_views(const ThinWalls<Dim>& walls, const Shape<Dim>& shape, const Plac
 
 /// Whether a wall parts a site from some of those around, but none of them from the next.
 template <int Dim>
-bool ends_beside(const DrySides<Dim>& dry, const Splines<Dim>& splines, const Index<Dim>& site) {
+bool ends_near(const DrySides<Dim>& dry, const Splines<Dim>& splines, const Index<Dim>& site) {
   std::array<std::optional<Index<Dim>>, power(3, Dim)> around;
   std::array<std::size_t, power(3, Dim)> side;
   for_each_support<Dim>([&](std::size_t k, Index<Dim> offset) {
@@ -163,7 +163,7 @@ void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
     dry->is_at_end.assign(rows_in<Dim>(dry->sites), 0);
     for_each_row(dry->is_at_end.size(), [&](std::size_t i) {
       const Index<Dim> site = index_in<Dim>(dry->sites, i);
-      if (dry->has_view(site)) dry->is_at_end[i] = ends_beside<Dim>(*dry, *splines, site) ? 1 : 0;
+      if (dry->has_view(site)) dry->is_at_end[i] = ends_near<Dim>(*dry, *splines, site) ? 1 : 0;
     });
   }
   if (at_rest->of.empty()) return;

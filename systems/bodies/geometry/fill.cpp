@@ -26,24 +26,23 @@ constexpr double inside_below = 1e-6;
 }  // namespace
 
 template <int Dim>
-void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
-                                       Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
-                                       Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
-                                       Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
-                                       Read<multiplier::OpenShare> share, Read<multiplier::Volume> v_l,
-                                       Read<multiplier::Capacity> capacity, Update<multiplier::FillFraction> phi,
-                                       Update<multiplier::FillAround> around,
-                                       Update<multiplier::LeastFill> least) const {
+void FillNearBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
+                                     Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
+                                     Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
+                                     Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
+                                     Read<multiplier::OpenShare> share, Read<multiplier::Volume> v_l,
+                                     Read<multiplier::Capacity> capacity, Update<multiplier::FillFraction> phi,
+                                     Update<multiplier::FillAround> around, Update<multiplier::LeastFill> least) const {
   const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
   const SiteCuts<Dim> cuts(*grid, *splines, *at_rest, bodies);
   const double cell_volume = std::pow(grid->spacing, Dim);
-  struct Beside {
+  struct Adjacent {
     Index<Dim> site;
     std::int32_t row;
     double share;  ///< of its volume, that bodies leave open
   };
-  const auto beside = [&](std::size_t i, std::size_t side) -> Beside {
-    const Index<Dim> at = *site_beside(*splines, site[i], side);
+  const auto adjacent = [&](std::size_t i, std::size_t side) -> Adjacent {
+    const Index<Dim> at = *adjacent_site(*splines, site[i], side);
     std::int32_t j = neighbour[i][side];
     if (hidden && j != staggered::none && hidden->has_faces_alone(static_cast<std::size_t>(j))) j = staggered::none;
     return {at, j,
@@ -53,7 +52,7 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
   const auto has_cut_empty = [&](std::size_t i) {
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
-      const Beside other = beside(i, side);
+      const Adjacent other = adjacent(i, side);
       if (other.row == staggered::none && other.share < 1) return true;
     }
     return false;
@@ -72,7 +71,7 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
     double open = 2 * capacity[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
-      const Beside other = beside(i, side);
+      const Adjacent other = adjacent(i, side);
       if (other.row == staggered::none) {
         open += cell_volume * other.share * splines->widths(other.site);
       } else {
@@ -90,7 +89,7 @@ void FillBesideBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> 
     least[i] = share[i] < telling_from ? 1 : around[i];
     for (std::size_t side = 0; side < 2 * Dim; ++side) {
       if (splines->ends_at(site[i], side)) continue;
-      const Beside other = beside(i, side);
+      const Adjacent other = adjacent(i, side);
       if (other.share < telling_from) continue;
       least[i] = std::min(least[i], other.row == staggered::none ? 0 : around[static_cast<std::size_t>(other.row)]);
     }
@@ -129,13 +128,13 @@ void FindUncutMass<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, U
   };
   const bool hides_any = dry && dry->hides_any();
   // None if a thin wall parts either of its sites from that of the face.
-  const auto face_beside = [&](std::size_t i, std::size_t side, const Index<Dim>& at, std::size_t d) {
+  const auto adjacent_face = [&](std::size_t i, std::size_t side, const Index<Dim>& at, std::size_t d) {
     const std::int32_t j = mac.neighbour[i][side];
     if (!hides_any || !dry->has_view(mac.site[i])) return j;
     const auto row = rows->find(at);
     if (!row || dry->parts(mac.site[i], at)) return staggered::none;
-    const auto below = site_beside(*mac.splines, mac.site[i], 2 * d);
-    const auto below_at = site_beside(*mac.splines, at, 2 * d);
+    const auto below = adjacent_site(*mac.splines, mac.site[i], 2 * d);
+    const auto below_at = adjacent_site(*mac.splines, at, 2 * d);
     if (below && below_at && dry->parts(*below, *below_at)) return staggered::none;
     return static_cast<std::int32_t>(*row);
   };
@@ -145,14 +144,14 @@ void FindUncutMass<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, U
       uncut[i][axis] = m_f[i][axis];
       if (open_volume[i][axis] == 1 || !mac.splines->has_face(mac.site[i], d)) continue;
       double open = open_liquid(i, d);
-      const double from_beside = std::max(0.0, 1 - open / enough_open);
-      for (std::size_t side = 0; side < 2 * Dim && from_beside > 0; ++side) {
-        const auto beside = site_beside(*mac.splines, mac.site[i], side);
-        if (side / 2 == d || !beside || !mac.splines->has_face(*beside, d)) continue;
-        const std::int32_t j = face_beside(i, side, *beside, d);
-        open += from_beside *
-                (j == staggered::none ? open_empty(i, *beside, d) : open_liquid(static_cast<std::size_t>(j), d));
-        uncut[i][axis] += j == staggered::none ? 0 : from_beside * m_f[static_cast<std::size_t>(j)][axis];
+      const double from_adjacent = std::max(0.0, 1 - open / enough_open);
+      for (std::size_t side = 0; side < 2 * Dim && from_adjacent > 0; ++side) {
+        const auto adjacent = adjacent_site(*mac.splines, mac.site[i], side);
+        if (side / 2 == d || !adjacent || !mac.splines->has_face(*adjacent, d)) continue;
+        const std::int32_t j = adjacent_face(i, side, *adjacent, d);
+        open += from_adjacent *
+                (j == staggered::none ? open_empty(i, *adjacent, d) : open_liquid(static_cast<std::size_t>(j), d));
+        uncut[i][axis] += j == staggered::none ? 0 : from_adjacent * m_f[static_cast<std::size_t>(j)][axis];
       }
       // Of a face that is lighter than its particles, a pressure makes more energy than it takes.
       uncut[i][axis] = std::max(uncut[i][axis] / std::max(open, least_open_liquid),
@@ -180,7 +179,7 @@ void FindUncutMass<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, U
 
 template struct FindUncutMass<2>;
 template struct FindUncutMass<3>;
-template struct FillBesideBodies<2>;
-template struct FillBesideBodies<3>;
+template struct FillNearBodies<2>;
+template struct FillNearBodies<3>;
 
 }  // namespace minamo

@@ -16,7 +16,7 @@ namespace minamo {
 /// (E86)  Near a body phi_l is that of the multiplier and its neighbours together, for few particles in a small open
 /// volume tell little; inside a body nothing is missing, phi_l = 1.
 template <int Dim>
-struct FillBesideBodies {
+struct FillNearBodies {
   static constexpr std::string_view doc = "(E86) fill fraction near bodies";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Uses<BodyPlacement<Dim>> placement,
                   Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,

@@ -225,7 +225,7 @@ void find_seen(const DrySides<Dim>& dry, const Splines<Dim>& splines, const AllC
     for_each_site<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
       const Index<Dim> site = splines.site(cell, offset);
       for (std::size_t d = 0; d < Dim && is_torn[c] == 0; ++d) {
-        const auto below = site_beside(splines, site, 2 * d);
+        const auto below = adjacent_site(splines, site, 2 * d);
         is_torn[c] = below && dry.parts(site, *below) ? 1 : 0;
       }
     });

@@ -67,24 +67,24 @@ void FindSolidParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<GridCells<Dim>> 
   const Windows<Dim> windows{*grid, bodies, stir->parts};
   const bool any_rests = !at_rest->of.empty();
   if (any_rests) find_resting<Dim>(windows, *cells, *resting);
-  struct Beside {
+  struct NearBodies {
     std::size_t cell;
     std::int32_t by_resting;
     bool by_moving;
   };
-  std::vector<Beside> beside;
+  std::vector<NearBodies> near;
   solid->place.assign(cells->cells.size(), SolidParts::none);
   for (std::size_t c = 0; c < cells->cells.size(); ++c) {
     const Index<Dim>& cell = cells->cells[c].node;
     const std::int32_t by_resting = any_rests ? resting->place[row_in<Dim>(grid->cells, cell)] : RestingParts::none;
     const bool by_moving = bodies.may_be_near(middle_of_cell<Dim>(*grid, cell), windows.reach);
     if (by_resting == RestingParts::none && !by_moving) continue;
-    solid->place[c] = static_cast<std::int32_t>(beside.size());
-    beside.push_back({c, by_resting, by_moving});
+    solid->place[c] = static_cast<std::int32_t>(near.size());
+    near.push_back({c, by_resting, by_moving});
   }
-  solid->fill.resize(beside.size() * windows.size);
-  for_each_row(beside.size(), [&](std::size_t k) {
-    const Beside& of = beside[k];
+  solid->fill.resize(near.size() * windows.size);
+  for_each_row(near.size(), [&](std::size_t k) {
+    const NearBodies& of = near[k];
     for (std::size_t w = 0; w < windows.size; ++w) {
       double fill = 0;
       if (of.by_resting >= 0) fill = resting->fill[static_cast<std::size_t>(of.by_resting) * windows.size + w];

@@ -104,7 +104,7 @@ bool is_whole(const FacesOnLevels<Dim>& faces, std::uint32_t row) {
     return is_outside;
   };
   if (!nothing_reaches(faces.site[row])) return false;
-  const auto below = site_beside(faces.splines, faces.site[row], 2 * faces.direction);
+  const auto below = adjacent_site(faces.splines, faces.site[row], 2 * faces.direction);
   return !below || nothing_reaches(*below);
 }
 

@@ -95,9 +95,9 @@ std::vector<std::size_t> groups_of(const std::vector<Vec<Dim>>& points, double d
     for (std::size_t d = 0; d < Dim; ++d)
       cell[d] = static_cast<int>(std::floor(points[k][static_cast<Eigen::Index>(d)] / distance));
     for (std::size_t n = 0; n < around; ++n) {
-      Index<Dim> beside = cell;
-      for (std::size_t d = 0, rest = n; d < Dim; ++d, rest /= 3) beside[d] += static_cast<int>(rest % 3) - 1;
-      const auto found = in_cell.find(beside);
+      Index<Dim> adjacent = cell;
+      for (std::size_t d = 0, rest = n; d < Dim; ++d, rest /= 3) adjacent[d] += static_cast<int>(rest % 3) - 1;
+      const auto found = in_cell.find(adjacent);
       if (found == in_cell.end()) continue;
       for (const std::size_t other : found->second) {
         if ((points[other] - points[k]).norm() > distance) continue;

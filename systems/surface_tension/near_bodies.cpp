@@ -1,4 +1,4 @@
-#include "systems/surface_tension/beside_bodies.hpp"
+#include "systems/surface_tension/near_bodies.hpp"
 
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/grid/quadratic_spline.hpp"
