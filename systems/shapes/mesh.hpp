@@ -3,6 +3,7 @@
 /// A solid bounded by triangles.
 
 #include "systems/shapes/closed_surface.hpp"
+#include "systems/shapes/nearest_triangle.hpp"
 #include "systems/shapes/shape.hpp"
 
 namespace minamo::shapes {
@@ -10,10 +11,8 @@ namespace minamo::shapes {
 class Mesh : public Shape<3> {
  public:
   explicit Mesh(ClosedSurface surface);
-  ~Mesh() override;
 
-  /// The Euclidean distance: to the nearest triangle, found in a tree of boxes, in time about the logarithm of their
-  /// number.
+  /// The Euclidean distance, to the nearest triangle.
   double distance(const Vec<3>& x) const override;
   Vec<3> gradient(const Vec<3>& x) const override;
   Bounds<3> bounds() const override;
@@ -21,10 +20,8 @@ class Mesh : public Shape<3> {
   const ClosedSurface& surface() const { return surface_; }
 
  private:
-  struct Tree;
-
   ClosedSurface surface_;
-  std::unique_ptr<Tree> tree_;
+  NearestTriangle nearest_;
 };
 
 }  // namespace minamo::shapes

@@ -7,7 +7,11 @@
 #include "systems/shapes/mesh.hpp"
 #include "systems/shapes/primitives.hpp"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <random>
 
 using namespace minamo;
 using namespace minamo::shape_checks;
@@ -49,6 +53,23 @@ double farthest_apart(const Shape<3>& a, const Shape<3>& b, const Bounds<3>& whe
     largest.add(std::abs(a.distance(x) - b.distance(x)));
   }
   return largest.value();
+}
+
+double distance_to_segment(const Vec<3>& a, const Vec<3>& b, const Vec<3>& x) {
+  const double part = std::clamp((b - a).dot(x - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (x - a - part * (b - a)).norm();
+}
+
+double distance_to_triangle(const std::array<Vec<3>, 3>& corner, const Vec<3>& x) {
+  const Vec<3> normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  bool is_above = true;
+  double to_edges = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec<3>&from = corner[k], &to = corner[(k + 1) % 3];
+    is_above = is_above && (to - from).cross(x - from).dot(normal) >= 0;
+    to_edges = std::min(to_edges, distance_to_segment(from, to, x));
+  }
+  return is_above ? std::abs(normal.dot(x - corner[0])) / normal.norm() : to_edges;
 }
 
 }  // namespace
@@ -94,6 +115,27 @@ TEST_CASE("a mesh of a ball comes near to the ball with the square of its edges"
   CHECK(coarse < 0.04);
   CHECK(fine < coarse / 12);  // 16
   check_euclidean<3>(mesh_of(solids::ball(2)), where);
+}
+
+TEST_CASE("the nearest triangle is that of all, near a mesh and far from it", "[unit]") {
+  Triangles shell = solids::ball(4);
+  const std::size_t outer = shell.triangle.size();
+  for (std::size_t k = shell.corner.size(); k-- > 0;) shell.corner.push_back(0.9 * shell.corner[k]);
+  const std::size_t last = shell.corner.size() - 1;
+  for (std::size_t t = 0; t < outer; ++t) {
+    const auto [a, b, c] = shell.triangle[t];
+    shell.triangle.push_back({static_cast<std::uint32_t>(last - a), static_cast<std::uint32_t>(last - c),
+                              static_cast<std::uint32_t>(last - b)});
+  }
+  const shapes::Mesh mesh = mesh_of(shell);
+  std::mt19937_64 random(3);
+  for (int k = 0; k < 500; ++k) {
+    const Vec<3> x = random_point<3>({Vec<3>(-2, -2, -2), Vec<3>(2, 2, 2)}, random);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : shell.triangle)
+      nearest = std::min(nearest, distance_to_triangle({shell.corner[a], shell.corner[b], shell.corner[c]}, x));
+    CHECK(std::abs(mesh.distance(x)) == Approx(nearest).epsilon(0).margin(1e-14));
+  }
 }
 
 TEST_CASE("a solid may be hollow, and may turn inward as a whole", "[unit]") {
