@@ -10,7 +10,7 @@ void FillContactSource<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<face::Predi
                                         Optional<Read<face::WallFlux<Dim>>> wall_flux,
                                         Read<unknown::Staggered> of_unknown, Write<unknown::Source> source) const {
   const Passage<Dim> passage{open.span(), wall_flux.span()};
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   set_balance_sources<Dim>(incidence, passage, of_unknown.span(), predictor.span(), source.span());
 }
 

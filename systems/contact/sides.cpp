@@ -12,7 +12,7 @@ namespace minamo {
 template <int Dim>
 void FindSeparatingFaces<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<SeparatingSides<Dim>> sides,
                                           Read<face::Held> held, Write<SeparatingFaces<Dim>> separating) const {
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   separating->faces.clear();
   for (std::size_t i = 0; i < mac.site.size(); ++i) {
     for (std::size_t d = 0; d < Dim; ++d) {

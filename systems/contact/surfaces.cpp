@@ -137,8 +137,8 @@ void CompareContactOfBodies<Dim>::operator()(Read<SolverTolerance> tolerance, Us
                                              Read<unknown::Source> source, Read<MultiplierSolver<Dim>> solver,
                                              Optional<Read<SiteExchange>> shared,
                                              Update<SeparatingRows<Dim>> separating, Update<ContactLoop> loop) const {
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
-  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
+  const Incidence<Dim> incidence(mac);
+  const SitePlaces<Dim> places(mac);
   const MovingWalls<Dim> walls{places,     mac.site.span(), closed.span(), closer.span(),
                                c_b.span(), V_b.span(),      omega_b.span()};
   const auto through = [&](std::size_t f, std::size_t d) {

@@ -3,8 +3,7 @@
 /// (E76) Divergence and gradient on the staggered grid: differences of the coefficients of neighbouring faces, whatever
 /// the quadrature. With u = sum_f u_f N_f the divergence is exactly sum_l (B u)_l N_l.
 
-#include "components/staggered.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 
 #include <span>
 
@@ -34,6 +33,8 @@ class Incidence {
   Incidence(const Grid<Dim>& grid, const SplinesOf& splines, std::span<const Index<Dim>> site,
             std::span<const Neighbours> neighbour)
       : Incidence(grid.spacing, splines, site, neighbour) {}
+  explicit Incidence(const MacGrid<Dim>& mac)
+      : Incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span()) {}
 
   /// (B u)_l = sum_d (u_{l + e_d} - u_l)/w_d for the multiplier of a row. [1/m of u]
   /// \pre particles touch the multiplier, so that its faces have rows

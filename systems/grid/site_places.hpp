@@ -2,8 +2,7 @@
 /// \file
 /// Where faces and multipliers are, and numbers of places in a box of them.
 
-#include "components/grid.hpp"
-#include "systems/grid/splines.hpp"
+#include "systems/grid/mac_grid.hpp"
 
 namespace minamo {
 
@@ -42,6 +41,7 @@ template <int Dim>
 class SitePlaces {
  public:
   SitePlaces(const Grid<Dim>& grid, const Splines<Dim>& splines) : grid_(grid), splines_(splines) {}
+  explicit SitePlaces(const MacGrid<Dim>& mac) : SitePlaces(*mac.grid, *mac.splines) {}
 
   /// Greville point of the spline i of degree K along an axis. [m]
   double along(std::size_t d, int i) const;

@@ -96,7 +96,7 @@ void FindPressureAcceleration<Dim>::operator()(
     Optional<Read<face::UnseenForce<Dim>>> unseen, Optional<Read<face::Open<Dim>>> open,
     Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<DrySides<Dim>>> dry, Optional<Read<SiteExchange>> shared,
     Write<face::PressureSums<Dim>> sums, Write<face::PressureAcceleration<Dim>> q_f) const {
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   const FaceDensity<Dim> rho{fluid->density, rho_f.span()};
   // What particles have left still has rows on the high side of the liquid.
   const auto at_multiplier = [&](std::size_t l) { return v_l[l] > 0 ? lambda[l] : 0; };

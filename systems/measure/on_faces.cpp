@@ -16,7 +16,7 @@ void MeasureFaceDivergence<Dim>::operator()(Uses<MacGrid<Dim>> mac, Optional<Rea
                                             Optional<Read<SiteExchange>> shared, Read<unknown::Staggered> of_unknown,
                                             Read<face::BalanceVelocity<Dim>> v_f,
                                             Write<measure::MaxDivergence> largest) const {
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   const Passage<Dim> passage{open.span(), wall_flux.span()};
   largest->value = reduce_rows(
       of_unknown.size(), 0.0,

@@ -118,7 +118,7 @@ void FillFaceSource<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, 
     hold<Dim>(walls, i, predictor[i]);
   });
   const Passage<Dim> passage{open.span(), wall_flux.span()};
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   set_balance_sources<Dim>(incidence, passage, of_unknown.span(), predictor.span(), source.span());
 }
 
@@ -129,7 +129,7 @@ void DampFaceDivergence<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<face::Velo
                                          Optional<Read<face::OldWallFlux<Dim>>> wall_flux,
                                          Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
   const Passage<Dim> passage{open.span(), wall_flux.span()};
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   for_each_row(source.size(), [&](std::size_t l) {
     const std::size_t i = of_unknown[l];
     const double excess = damped_share * (incidence.divergence(i, v_f.span(), passage) + curvature[i] / v_l[i]);
@@ -144,7 +144,7 @@ void ProjectFaces<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Re
                                    Read<unknown::Solution> solution, Write<face::BalanceVelocity<Dim>> v_f,
                                    Write<face::Damping<Dim>> damping, Write<face::Shift<Dim>> shift,
                                    Write<multiplier::Force> lambda) const {
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   const double per_tau = rates->acceleration / rates->velocity;
   constexpr unknown::Sources nothing{};
   const auto of = [&](std::size_t i) -> const unknown::Sources& {

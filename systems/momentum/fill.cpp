@@ -206,7 +206,7 @@ void AssembleMultipliers<Dim>::operator()(
     Write<multiplier::Row> row, Write<unknown::Staggered> of_unknown, Write<unknown::Site<Dim>> unknown_site,
     Write<unknown::Neighbour<Dim>> unknown_neighbour, Write<unknown::Conductance<Dim>> conductance,
     Write<unknown::Diagonal> diagonal, Write<unknown::NullVector> null_vector) const {
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   const Passage<Dim> passage{open.span()};
   const auto conducts = [&](std::size_t f, std::size_t d) {
     const auto axis = static_cast<Eigen::Index>(d);

@@ -305,7 +305,7 @@ void TakeOpeningVelocities<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>
                                             Optional<Read<SiteExchange>> shared,
                                             Update<opening::Velocities<Dim>> velocities,
                                             Update<opening::EnergyIn> energy, Write<opening::StepWork> work) const {
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   const Passage<Dim> passage{open.span()};
   const auto at = [&](std::size_t l) { return lambda[l]; };
   for (std::size_t o = 0; o < set->openings.size(); ++o) {
@@ -350,7 +350,7 @@ void RequireOutlet<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, R
   constexpr double least_squeeze = 1e-9;
   const ClosedComponents& components = solver->closed();
   const std::vector<bool> is_full = full_components(components, of_unknown.span(), v_l.span(), capacity.span());
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   std::vector<std::array<double, 2>> sums(components.count(), {0, 0});
   for (std::size_t l = 0; l < of_unknown.size() && !sums.empty(); ++l) {
     if (!components.counts(l) || !is_full[components.number(l) - 1]) continue;

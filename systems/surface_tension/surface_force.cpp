@@ -113,7 +113,7 @@ void AddSurfaceTension<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> ma
                                         Write<face::TakesSurfaceForce> takes, Write<face::SurfaceForce<Dim>> F_f,
                                         Update<face::Predictor<Dim>> predictor) const {
   for_each_row(F_f.size(), [&](std::size_t i) { F_f[i].setZero(); });
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
   for_each_row(takes.size(), [&](std::size_t i) { takes[i] = takers_of<Dim>(incidence, i, held[i], row.span()); });
   sums->forces.resize(surface->pieces.size());
   with_degree(mac.splines->degree, [&](auto degree) {

@@ -247,7 +247,7 @@ void SolveFriction<Dim>::operator()(
   const bool walls_rub = static_cast<bool>(cut);
   resize(*work, Dim * v_f.size(), of_unknown.size(), walls_rub);
   FrictionSystem<Dim> system{{*mac.splines, *matrices, *cells, *sites, mu_c.span()},
-                             {*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span()},
+                             Incidence<Dim>(mac),
                              of_unknown.span(),
                              row.span(),
                              {open.span(), {}},

@@ -65,8 +65,8 @@ void SolveFacesUmfpack<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> ma
                                 diagonal.span()),
               null_vector.span());
   WholeMatrix<Dim>& matrix = matrices->frictionless;
-  matrix.start({*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span()}, mobility.span(), per_tau,
-               of_unknown.span(), grounded_rows(closed, 1 / per_tau, diagonal.span()));
+  matrix.start(Incidence<Dim>(mac), mobility.span(), per_tau, of_unknown.span(),
+               grounded_rows(closed, 1 / per_tau, diagonal.span()));
   matrix.factorize();
 
   std::vector<unknown::Sources> sources(source.span().begin(), source.span().end());
@@ -99,8 +99,8 @@ void SolveFrictionUmfpack<Dim>::operator()(
                                 diagonal.span()),
               null_vector.span());
   WholeMatrix<Dim>& matrix = matrices->with_friction;
-  matrix.start({*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span()}, mobility.span(), per_tau,
-               of_unknown.span(), grounded_rows(closed, 1 / per_tau, diagonal.span()));
+  matrix.start(Incidence<Dim>(mac), mobility.span(), per_tau, of_unknown.span(),
+               grounded_rows(closed, 1 / per_tau, diagonal.span()));
   matrix.add({*mac.splines, *friction, *cells, *sites, mu_c.span()});
   matrix.factorize();
   const std::vector<Vec<Dim>> force = momentum<Dim>(per_tau, mobility.span(), predictor.span(), damping.span());

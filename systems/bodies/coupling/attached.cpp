@@ -14,7 +14,7 @@ void FindAttachedMass<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid
                                        Optional<Read<face::Density<Dim>>> rho_f, Write<face::AttachedMass<Dim>> mass,
                                        Write<face::AttachedTo<Dim>> body) const {
   const PlacedBodies<Dim> bodies(placement);
-  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
+  const SitePlaces<Dim> places(mac);
   const double cell_volume = std::pow(mac.grid->spacing, Dim);
   const FaceDensity<Dim> density{fluid->density, rho_f.span()};
   // Of the two multipliers of a face the one that bodies leave more of tells whether there is liquid; both, where they

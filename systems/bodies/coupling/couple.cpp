@@ -270,8 +270,8 @@ void CoupleFreeBodies<Dim>::operator()(
   const BodyStates<Dim> at{c_b.span(), R_b.span(), V, omega};
 
   Fluxes fluxes{MotionColumns(motions.count(), solution.size()), {}, of_ranks(shared)};
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
-  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
+  const Incidence<Dim> incidence(mac);
+  const SitePlaces<Dim> places(mac);
   const auto add_flux = [&](std::size_t l, std::size_t f, std::size_t d, double per_width) {
     const std::int16_t b = closer[f][d][1];
     if (b < 0) return false;

@@ -87,7 +87,7 @@ void FindDivergenceAhead<Dim>::operator()(
   const WallMotion<Dim> walls{
       bodies, placement.set->any_moves(), 3 * mac.grid->spacing, placement.c_b.span(), V_b.span(), omega_b.span()};
   const double half_step = 0.5 * clock->step;
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
+  const Incidence<Dim> incidence(mac);
 
   const CutMultipliers cut =
       find_cut<Dim>(incidence, *mac.splines, mac.site.span(), m_f.span(), open.span(), share.span(), v_l.span());

@@ -63,8 +63,8 @@ void PushBodies<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read
                                  Optional<Read<surface::ForceOnBodies<Dim>>> lines, Optional<Read<SiteExchange>> shared,
                                  Write<body::Force<Dim>> F_b, Write<body::Torque<Dim>> T_b,
                                  Update<body::Work> W_b) const {
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
-  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
+  const Incidence<Dim> incidence(mac);
+  const SitePlaces<Dim> places(mac);
   for (std::size_t b = 0; b < set->bodies.size(); ++b) {
     F_b[b].setZero();
     T_b[b].setZero();

@@ -123,7 +123,7 @@ void ContinueLiquid<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<
                                      Update<multiplier::SurfaceNormal<Dim>> n_l, Update<multiplier::ContinuedFill> fill,
                                      Write<ContinuedLiquid<Dim>> continued) const {
   const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
-  const SiteCuts<Dim> cuts(*mac.grid, *mac.splines, *at_rest, bodies);
+  const SiteCuts<Dim> cuts(mac, *at_rest, bodies);
   const OpenSites<Dim> open_sites{*mac.splines, *rows, open.span(), open_face.span(), cuts};
   const std::vector<double> is_near = list_cut_multipliers<Dim>(
       *mac.splines, *rows, mac.site.span(), mac.neighbour.span(), open.span(), share.span(), open_sites, *continued);

@@ -140,7 +140,7 @@ void CutFaces<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> 
                                Write<face::Closed<Dim>> closed, Write<face::Closer<Dim>> closer,
                                Write<multiplier::OpenShare> share, Update<multiplier::Capacity> capacity) const {
   const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
-  const SiteCuts<Dim> cuts(*mac.grid, *mac.splines, *at_rest, bodies);
+  const SiteCuts<Dim> cuts(mac, *at_rest, bodies);
   const SitePlaces<Dim>& places = cuts.places();
   const auto is_hidden = [&](std::size_t i) { return hidden && hidden->is_hidden(i); };
   const HiddenSites* of_hidden = hidden ? &*hidden : nullptr;

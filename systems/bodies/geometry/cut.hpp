@@ -42,6 +42,8 @@ class SiteCuts {
   SiteCuts(const Grid<Dim>& grid, const Splines<Dim>& splines, const StaticCut<Dim>& at_rest,
            const PlacedBodies<Dim>& bodies)
       : places_(grid, splines), at_rest_(at_rest), bodies_(bodies) {}
+  SiteCuts(const MacGrid<Dim>& mac, const StaticCut<Dim>& at_rest, const PlacedBodies<Dim>& bodies)
+      : SiteCuts(*mac.grid, *mac.splines, at_rest, bodies) {}
 
   SiteCut<Dim> by_resting(const Index<Dim>& site) const {
     if (at_rest_.of.empty()) return {};

@@ -106,7 +106,7 @@ void FindUncutMass<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, U
                                     Optional<Read<face::Density<Dim>>> rho_f, Optional<Read<SiteExchange>> shared,
                                     Write<face::UncutMass<Dim>> uncut) const {
   const PlacedBodies<Dim> bodies(placement, dry ? &*dry : nullptr);
-  const SiteCuts<Dim> cuts(*mac.grid, *mac.splines, *at_rest, bodies);
+  const SiteCuts<Dim> cuts(mac, *at_rest, bodies);
   // Of the two multipliers of a face the one with more liquid counts more: above a surface nothing is cut away.
   const auto open_liquid = [&](std::size_t i, std::size_t d) {
     constexpr double of_empty = 1e-3;

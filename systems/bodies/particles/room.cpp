@@ -47,8 +47,8 @@ void RequireRoom<Dim>::operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Rea
                                   Read<MultiplierSolver<Dim>> solver) const {
   const ClosedComponents& components = solver->closed();
   const std::vector<bool> is_full = full_components(components, of_unknown.span(), v_l.span(), capacity.span());
-  const Incidence<Dim> incidence(*mac.grid, *mac.splines, mac.site.span(), mac.neighbour.span());
-  const SitePlaces<Dim> places(*mac.grid, *mac.splines);
+  const Incidence<Dim> incidence(mac);
+  const SitePlaces<Dim> places(mac);
   const MovingWalls<Dim> walls{places,     mac.site.span(), closed.span(), closer.span(),
                                c_b.span(), V_b.span(),      omega_b.span()};
   const auto flux = [&](std::size_t f, std::size_t d) {
