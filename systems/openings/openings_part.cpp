@@ -2,6 +2,7 @@
 
 #include "components/contact.hpp"
 #include "systems/bodies/bodies_part.hpp"
+#include "systems/openings/columns.hpp"
 #include "systems/openings/faces.hpp"
 #include "systems/openings/measures.hpp"
 #include "systems/openings/particles.hpp"

@@ -18,13 +18,6 @@
 
 namespace minamo {
 
-/// How many columns an opening has along an axis that lies in its side.
-template <int Dim>
-std::size_t columns_along(const Opening<Dim>& opening, const Grid<Dim>& grid, std::size_t axis);
-/// How many it has.
-template <int Dim>
-std::size_t columns_of(const Opening<Dim>& opening, const Grid<Dim>& grid);
-
 /// (E101)  The particles that this step carries into the box, V_p = a^d, m_p = rho V_p, v_p = w(x_p, t^n). All ranks
 /// know of all of them; the one that has the block of a particle makes it.
 template <int Dim>

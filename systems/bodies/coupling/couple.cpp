@@ -1,6 +1,7 @@
 #include "systems/bodies/coupling/couple.hpp"
 
 #include "engine/run/step_control.hpp"
+#include "systems/bodies/coupling/motion_columns.hpp"
 #include "systems/bodies/geometry/cut.hpp"
 #include "systems/bodies/particles/contact.hpp"
 #include "systems/bodies/particles/room.hpp"
@@ -18,53 +19,6 @@ namespace minamo {
 namespace {
 
 using unknown::Which;
-
-/// Columns over the unknowns, one for each motion of free bodies, three to an array as the solver takes them.
-class MotionColumns {
- public:
-  MotionColumns(Eigen::Index count, std::size_t rows)
-      : count_(count), blocks_(static_cast<std::size_t>((count + width - 1) / width), Block(rows, Sources{})) {}
-
-  using Block = std::vector<Sources>;
-  Eigen::Index count() const { return count_; }
-  std::size_t blocks() const { return blocks_.size(); }
-  Block& block(std::size_t k) { return blocks_[k]; }
-  const Block& block(std::size_t k) const { return blocks_[k]; }
-  double& at(Eigen::Index k, std::size_t row) {
-    return blocks_[static_cast<std::size_t>(k / width)][row][static_cast<std::size_t>(k % width)];
-  }
-  double at(Eigen::Index k, std::size_t row) const {
-    return blocks_[static_cast<std::size_t>(k / width)][row][static_cast<std::size_t>(k % width)];
-  }
-
- private:
-  static constexpr Eigen::Index width = most_sources;
-  Eigen::Index count_;
-  std::vector<Block> blocks_;
-};
-
-template <class Matrix>
-std::span<double> numbers_of(Matrix& of) {
-  return {of.data(), static_cast<std::size_t>(of.size())};
-}
-
-/// U = B C: what a unit of every motion adds to the divergence around an unknown.
-struct Fluxes {
-  MotionColumns columns;
-  std::vector<std::size_t> touched;  ///< unknowns near free bodies that this rank owns
-  const SiteExchange* shared = nullptr;
-
-  /// U^T x, with x by unknown.
-  template <class At>
-  Eigen::VectorXd transposed_times(const At& x) const {
-    Eigen::VectorXd product = Eigen::VectorXd::Zero(columns.count());
-    for (const std::size_t l : touched) {
-      for (Eigen::Index k = 0; k < columns.count(); ++k) product[k] += columns.at(k, l) * x(l);
-    }
-    add_up_on_all(shared, numbers_of(product));
-    return product;
-  }
-};
 
 /// What of the balances of free bodies does not depend on the liquid.
 struct BodyBalances {
@@ -129,7 +83,7 @@ struct Enclosures {
       if (!closed.counts(l)) continue;
       if (const auto row = row_of(closed.number(l))) sum[*row] += n_l[l] * b(l);
     }
-    closed.add_up(numbers_of(sum));
+    closed.add_up(entries_of(sum));
     return sum;
   }
 };
@@ -148,8 +102,8 @@ Enclosures enclosures_of(const Fluxes& fluxes, std::span<const double> n_l, cons
       absolute(row, k) += n_l[l] * std::abs(fluxes.columns.at(k, l));
     }
   }
-  closed.add_up(numbers_of(sum));
-  closed.add_up(numbers_of(absolute));
+  closed.add_up(entries_of(sum));
+  closed.add_up(entries_of(absolute));
   sum = (sum.array().abs() > least_change_of_room * absolute.array()).select(sum, 0).eval();
   Enclosures enclosures;
   for (Eigen::Index row = 0; row < components; ++row) {
@@ -338,8 +292,8 @@ void CoupleFreeBodies<Dim>::operator()(
                            attached_mass += attached[i][axis] * along * along.transpose();
                            attached_impulse += tau * attached[i][axis] * b_f[i][axis] * along;
                          });
-  add_up_on_all(of_ranks(shared), numbers_of(attached_mass));
-  add_up_on_all(of_ranks(shared), numbers_of(attached_impulse));
+  add_up_on_all(of_ranks(shared), entries_of(attached_mass));
+  add_up_on_all(of_ranks(shared), entries_of(attached_impulse));
   balances.mass += attached_mass;
   balances.impulse += attached_impulse;
   for (std::size_t b = 0; b < set->bodies.size(); ++b)
