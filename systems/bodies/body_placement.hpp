@@ -8,7 +8,7 @@
 
 namespace minamo {
 
-/// What PlacedBodies (geometry/cut.hpp) is made from.
+/// What PlacedBodies (geometry/placed_bodies.hpp) is made from.
 template <int Dim>
 struct BodyPlacement {
   Read<BodySet<Dim>> set;               ///< shapes

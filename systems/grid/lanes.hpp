@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The particles of a cell side by side, one in every lane of a register, so that a kernel does for four of them at
+/// Particles side by side, one in every lane of a register, so that a kernel does for four of them at
 /// once what it would do for one. A group that is not full has the last particle in the lanes left over.
 
 #include "systems/grid/site_support.hpp"
@@ -11,7 +11,7 @@ namespace minamo {
 
 inline constexpr std::size_t lanes = 4;
 
-/// Up to four particles of a cell.
+/// Up to four particles, one behind the other.
 struct Group {
   std::size_t first;
   std::size_t count;

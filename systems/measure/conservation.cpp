@@ -4,6 +4,7 @@
 #include "systems/grid/lanes.hpp"
 #include "systems/time/body_force.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -171,8 +172,8 @@ void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Optional<Read<Spline
     return splines ? face_spread<Dim>(*grid, *splines, x) : support_spread<Dim>(*grid, x);
   };
   const auto of_particles = [&](const Group& group) {
-    const Four last = of_group(group, [&](std::size_t p) { return m_p[p]; });
-    const Four m = of_lane >= static_cast<double>(group.count) ? Four{} : last;
+    Four m = of_group(group, [&](std::size_t p) { return m_p[p]; });
+    m = of_lane >= static_cast<double>(group.count) ? Four{} : m;
     LanePlace<Dim> x;
     LanePlace<Dim> arm;
     LanePlace<Dim> v;

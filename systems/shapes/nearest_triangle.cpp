@@ -16,16 +16,14 @@ namespace {
 
 using AlignedBox = Eigen::AlignedBox3d;
 
-/// Voxels along the longest side of the surface, by its triangles: about as large as these.
-constexpr double fewest_voxels = 16;
-constexpr double most_voxels = 64;
-constexpr double voxels_per_edge = 4;
-/// Of more triangles than this none are listed: a voxel would have too many.
-constexpr std::size_t most_triangles = 40000;
+/// Voxels along the longest side of the surface. With more the lists are shorter and take longer to make.
+constexpr double voxels_along = 32;
+/// Of more triangles than this none are listed: most voxels would have too many.
+constexpr std::size_t most_triangles = 5000;
 /// A voxel with more is searched in the tree.
 constexpr std::size_t most_listed = 32;
 /// How far voxels reach beyond the surface, as a share of its longest side.
-constexpr double margin = 0.25;
+constexpr double margin = 0.125;
 
 /// The nearest point of a triangle (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
 FootOnTriangle foot_on(const ClosedSurface& surface, std::uint32_t t, const Vec<3>& x) {
@@ -84,9 +82,10 @@ struct NearestTriangle::Tree {
     search(boxes.getRootIndex(), surface, x, best);
     return best;
   }
-  /// Adds the triangles within a distance of a point.
-  void collect(int node, const ClosedSurface& surface, const Vec<3>& x, double within,
+  /// Adds the triangles within a distance of a point, until there are more than so many.
+  void collect(int node, const ClosedSurface& surface, const Vec<3>& x, double within, std::size_t most,
                std::vector<std::uint32_t>& found) const {
+    if (found.size() > most) return;
     const int* box = nullptr;
     const int* box_end = nullptr;
     const std::uint32_t* triangle = nullptr;
@@ -97,7 +96,7 @@ struct NearestTriangle::Tree {
     }
     for (; box != box_end; ++box) {
       if (boxes.getVolume(*box).squaredExteriorDistance(Eigen::Vector3d(x)) <= within * within)
-        collect(*box, surface, x, within, found);
+        collect(*box, surface, x, within, most, found);
     }
   }
 
@@ -156,16 +155,18 @@ std::span<const std::uint32_t> NearestTriangle::listed_at(const Vec<3>& x) const
 // What is nearest to some point of a voxel is no farther from its middle than what is nearest to that, and its
 // diagonal.
 void NearestTriangle::list_triangles(const ClosedSurface& surface) {
-  Vec<3> high = low_ = surface.corner[0];
-  for (const Vec<3>& x : surface.corner) {
-    low_ = low_.cwiseMin(x);
-    high = high.cwiseMax(x);
+  // Files may have corners that no triangle has.
+  Vec<3> high = low_ = surface.corner[surface.triangle[0][0]];
+  for (const auto& corners : surface.triangle) {
+    for (const std::uint32_t corner : corners) {
+      low_ = low_.cwiseMin(surface.corner[corner]);
+      high = high.cwiseMax(surface.corner[corner]);
+    }
   }
   const double longest = (high - low_).maxCoeff();
   low_ -= Vec<3>::Constant(margin * longest);
   high += Vec<3>::Constant(margin * longest);
-  const double edges = std::sqrt(static_cast<double>(surface.triangle.size()));
-  side_ = longest / std::clamp(voxels_per_edge * edges, fewest_voxels, most_voxels);
+  side_ = longest / voxels_along;
   for (std::size_t d = 0; d < 3; ++d) {
     const auto axis = static_cast<Eigen::Index>(d);
     count_[d] = static_cast<int>(std::ceil((high[axis] - low_[axis]) / side_));
@@ -182,8 +183,10 @@ void NearestTriangle::list_triangles(const ClosedSurface& surface) {
     const double distance = std::sqrt(tree_->nearest(surface, middle).squared);
     if (distance > margin * longest) return;
     constexpr double rounding = 1e-9;
-    tree_->collect(tree_->boxes.getRootIndex(), surface, middle, distance + (1 + rounding) * diagonal, of_voxel[v]);
-    if (of_voxel[v].size() > most_listed) of_voxel[v].clear();
+    std::vector<std::uint32_t> found;
+    tree_->collect(tree_->boxes.getRootIndex(), surface, middle, distance + (1 + rounding) * diagonal, most_listed,
+                   found);
+    if (found.size() <= most_listed) of_voxel[v] = std::move(found);
   });
   start_.assign(1, 0);
   for (const auto& triangles : of_voxel) {

@@ -24,8 +24,7 @@ class NearestTriangle {
   explicit NearestTriangle(const ClosedSurface& surface);
   ~NearestTriangle();
 
-  /// In time about the logarithm of the number of triangles; near the surface of a mesh of some thousands of triangles
-  /// in time independent of it.
+  /// In time about the logarithm of the number of triangles; near a surface of up to some thousands from a short list.
   /// \param surface  the same
   FootOnTriangle operator()(const ClosedSurface& surface, const Vec<3>& x) const;
 

@@ -44,6 +44,7 @@ class Shape {
   /// Whether a point lies inside or on the surface, to the last bit.
   virtual bool contains(const Vec<Dim>& x) const { return distance(x) <= 0; }
 
+  /// A box that the shape lies in; infinite where the shape is.
   virtual Bounds<Dim> bounds() const = 0;
 
   /// Whether |distance(x) - distance(y)| <= |x - y|, so that one distance tells of a neighbourhood.

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// (E112) The free surface as a step computes with it, from how full of liquid quadratic splines are. The surface of
-/// frames (systems/surface) is another: finer, closed at walls, around the liquid's volume.
+/// frames (systems/output/surface) is another: finer, closed at walls, around the liquid's volume.
 
 #include "components/body.hpp"
 #include "components/cells.hpp"

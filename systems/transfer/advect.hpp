@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Moves the particles.
+/// Moves the particles with the velocity of nodes, for equal order; with that of faces it is in face_schemes.hpp. What
+/// both do at the sides of the box.
 
 #include "components/grid.hpp"
 #include "components/node.hpp"

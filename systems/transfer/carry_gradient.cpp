@@ -2,6 +2,7 @@
 
 #include "systems/grid/lanes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace minamo {

@@ -116,7 +116,8 @@ void gather_faces_with_gradient(const FaceTarget<Dim>& target, const AtFace& at_
   gather_faces_by_cell<Dim>(target, at_face, [&](std::size_t, std::size_t p, const Jet<Dim>& q) { use(p, q); });
 }
 
-/// use(p, q(y_p)) for every particle. Of its own, because derivatives are computed as well where `use` is not inlined.
+/// use(p, q(y_p)) for every particle. Not by way of the jet: its derivatives are computed, too, where `use` is not
+/// inlined.
 template <int Dim, class AtFace, class Use>
 void gather_faces(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
   with_degree(target.splines.degree, [&](auto degree) {

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// TPIC: particles carry a velocity and its gradient, the first two terms of a Taylor series around them.
+/// TPIC on nodes, for equal order; on faces it is in face_schemes.hpp. Particles carry a velocity and its gradient, the
+/// first two terms of a Taylor series around them.
 /// Nakamura, Matsumura, Mizutani, CMAME 403 (2023) 115720, doi:10.1016/j.cma.2022.115720.
 
 #include "components/node.hpp"

@@ -13,7 +13,7 @@ namespace minamo {
 struct PartFill {
   std::vector<double> fill;
   std::vector<std::int32_t> cell_of_site;  ///< by row of the lowest site of the cell, of several the first; -1: none
-  std::vector<std::int32_t> around;  ///< of every occupied cell, the 3^d with itself, x fastest; -1: no particles there
+  std::vector<std::int32_t> around;  ///< of every own cell, the 3^d with itself, x fastest; -1: no particles there
   static constexpr ComponentInfo info{"stir.fill", "C", "1", Lifetime::scratch};
 
   template <int Dim>

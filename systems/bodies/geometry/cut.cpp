@@ -2,6 +2,7 @@
 
 #include "systems/bodies/geometry/cut_site.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace minamo {

@@ -6,6 +6,7 @@
 #include "systems/bodies/geometry/static_cut.hpp"
 #include "systems/grid/site_places.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace minamo {
@@ -197,7 +198,7 @@ SiteCut<Dim> cut_site(const SitePlaces<Dim>& places, const Index<Dim>& site, boo
   const bool has_multiplier = places.splines().has_multiplier(site);
   const double half_diagonal = 0.5 * places.grid().spacing * std::sqrt(static_cast<double>(Dim));  // of a cell
   if (bounded) {
-    const double at_middle = distance(places.middle(site));
+    const double at_middle = distance(0.5 * (box.low + box.high));
     if (std::abs(at_middle) > places.reach()) {
       if (at_middle < 0) cut = {Vec<Dim>::Zero(), has_multiplier ? 0.0 : 1.0};
       return cut;

@@ -60,7 +60,7 @@ Vec<Dim> SmallCells<Dim>::middle_within(std::size_t block, std::size_t within) c
   Index<Dim> sides;
   sides.fill(fineness);
   const Index<Dim> at = index_in<Dim>(sides, within);
-  const double size = spacing_ / fineness;
+  const double size = side();
   Vec<Dim> x = middle_of_block(block) - Vec<Dim>::Constant(0.5 * (spacing_ - size));
   for (std::size_t d = 0; d < Dim; ++d) x[static_cast<Eigen::Index>(d)] += size * at[d];
   return x;

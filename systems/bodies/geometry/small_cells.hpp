@@ -9,6 +9,7 @@
 
 namespace minamo {
 
+/// Small cells by number, those of a block one after the other, and where they are.
 template <int Dim>
 class SmallCells {
  public:

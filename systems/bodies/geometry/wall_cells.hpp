@@ -11,6 +11,7 @@
 
 namespace minamo {
 
+/// Found once: it does not depend on where the liquid is.
 template <int Dim>
 class WallCells {
  public:
