@@ -224,8 +224,8 @@ struct LeastFill : Column<Staggered, double> {
 };
 
 /// The second term of (E63) around a multiplier, a rate of volume. [m^3/s; m^2/s in 2-D]
-struct Curvature : Column<Staggered, double> {
-  static constexpr ComponentInfo info{"multiplier.curvature", "", "m^d/s", Lifetime::scratch};
+struct DivergenceAhead : Column<Staggered, double> {
+  static constexpr ComponentInfo info{"multiplier.divergence_ahead", "", "m^d/s", Lifetime::scratch};
 };
 
 /// Row among the unknowns, none where the multiplier is not active. [1]

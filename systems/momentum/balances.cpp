@@ -124,7 +124,7 @@ void FillFaceSource<Dim>::operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, 
 
 template <int Dim>
 void DampFaceDivergence<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<face::Velocity<Dim>> v_f,
-                                         Read<multiplier::Volume> v_l, Read<multiplier::Curvature> curvature,
+                                         Read<multiplier::Volume> v_l, Read<multiplier::DivergenceAhead> ahead_l,
                                          Optional<Read<face::Open<Dim>>> open,
                                          Optional<Read<face::OldWallFlux<Dim>>> wall_flux,
                                          Read<unknown::Staggered> of_unknown, Update<unknown::Source> source) const {
@@ -132,7 +132,7 @@ void DampFaceDivergence<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<face::Velo
   const Incidence<Dim> incidence(mac);
   for_each_row(source.size(), [&](std::size_t l) {
     const std::size_t i = of_unknown[l];
-    const double excess = damped_share * (incidence.divergence(i, v_f.span(), passage) + curvature[i] / v_l[i]);
+    const double excess = damped_share * (incidence.divergence(i, v_f.span(), passage) + ahead_l[i] / v_l[i]);
     source[l][unknown::damping] = excess;
     source[l][unknown::balance] -= excess;
   });

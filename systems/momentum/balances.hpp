@@ -113,7 +113,7 @@ template <int Dim>
 struct DampFaceDivergence {
   static constexpr std::string_view doc = "(E63) takes a share of the divergence at the start of the step";
   void operator()(Uses<MacGrid<Dim>> mac, Read<face::Velocity<Dim>> v_f, Read<multiplier::Volume> v_l,
-                  Read<multiplier::Curvature> curvature, Optional<Read<face::Open<Dim>>> open,
+                  Read<multiplier::DivergenceAhead> ahead_l, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<face::OldWallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
                   Update<unknown::Source> source) const;
 };

@@ -60,11 +60,11 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                                      Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                                      Optional<Read<SiteExchange>> shared, Write<multiplier::Volume> v_l,
-                                     Write<multiplier::Curvature> curvature) const {
+                                     Write<multiplier::DivergenceAhead> ahead_l) const {
   const auto gradient = grad_v_p.span();
   const double half_step = 0.5 * clock->step;
   const double full_cell = cell_volume<Dim>(*grid);
-  for_each_row(v_l.size(), [&](std::size_t i) { v_l[i] = curvature[i] = 0; });
+  for_each_row(v_l.size(), [&](std::size_t i) { v_l[i] = ahead_l[i] = 0; });
   with_degree(splines->degree, [&](auto degree) {
     constexpr int K = degree();
     for_each_cell_coloured<Dim>(*cells, [&](std::size_t c, const auto& cell) {
@@ -94,12 +94,12 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
       std::size_t m = 0;
       for_each_multiplier<Dim, K>([&](std::size_t k, const Index<Dim>&) {
         v_l[rows[k]] += sum_of_lanes(volume[m]);
-        curvature[rows[k]] += sum_of_lanes(ahead[m++]);
+        ahead_l[rows[k]] += sum_of_lanes(ahead[m++]);
       });
     });
   });
   add_up(shared, v_l.span());
-  add_up(shared, curvature.span());
+  add_up(shared, ahead_l.span());
 }
 
 template <int Dim>

@@ -24,7 +24,7 @@ struct P2GMultipliers {
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<SiteExchange>> shared,
-                  Write<multiplier::Volume> v_l, Write<multiplier::Curvature> curvature) const;
+                  Write<multiplier::Volume> v_l, Write<multiplier::DivergenceAhead> ahead_l) const;
 };
 
 /// The least fill of the multipliers below and above a face; at a wall there is one.

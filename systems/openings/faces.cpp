@@ -205,7 +205,7 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
                                      Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                                      Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                                      Optional<Read<SiteExchange>> shared, Update<multiplier::Volume> v_l,
-                                     Update<multiplier::Curvature> curvature) const {
+                                     Update<multiplier::DivergenceAhead> ahead_l) const {
   const std::vector<double> plain_volume(v_l.begin(), v_l.end());
   // Ranks add up what each of them changes.
   for (std::size_t i = 0; shared && i < v_l.size(); ++i) {
@@ -261,7 +261,7 @@ void FillAtOpenings<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
     // Where all particles are outside, rounding is left, and nothing must be divided by it.
     constexpr double rounding = 1e-10;
     if (v_l[i] < rounding * plain_volume[i]) v_l[i] = 0;
-    curvature[i] *= v_l[i] / plain_volume[i];
+    ahead_l[i] *= v_l[i] / plain_volume[i];
   });
 }
 

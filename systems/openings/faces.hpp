@@ -60,7 +60,7 @@ struct FillAtOpenings {
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Volume> V_p, Optional<Read<SiteExchange>> shared, Update<multiplier::Volume> v_l,
-                  Update<multiplier::Curvature> curvature) const;
+                  Update<multiplier::DivergenceAhead> ahead_l) const;
 };
 
 /// (E99)  v*_f gets tau F_f/m_f of the pressure outside, F_f = -n int N_f p dA; of what comes in p is less by

@@ -80,7 +80,7 @@ void FindDivergenceAhead<Dim>::operator()(
     Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p,
     Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Read<face::Mass<Dim>> m_f, Read<face::Open<Dim>> open,
     Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi, Read<multiplier::Volume> v_l,
-    Optional<Read<SiteExchange>> shared, Update<multiplier::Curvature> curvature) const {
+    Optional<Read<SiteExchange>> shared, Update<multiplier::DivergenceAhead> ahead_l) const {
   const auto gradient = grad_v_p.span();
   if (!grad_v_p) return;
   const PlacedBodies<Dim> bodies(placement);
@@ -125,7 +125,7 @@ void FindDivergenceAhead<Dim>::operator()(
   const Passage<Dim> passage{open.span(), {}};
   for_each_row(mac.site.size(), [&](std::size_t i) {
     if (cut.is_cut[i] == 0) return;
-    curvature[i] = v_l[i] * liquid_indicator(phi[i]) * incidence.divergence(i, turn, passage);
+    ahead_l[i] = v_l[i] * liquid_indicator(phi[i]) * incidence.divergence(i, turn, passage);
   });
 }
 

@@ -30,7 +30,7 @@ struct FindDivergenceAhead {
                   Read<particle::Velocity<Dim>> v_p, Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p,
                   Read<face::Mass<Dim>> m_f, Read<face::Open<Dim>> open, Read<multiplier::OpenShare> share,
                   Read<multiplier::FillFraction> phi, Read<multiplier::Volume> v_l, Optional<Read<SiteExchange>> shared,
-                  Update<multiplier::Curvature> curvature) const;
+                  Update<multiplier::DivergenceAhead> ahead_l) const;
 };
 
 }  // namespace minamo
