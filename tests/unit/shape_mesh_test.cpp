@@ -1,3 +1,4 @@
+#include "support/extremes.hpp"
 #include "support/folder.hpp"
 #include "support/shape_checks.hpp"
 #include "support/solids.hpp"
@@ -63,13 +64,13 @@ double distance_to_segment(const Vec<3>& a, const Vec<3>& b, const Vec<3>& x) {
 double distance_to_triangle(const std::array<Vec<3>, 3>& corner, const Vec<3>& x) {
   const Vec<3> normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
   bool is_above = true;
-  double to_edges = std::numeric_limits<double>::infinity();
+  Smallest to_edges;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec<3>&from = corner[k], &to = corner[(k + 1) % 3];
     is_above = is_above && (to - from).cross(x - from).dot(normal) >= 0;
-    to_edges = std::min(to_edges, distance_to_segment(from, to, x));
+    to_edges.add(distance_to_segment(from, to, x));
   }
-  return is_above ? std::abs(normal.dot(x - corner[0])) / normal.norm() : to_edges;
+  return is_above ? std::abs(normal.dot(x - corner[0])) / normal.norm() : to_edges.value();
 }
 
 }  // namespace
@@ -131,10 +132,10 @@ TEST_CASE("the nearest triangle is that of all, near a mesh and far from it", "[
   std::mt19937_64 random(3);
   for (int k = 0; k < 500; ++k) {
     const Vec<3> x = random_point<3>({Vec<3>(-2, -2, -2), Vec<3>(2, 2, 2)}, random);
-    double nearest = std::numeric_limits<double>::infinity();
+    Smallest nearest;
     for (const auto& [a, b, c] : shell.triangle)
-      nearest = std::min(nearest, distance_to_triangle({shell.corner[a], shell.corner[b], shell.corner[c]}, x));
-    CHECK(std::abs(mesh.distance(x)) == Approx(nearest).epsilon(0).margin(1e-14));
+      nearest.add(distance_to_triangle({shell.corner[a], shell.corner[b], shell.corner[c]}, x));
+    CHECK(std::abs(mesh.distance(x)) == Approx(nearest.value()).epsilon(0).margin(1e-14));
   }
 }
 
