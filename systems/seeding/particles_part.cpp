@@ -1,7 +1,7 @@
 #include "components/fluids.hpp"
 #include "systems/scene/parts.hpp"
-#include "systems/scene/scene.hpp"
 #include "systems/scene/read_shape.hpp"
+#include "systems/scene/scene.hpp"
 #include "systems/scene/scene_checks.hpp"
 #include "systems/seeding/regions.hpp"
 #include "systems/seeding/seed_particles.hpp"
