@@ -50,12 +50,13 @@ Vec<Dim> vec_of(const std::vector<double>& numbers) {
   return Eigen::Map<const Vec<Dim>>(numbers.data());
 }
 
-/// A box with sides along the axes, infinite unless told. [m]
+/// A box with sides along the axes, infinite unless told.
 template <int Dim>
 struct Bounds {
-  Vec<Dim> low = Vec<Dim>::Constant(-std::numeric_limits<double>::infinity());
-  Vec<Dim> high = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());
+  Vec<Dim> low = Vec<Dim>::Constant(-std::numeric_limits<double>::infinity());  ///< lowest corner [m]
+  Vec<Dim> high = Vec<Dim>::Constant(std::numeric_limits<double>::infinity());  ///< highest corner [m]
 
+  /// Whether no side is at infinity.
   bool finite() const { return low.allFinite() && high.allFinite(); }
 };
 
