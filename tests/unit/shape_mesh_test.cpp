@@ -119,7 +119,7 @@ TEST_CASE("a mesh of a ball comes near to the ball with the square of its edges"
 }
 
 TEST_CASE("the nearest triangle is that of all, near a mesh and far from it", "[unit]") {
-  Triangles shell = solids::ball(4);
+  Triangles shell = solids::ball(2);
   const std::size_t outer = shell.triangle.size();
   for (std::size_t k = shell.corner.size(); k-- > 0;) shell.corner.push_back(0.9 * shell.corner[k]);
   const std::size_t last = shell.corner.size() - 1;
@@ -130,7 +130,7 @@ TEST_CASE("the nearest triangle is that of all, near a mesh and far from it", "[
   }
   const shapes::Mesh mesh = mesh_of(shell);
   std::mt19937_64 random(3);
-  for (int k = 0; k < 500; ++k) {
+  for (int k = 0; k < 300; ++k) {
     const Vec<3> x = random_point<3>({Vec<3>(-2, -2, -2), Vec<3>(2, 2, 2)}, random);
     Smallest nearest;
     for (const auto& [a, b, c] : shell.triangle)
