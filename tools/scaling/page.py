@@ -149,9 +149,9 @@ def verdict(model: Model, machine: Machine, measured: Measured) -> str:
         f"- *hypre.* Its set-up and cycles compute {1e6 * model.per_unknown:.2g} us an unknown and step; the multigrid that one"
         f" process has takes {1e6 * own_multigrid:.2g}.",
         "  That is most of what is lost between one rank and eight.",
-        f"- *Bytes.* {100 * large['bytes'] / large['played']:.0f} % of a step with {SHARES[1]:.0e} particles on a rank, most of them the"
-        " solver's. `systems` in summary.json",
-        "  tells who sends the rest."])
+        f"- *Bytes.* {100 * large['bytes'] / large['played']:.0f} % of a step with {SHARES[1]:.0e} particles on a rank. `systems` in"
+        " summary.json tells who sends what",
+        "  the solver does not."])
 
 
 def page(measured: Measured, machine: Machine) -> str:
