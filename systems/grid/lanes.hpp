@@ -11,6 +11,8 @@ namespace minamo {
 
 inline constexpr std::size_t lanes = 4;
 
+inline constexpr Four of_lane{0, 1, 2, 3};  ///< the number of every lane
+
 /// Up to four particles, one behind the other.
 struct Group {
   std::size_t first;
@@ -36,6 +38,11 @@ template <class Body>
 template <class Of>
 [[gnu::always_inline]] inline Four of_group(const Group& group, const Of& of) {
   return Four{of(group.particle(0)), of(group.particle(1)), of(group.particle(2)), of(group.particle(3))};
+}
+
+/// Numbers of the lanes, zero in those that the group does not use.
+[[gnu::always_inline]] inline Four unused_are_zero(const Group& group, const Four& of) {
+  return of_lane >= static_cast<double>(group.count) ? Four{} : of;
 }
 
 /// Places within a cell, in units of h.
@@ -76,8 +83,6 @@ template <std::size_t Dim>
       __builtin_shufflevector(even_low, even_high, 0, 1, 4, 5), __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5),
       __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7), __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7)};
 }
-
-inline constexpr Four of_lane{0, 1, 2, 3};  ///< the number of every lane
 
 /// Sum over the lanes, always in the same order.
 [[gnu::always_inline]] inline double sum_of_lanes(const Four& of) { return (of[0] + of[1]) + (of[2] + of[3]); }

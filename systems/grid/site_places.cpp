@@ -34,8 +34,9 @@ Vec<Dim> SitePlaces<Dim>::middle(const Index<Dim>& site) const {
 
 template <int Dim>
 Vec<Dim> SitePlaces<Dim>::face(const Index<Dim>& site, std::size_t d) const {
-  Vec<Dim> x = middle(site);
-  x[static_cast<Eigen::Index>(d)] = along(d, site[d]);
+  const Bounds<Dim> around = box(site);
+  Vec<Dim> x = 0.5 * (around.low + around.high);
+  x[static_cast<Eigen::Index>(d)] = around.low[static_cast<Eigen::Index>(d)];
   return x;
 }
 

@@ -172,8 +172,7 @@ void MeasureMomentum<Dim>::operator()(Read<Grid<Dim>> grid, Optional<Read<Spline
     return splines ? face_spread<Dim>(*grid, *splines, x) : support_spread<Dim>(*grid, x);
   };
   const auto of_particles = [&](const Group& group) {
-    Four m = of_group(group, [&](std::size_t p) { return m_p[p]; });
-    m = of_lane >= static_cast<double>(group.count) ? Four{} : m;
+    const Four m = unused_are_zero(group, of_group(group, [&](std::size_t p) { return m_p[p]; }));
     LanePlace<Dim> x;
     LanePlace<Dim> arm;
     LanePlace<Dim> v;

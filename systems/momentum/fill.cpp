@@ -76,8 +76,7 @@ void P2GMultipliers<Dim>::operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Re
       std::array<Four, power(K, Dim)> ahead{};
       for_each_group(cell, [&](const Group& group) {
         const SplineWeights<Dim, K, Four> weights(frame, local<Dim>(frame, y_p.span(), group));
-        Four V = of_group(group, [&](std::size_t p) { return V_p[p]; });
-        V = of_lane >= static_cast<double>(group.count) ? Four{} : V;
+        const Four V = unused_are_zero(group, of_group(group, [&](std::size_t p) { return V_p[p]; }));
         Four divergence{};
         if (liquid > 0) {
           divergence =

@@ -61,6 +61,14 @@ FootOnTriangle foot_on(const ClosedSurface& surface, std::uint32_t t, const Vec<
   return at(a + part_b / sum * ab + part_c / sum * ac, surface.triangle_normal[t], true);
 }
 
+void take_nearest(const ClosedSurface& surface, std::span<const std::uint32_t> triangles, const Vec<3>& x,
+                  FootOnTriangle& best) {
+  for (const std::uint32_t t : triangles) {
+    const FootOnTriangle foot = foot_on(surface, t, x);
+    if (foot.squared < best.squared) best = foot;  // not so a foot that is not a number, of a triangle without area
+  }
+}
+
 }  // namespace
 
 struct NearestTriangle::Tree {
@@ -86,43 +94,43 @@ struct NearestTriangle::Tree {
   void collect(int node, const ClosedSurface& surface, const Vec<3>& x, double within, std::size_t most,
                std::vector<std::uint32_t>& found) const {
     if (found.size() > most) return;
-    const int* box = nullptr;
-    const int* box_end = nullptr;
-    const std::uint32_t* triangle = nullptr;
-    const std::uint32_t* triangle_end = nullptr;
-    boxes.getChildren(node, box, box_end, triangle, triangle_end);
-    for (; triangle != triangle_end; ++triangle) {
-      if (foot_on(surface, *triangle, x).squared <= within * within) found.push_back(*triangle);
+    const auto [inner, triangles] = children(node);
+    for (const std::uint32_t t : triangles) {
+      if (foot_on(surface, t, x).squared <= within * within) found.push_back(t);
     }
-    for (; box != box_end; ++box) {
-      if (boxes.getVolume(*box).squaredExteriorDistance(Eigen::Vector3d(x)) <= within * within)
-        collect(*box, surface, x, within, most, found);
+    for (const int box : inner) {
+      if (squared_distance(box, x) <= within * within) collect(box, surface, x, within, most, found);
     }
   }
 
  private:
-  /// What is in the nearer of two boxes first, so that the other is seldom opened. Eigen's own search keeps a queue,
-  /// for which it allocates.
-  void search(int node, const ClosedSurface& surface, const Vec<3>& x, FootOnTriangle& best) const {
+  /// Of a box: those in it, and the triangles in no smaller one.
+  std::pair<std::span<const int>, std::span<const std::uint32_t>> children(int node) const {
     const int* box = nullptr;
     const int* box_end = nullptr;
     const std::uint32_t* triangle = nullptr;
     const std::uint32_t* triangle_end = nullptr;
     boxes.getChildren(node, box, box_end, triangle, triangle_end);
-    for (; triangle != triangle_end; ++triangle) {
-      const FootOnTriangle foot = foot_on(surface, *triangle, x);
-      if (foot.squared < best.squared) best = foot;  // not so a foot that is not a number, of a triangle without area
-    }
+    return {{box, box_end}, {triangle, triangle_end}};
+  }
+  double squared_distance(int box, const Vec<3>& x) const {
+    return boxes.getVolume(box).squaredExteriorDistance(Eigen::Vector3d(x));
+  }
+  /// What is in the nearer of two boxes first, so that the other is seldom opened. Eigen's own search keeps a queue,
+  /// for which it allocates.
+  void search(int node, const ClosedSurface& surface, const Vec<3>& x, FootOnTriangle& best) const {
+    const auto [boxes_in, triangles] = children(node);
+    take_nearest(surface, triangles, x, best);
     std::array<std::pair<double, int>, 2> inner;
     std::size_t count = 0;
-    for (; box != box_end; ++box)
-      inner[count++] = {boxes.getVolume(*box).squaredExteriorDistance(Eigen::Vector3d(x)), *box};
+    for (const int box : boxes_in) inner[count++] = {squared_distance(box, x), box};
     if (count == 2 && inner[1].first < inner[0].first) std::swap(inner[0], inner[1]);
     for (std::size_t k = 0; k < count; ++k) {
       if (inner[k].first < best.squared) search(inner[k].second, surface, x, best);
     }
   }
 };
+;
 
 NearestTriangle::NearestTriangle(const ClosedSurface& surface) : tree_(std::make_unique<Tree>(surface)) {
   if (surface.triangle.size() <= most_triangles) list_triangles(surface);
@@ -133,10 +141,7 @@ FootOnTriangle NearestTriangle::operator()(const ClosedSurface& surface, const V
   const auto listed = listed_at(x);
   if (listed.empty()) return tree_->nearest(surface, x);
   FootOnTriangle best;
-  for (const std::uint32_t t : listed) {
-    const FootOnTriangle foot = foot_on(surface, t, x);
-    if (foot.squared < best.squared) best = foot;
-  }
+  take_nearest(surface, listed, x, best);
   return best;
 }
 

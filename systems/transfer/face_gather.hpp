@@ -92,22 +92,27 @@ auto of_faces(std::span<const Vec<Dim>> q_f) {
   return [q_f](std::size_t i) -> const Vec<Dim>& { return q_f[i]; };
 }
 
-/// (E17), (E18)  use(c, p, jet of q at y_p) for every particle p, c its cell; at_face(row) is the vector of the faces
-/// of a site.
+/// (E17), (E18)  use(c, group, q, xi) for every group of particles, c its cell, q the polynomials of the cell and xi
+/// where in it the particles are; at_face(row) is the vector of the faces of a site.
 template <int Dim, class AtFace, class Use>
-void gather_faces_by_cell(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
+void for_each_group_in_faces(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
   with_degree(target.splines.degree, [&](auto degree) {
-    constexpr int K = degree();
     for_each_cell<Dim>(target.cells, [&](std::size_t c, const auto& cell) {
       const CellFrame<Dim> frame(target.grid, target.splines, cell.node);
-      const FacePolynomials<Dim, K> q(frame, target.sites.of(c), at_face);
-      for_each_group(cell, [&](const Group& group) {
-        const LanePlace<Dim> xi = local<Dim>(frame, target.y_p, group);
+      const FacePolynomials<Dim, degree()> q(frame, target.sites.of(c), at_face);
+      for_each_group(cell, [&](const Group& group) { use(c, group, q, local<Dim>(frame, target.y_p, group)); });
+    });
+  });
+}
+
+/// use(c, p, jet of q at y_p) for every particle p, c its cell.
+template <int Dim, class AtFace, class Use>
+void gather_faces_by_cell(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
+  for_each_group_in_faces<Dim>(
+      target, at_face, [&](std::size_t c, const Group& group, const auto& q, const LanePlace<Dim>& xi) {
         const LaneJet<Dim> jet(q, xi);
         for_each_lane(group, [&](std::size_t lane, std::size_t p) { use(c, p, jet.of(lane)); });
       });
-    });
-  });
 }
 
 /// use(p, jet of q at y_p) for every particle.
@@ -120,19 +125,12 @@ void gather_faces_with_gradient(const FaceTarget<Dim>& target, const AtFace& at_
 /// inlined.
 template <int Dim, class AtFace, class Use>
 void gather_faces(const FaceTarget<Dim>& target, const AtFace& at_face, const Use& use) {
-  with_degree(target.splines.degree, [&](auto degree) {
-    constexpr int K = degree();
-    for_each_cell<Dim>(target.cells, [&](std::size_t c, const auto& cell) {
-      const CellFrame<Dim> frame(target.grid, target.splines, cell.node);
-      const FacePolynomials<Dim, K> q(frame, target.sites.of(c), at_face);
-      for_each_group(cell, [&](const Group& group) {
-        const LanePlace<Dim> xi = local<Dim>(frame, target.y_p, group);
+  for_each_group_in_faces<Dim>(
+      target, at_face, [&](std::size_t, const Group& group, const auto& q, const LanePlace<Dim>& xi) {
         std::array<Four, static_cast<std::size_t>(Dim)> value;
         for_each_direction<Dim>([&](auto d) { value[d()] = q.template at<d(), Four>(xi).value; });
         for_each_lane(group, [&](std::size_t lane, std::size_t p) { use(p, in_lane(value, lane)); });
       });
-    });
-  });
 }
 
 }  // namespace minamo

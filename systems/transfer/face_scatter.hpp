@@ -74,8 +74,7 @@ void scatter_sums(const FaceSource<Dim>& source, std::span<Vec<Dim>> m_f, std::s
     for_each_group(cell, [&](const Group& group) {
       const LanePlace<Dim> xi = local<Dim>(frame, source.y_p, group);
       const SplineWeights<Dim, K, Four> weights(frame, xi);
-      Four m = of_group(group, [&](std::size_t p) { return source.m_p[p]; });
-      m = of_lane >= static_cast<double>(group.count) ? Four{} : m;
+      const Four m = unused_are_zero(group, of_group(group, [&](std::size_t p) { return source.m_p[p]; }));
       const std::array of_lanes{of_particle(group.particle(0)), of_particle(group.particle(1)),
                                 of_particle(group.particle(2)), of_particle(group.particle(3))};
       const LaneSeries<Dim, K, std::decay_t<decltype(of_lanes[0])>> q(frame, xi, of_lanes);
