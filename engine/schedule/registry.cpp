@@ -30,4 +30,10 @@ void SystemRegistry::insert(Entry entry) {
   if (!is_new) throw std::logic_error("system \"" + position->first + "\" is registered twice");
 }
 
+std::string SystemRegistry::file_of(const Doc& doc) {
+  constexpr std::string_view folder = "/systems/";
+  const std::size_t at = doc.file.rfind(folder);
+  return at == std::string_view::npos ? std::string() : std::string(doc.file.substr(at + 1));
+}
+
 }  // namespace minamo

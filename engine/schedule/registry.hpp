@@ -25,6 +25,7 @@ class SystemRegistry {
   struct Entry {
     std::string name;  ///< by which scenes name it
     std::string doc;   ///< `Kernel::doc` where it has one: one line, with the equation's number
+    std::string file;  ///< that declares the kernel, from systems/ on; empty of those that are declared elsewhere
     /// A kernel of one dimension.
     struct Kernel {
       const detail::Erased* system;                         ///< its declaration, and how it is called
@@ -42,9 +43,10 @@ class SystemRegistry {
   /// \throws std::logic_error if the name is taken.
   template <template <int> class Kernel>
   void add(std::string_view name, OnRanks on_ranks = OnRanks::one_process) {
-    std::string_view doc;
-    if constexpr (requires { Kernel<2>::doc; }) doc = Kernel<2>::doc;
-    insert({std::string(name), std::string(doc), erased<Kernel<2>>(), erased<Kernel<3>>(), on_ranks});
+    Doc doc{std::string_view()};
+    if constexpr (requires { Kernel<2>::doc; }) doc = Doc(Kernel<2>::doc);
+    insert(
+        {std::string(name), std::string(doc.text), file_of(doc), erased<Kernel<2>>(), erased<Kernel<3>>(), on_ranks});
   }
 
   /// Adds something that is chosen by its member `name`, like a transfer scheme.
@@ -113,6 +115,7 @@ class SystemRegistry {
     return detail::owned(new Kernel());
   }
   void insert(Entry entry);
+  static std::string file_of(const Doc& doc);
 
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::type_index, std::any> choices_;  ///< Registered<Choice> per type

@@ -4,6 +4,7 @@
 /// `Update<C>`, `RowBytes<Table>`, `Resize<Table>`, and `Uses<Bundle>` for several of them. make_system() turns it into
 /// what the schedule runs. It cannot touch what it did not declare.
 
+#include "engine/schedule/doc.hpp"
 #include "engine/schedule/parallel.hpp"
 #include "engine/schedule/uses.hpp"
 #include "engine/storage/world.hpp"

@@ -17,7 +17,7 @@ inline constexpr int most_contact_passes = 10;
 /// (E77) B v* for the contact of this pass, source of the balances; the others are zero.
 template <int Dim>
 struct FillContactSource {
-  static constexpr std::string_view doc = "(E77) B v*, with what is in contact at rest";
+  static constexpr Doc doc = "(E77) B v*, with what is in contact at rest";
   void operator()(Uses<MacGrid<Dim>> mac, Read<face::Predictor<Dim>> predictor, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<face::WallFlux<Dim>>> wall_flux, Read<unknown::Staggered> of_unknown,
                   Write<unknown::Source> source) const;
@@ -26,14 +26,14 @@ struct FillContactSource {
 /// It is enough when no contact has changed, or after most_contact_passes.
 template <int Dim>
 struct EndContactPass {
-  static constexpr std::string_view doc = "(E105) whether the contact has settled";
+  static constexpr Doc doc = "(E105) whether the contact has settled";
   void operator()(Optional<Read<Ranks>> ranks, Update<ContactLoop> loop) const;
 };
 
 /// `contact_passes` and `contact_unsettled` of the history.
 template <int Dim>
 struct MeasureContact {
-  static constexpr std::string_view doc = "(E105) passes of the contact, and what of it did not settle";
+  static constexpr Doc doc = "(E105) passes of the contact, and what of it did not settle";
   void operator()(Read<ContactLoop> loop, Update<measure::Columns> columns) const;
 };
 

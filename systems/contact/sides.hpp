@@ -16,7 +16,7 @@ namespace minamo {
 /// The faces on separating sides; those that another wall holds are not among them.
 template <int Dim>
 struct FindSeparatingFaces {
-  static constexpr std::string_view doc = "faces on the sides that the liquid may leave";
+  static constexpr Doc doc = "faces on the sides that the liquid may leave";
   void operator()(Uses<MacGrid<Dim>> mac, Read<SeparatingSides<Dim>> sides, Read<face::Held> held,
                   Write<SeparatingFaces<Dim>> separating) const;
 };
@@ -25,7 +25,7 @@ struct FindSeparatingFaces {
 /// without rebound.
 template <int Dim>
 struct StopOldVelocityAtSides {
-  static constexpr std::string_view doc = "(E106) v_f^n on separating sides";
+  static constexpr Doc doc = "(E106) v_f^n on separating sides";
   void operator()(Read<SeparatingFaces<Dim>> separating, Read<face::Contact> contact,
                   Update<face::Velocity<Dim>> v_f) const;
 };
@@ -33,7 +33,7 @@ struct StopOldVelocityAtSides {
 /// (E105) The contact that the pressure of the last step and v* let expect.
 template <int Dim>
 struct StartContactOfSides {
-  static constexpr std::string_view doc = "(E105) expected contact with separating sides";
+  static constexpr Doc doc = "(E105) expected contact with separating sides";
   void operator()(Read<Rates> rates, Read<face::Predictor<Dim>> predictor, Read<face::Mobility<Dim>> mobility,
                   Read<multiplier::Force> lambda, Update<SeparatingFaces<Dim>> separating) const;
 };
@@ -41,7 +41,7 @@ struct StartContactOfSides {
 /// (E105) Faces in contact have no velocity and no mobility, the others those of the balances.
 template <int Dim>
 struct HoldContactOfSides {
-  static constexpr std::string_view doc = "(E105) holds faces in contact with separating sides";
+  static constexpr Doc doc = "(E105) holds faces in contact with separating sides";
   void operator()(Read<SeparatingFaces<Dim>> separating, Update<face::Predictor<Dim>> predictor,
                   Update<face::Mobility<Dim>> mobility) const;
 };
@@ -49,7 +49,7 @@ struct HoldContactOfSides {
 /// (E107)  No volume is added next to a face that the liquid leaves: what is missing there is air.
 template <int Dim>
 struct LimitVolumeSourceAtSides {
-  static constexpr std::string_view doc = "(E107) no volume added where liquid leaves a side";
+  static constexpr Doc doc = "(E107) no volume added where liquid leaves a side";
   void operator()(Read<SeparatingFaces<Dim>> separating, Read<multiplier::Row> row,
                   Update<unknown::Source> source) const;
 };
@@ -58,7 +58,7 @@ struct LimitVolumeSourceAtSides {
 /// stays where it is, for its pressure is known up to a constant.
 template <int Dim>
 struct CompareContactOfSides {
-  static constexpr std::string_view doc = "(E105) contact with separating sides after a solve";
+  static constexpr Doc doc = "(E105) contact with separating sides after a solve";
   void operator()(Read<SolverTolerance> tolerance, Read<face::BalanceVelocity<Dim>> v_f, Read<multiplier::Row> row,
                   Read<unknown::Solution> solution, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,
                   Read<MultiplierSolver<Dim>> solver, Optional<Read<SiteExchange>> shared,
@@ -68,7 +68,7 @@ struct CompareContactOfSides {
 /// What the solver's tolerance leaves of velocities into a side, and shifts into it, are taken out.
 template <int Dim>
 struct KeepContactOfSides {
-  static constexpr std::string_view doc = "(E105) contact of the step, no shift into separating sides";
+  static constexpr Doc doc = "(E105) contact of the step, no shift into separating sides";
   void operator()(Read<SeparatingFaces<Dim>> separating, Update<face::BalanceVelocity<Dim>> v_f,
                   Update<face::Shift<Dim>> shift, Write<face::Contact> contact) const;
 };
@@ -76,7 +76,7 @@ struct KeepContactOfSides {
 /// (E106)  v_f^{n+1}: zero in contact, nowhere into the side.
 template <int Dim>
 struct StopNewVelocityAtSides {
-  static constexpr std::string_view doc = "(E106) v_f at the end of the step on separating sides";
+  static constexpr Doc doc = "(E106) v_f at the end of the step on separating sides";
   void operator()(Read<SeparatingFaces<Dim>> separating, Update<face::NewVelocity<Dim>> v_new) const;
 };
 

@@ -16,7 +16,7 @@ namespace minamo {
 /// The multipliers with a face that a separating body closes, in part or whole; released as in the last step.
 template <int Dim>
 struct FindSeparatingRows {
-  static constexpr std::string_view doc = "multipliers near bodies that the liquid may leave";
+  static constexpr Doc doc = "multipliers near bodies that the liquid may leave";
   void operator()(Read<BodySet<Dim>> set, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<face::Closed<Dim>> closed,
                   Read<face::Closer<Dim>> closer, Read<multiplier::Released> released,
@@ -28,7 +28,7 @@ struct FindSeparatingRows {
 /// would hold it at the body.
 template <int Dim>
 struct FillEmptyFaces {
-  static constexpr std::string_view doc = "(E109) v_f^n of faces without mass";
+  static constexpr Doc doc = "(E109) v_f^n of faces without mass";
   void operator()(Read<staggered::Neighbour<Dim>> neighbour, Read<face::Mass<Dim>> m_f,
                   Update<SeparatingRows<Dim>> separating, Update<face::Velocity<Dim>> v_f) const;
 };
@@ -36,7 +36,7 @@ struct FillEmptyFaces {
 /// What the passes of the loop change of bodies, for each to start from.
 template <int Dim>
 struct StartContactOfBodies {
-  static constexpr std::string_view doc = "(E108) bodies before the first pass";
+  static constexpr Doc doc = "(E108) bodies before the first pass";
   void operator()(Read<face::AttachedMass<Dim>> attached, Read<body::MeanVelocity<Dim>> V_b,
                   Read<body::MeanSpin<Dim>> omega_b, Read<body::Work> W_b,
                   Update<SeparatingRows<Dim>> separating) const;
@@ -45,7 +45,7 @@ struct StartContactOfBodies {
 /// (E108) Sets which multipliers are released, and takes back what the last pass has changed of bodies.
 template <int Dim>
 struct ReleaseFromBodies {
-  static constexpr std::string_view doc = "(E108) multipliers that liquid leaving a body has no pressure at";
+  static constexpr Doc doc = "(E108) multipliers that liquid leaving a body has no pressure at";
   void operator()(Read<SeparatingRows<Dim>> separating, Write<multiplier::Released> released,
                   Write<body::MeanVelocity<Dim>> V_b, Write<body::MeanSpin<Dim>> omega_b, Write<body::Work> W_b) const;
 };
@@ -54,7 +54,7 @@ struct ReleaseFromBodies {
 /// it.
 template <int Dim>
 struct DetachFromBodies {
-  static constexpr std::string_view doc = "(E109) no attached mass where liquid leaves a body";
+  static constexpr Doc doc = "(E109) no attached mass where liquid leaves a body";
   void operator()(Read<BodySet<Dim>> set, Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Row> row,
                   Read<face::AttachedTo<Dim>> attached_to, Update<SeparatingRows<Dim>> separating,
                   Write<face::AttachedMass<Dim>> attached) const;
@@ -64,7 +64,7 @@ struct DetachFromBodies {
 /// liquid as in (E105).
 template <int Dim>
 struct CompareContactOfBodies {
-  static constexpr std::string_view doc = "(E108) contact with separating bodies after a solve";
+  static constexpr Doc doc = "(E108) contact with separating bodies after a solve";
   void operator()(Read<SolverTolerance> tolerance, Uses<MacGrid<Dim>> mac, Read<face::Open<Dim>> open,
                   Read<face::Closed<Dim>> closed, Read<face::Closer<Dim>> closer, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,

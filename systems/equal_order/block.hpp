@@ -44,7 +44,7 @@ struct BlockWork {
 
 template <int Dim>
 struct AssembleSchur {
-  static constexpr std::string_view doc = "(E55) operator of the pressure";
+  static constexpr Doc doc = "(E55) operator of the pressure";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
                   Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
                   Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,
@@ -54,7 +54,7 @@ struct AssembleSchur {
 
 template <int Dim>
 struct FactorizeVelocity {
-  static constexpr std::string_view doc = "(E60) factors of the velocity block";
+  static constexpr Doc doc = "(E60) factors of the velocity block";
   /// \throws StepRejected if there are none.
   void operator()(Read<node::Mass> m_i, Read<matrix::Node> node, Optional<Read<matrix::Viscosity<Dim>>> viscosity,
                   Read<SchurOperator<Dim>> schur, Write<VelocityFactors<Dim>> factors) const;
@@ -62,7 +62,7 @@ struct FactorizeVelocity {
 
 template <int Dim>
 struct FactorizePressure {
-  static constexpr std::string_view doc = "(E56) (E57) preconditioner of the pressure";
+  static constexpr Doc doc = "(E56) (E57) preconditioner of the pressure";
   void operator()(Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Constraint> fixed, Read<node::Mass> m_i,
                   Read<node::Site<Dim>> site, Read<node::Capacity> capacity, Read<matrix::Node> node,
                   Read<matrix::Divergence<Dim>> divergence, Read<matrix::StabilizationScale> scale,
@@ -73,7 +73,7 @@ struct FactorizePressure {
 /// The operators are read for products with the viscous part, and for the fallback.
 template <int Dim>
 struct SolveBlock {
-  static constexpr std::string_view doc = "(E55) block elimination and GMRES";
+  static constexpr Doc doc = "(E55) block elimination and GMRES";
   /// \throws StepRejected if neither GMRES nor UMFPACK solves the system, with the size, or if iterations for the
   ///   velocities of a stiff liquid do not converge, which shorter steps help.
   void operator()(Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
@@ -88,7 +88,7 @@ struct SolveBlock {
 
 template <int Dim>
 struct SolveVolumeBlock {
-  static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
+  static constexpr Doc doc = "(E37) d_I, by the factors of the step";
   /// \throws StepRejected as SolveBlock.
   void operator()(Read<SolverTolerance> tolerance, Read<node::Row> row, Read<node::Constraint> fixed,
                   Read<node::Mass> m_i, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,

@@ -23,7 +23,7 @@ namespace minamo {
 /// (E63), into the right-hand side of (E26).
 template <int Dim>
 struct DampDivergence {
-  static constexpr std::string_view doc = "(E63) part of the divergence at the start, let out at the middle";
+  static constexpr Doc doc = "(E63) part of the divergence at the start, let out at the middle";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<node::Site<Dim>> site,
                   Read<node::Mass> m_i, Read<node::Capacity> capacity, Read<node::Velocity<Dim>> v_i,
                   Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,

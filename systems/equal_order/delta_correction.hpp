@@ -16,7 +16,7 @@ namespace minamo {
 /// r_I = sum_p V_p grad S_I . g_p, lambda = sum e_I r_I / sum r_I^2 over nodes with e_I > 0.
 template <int Dim>
 struct ShiftByDelta {
-  static constexpr std::string_view doc = "(E52) x_p, delta-correction";
+  static constexpr Doc doc = "(E52) x_p, delta-correction";
   void operator()(Read<Grid<Dim>> grid, Read<particle::Volume> V_p, Read<AdvectedNodeIndex<Dim>> rows,
                   Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
                   Write<advected_node::VolumeExcess> e_i, Write<advected_node::VolumeResponse> r_i,

@@ -28,7 +28,7 @@ namespace minamo {
 /// (E53), into the right-hand side of (E25).
 template <int Dim>
 struct AddInertiaCorrection {
-  static constexpr std::string_view doc = "(E53) first moment that lumping the mass leaves out";
+  static constexpr Doc doc = "(E53) first moment that lumping the mass leaves out";
   void operator()(Read<Clock> clock, Read<ForceStep> step, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells,
                   Read<cell::Density> rho_c, Read<Moments<Dim>> moments, Read<cell::LiquidIndicator> w_c,
                   Read<particle::Mass> m_p, Read<particle::ForceGradient<Dim>> grad_f_p, Read<node::Row> row,
@@ -40,7 +40,7 @@ struct AddInertiaCorrection {
 /// (E54)
 template <int Dim>
 struct G2PForceGradient {
-  static constexpr std::string_view doc = "(E54) grad f_p";
+  static constexpr Doc doc = "(E54) grad f_p";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments,
                   Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
                   Read<node::InertiaCorrection<Dim>> c_i, Write<particle::ForceGradient<Dim>> grad_f_p,

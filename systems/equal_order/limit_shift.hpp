@@ -18,7 +18,7 @@ namespace minamo {
 /// K^n of (E69), before the velocities change.
 template <int Dim>
 struct StoreKineticEnergy {
-  static constexpr std::string_view doc = "(E69) K^n";
+  static constexpr Doc doc = "(E69) K^n";
   void operator()(Read<particle::Mass> m_p, Read<particle::Velocity<Dim>> v_p, Write<EnergyBefore> before) const;
 };
 
@@ -26,7 +26,7 @@ struct StoreKineticEnergy {
 /// L = sum_I m_I b_I . u_I - (K^{n+1} - K^n) what the step has lost.
 template <int Dim>
 struct LimitShift {
-  static constexpr std::string_view doc = "(E69) d_I, lifting no more than the step has lost";
+  static constexpr Doc doc = "(E69) d_I, lifting no more than the step has lost";
   void operator()(Read<Fluid> fluid, Read<EnergyBefore> before, Read<particle::Mass> m_p,
                   Read<particle::Velocity<Dim>> v_p, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
                   Read<node::Displacement<Dim>> u_i, Read<node::Site<Dim>> sites, Read<AdvectedNodeIndex<Dim>> end_rows,

@@ -20,7 +20,7 @@ namespace minamo {
 /// al., CMAME 95 (1992) 221, doi:10.1016/0045-7825(92)90141-6. T_IJ is zero yet.
 template <int Dim>
 struct AssembleDivergence {
-  static constexpr std::string_view doc = "(E21) (E24) (E50) D_IJ, G_IJ, s_I, PSPG and VMS";
+  static constexpr Doc doc = "(E21) (E24) (E50) D_IJ, G_IJ, s_I, PSPG and VMS";
   void operator()(Read<Rates> rates, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments,
                   Read<cell::Density> rho_c, Read<cell::Tau> tau_c, Read<node::Row> row, Read<node::BodyForce<Dim>> b_i,
                   Read<node::PredictedAcceleration<Dim>> a_predicted, Read<node::Displacement<Dim>> u_i,
@@ -35,7 +35,7 @@ struct AssembleDivergence {
 /// doi:10.1016/S0045-7825(00)00254-1; the lag of one step is ours. T_IJ is zero yet.
 template <int Dim>
 struct AssembleDivergenceOss {
-  static constexpr std::string_view doc = "(E21) (E48) D_IJ, s_I, OSS";
+  static constexpr Doc doc = "(E21) (E48) D_IJ, s_I, OSS";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments, Read<Fluid> fluid,
                   Read<cell::Density> rho_c, Read<cell::Tau> tau_c, Read<node::Row> row, Read<node::Mass> m_i,
                   Read<node::Capacity> capacity, Read<node::BodyForce<Dim>> b_i, Read<node::PressureGradient<Dim>> g_i,
@@ -47,7 +47,7 @@ struct AssembleDivergenceOss {
 /// A viscous liquid has it from AssembleViscosity.
 template <int Dim>
 struct AssembleLaplacian {
-  static constexpr std::string_view doc = "(E22) (E24) (E48) T_IJ, inviscid";
+  static constexpr Doc doc = "(E22) (E24) (E48) T_IJ, inviscid";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments,
                   Read<cell::Tau> tau_c, Read<node::Row> row, Update<matrix::Stabilization<Dim>> stabilization) const;
 };

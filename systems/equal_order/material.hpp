@@ -19,7 +19,7 @@ namespace minamo {
 /// rho_c and mu_c are the constants of the liquid.
 template <int Dim>
 struct SetMaterial {
-  static constexpr std::string_view doc = "rho_c, mu_c of one Newtonian liquid";
+  static constexpr Doc doc = "rho_c, mu_c of one Newtonian liquid";
   void operator()(Read<Fluid> fluid, Write<cell::Density> rho_c, Write<cell::Viscosity> mu_c) const;
 };
 
@@ -27,7 +27,7 @@ struct SetMaterial {
 /// invariant.
 template <int Dim>
 struct FindTau {
-  static constexpr std::string_view doc = "(E24) tau_c, PSPG and OSS";
+  static constexpr Doc doc = "(E24) tau_c, PSPG and OSS";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<cell::Density> rho_c, Read<cell::Viscosity> mu_c,
                   Write<cell::Tau> tau_c, Write<matrix::StabilizationScale> scale) const;
 };

@@ -30,7 +30,7 @@ CellMoments<Dim> integrate_theta(const CellBasis<Dim>& basis, const std::array<d
 /// the other is ours.
 template <int Dim>
 struct GatherMoments {
-  static constexpr std::string_view doc = "(E19) (E68) moments of dual cells";
+  static constexpr Doc doc = "(E19) (E68) moments of dual cells";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Volume> V_p, Optional<Read<node::FilledIndicator>> theta_i,
                   Write<Moments<Dim>> moments) const;

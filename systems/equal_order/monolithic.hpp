@@ -30,7 +30,7 @@ void fill_monolithic(const Operators<Dim>& operators, matrix::Monolithic& matrix
 
 template <int Dim>
 struct AssembleMonolithic {
-  static constexpr std::string_view doc = "(E25) (E26) (E27) as one matrix";
+  static constexpr Doc doc = "(E25) (E26) (E27) as one matrix";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Fluid> fluid, Read<Rates> rates, Read<node::Row> row,
                   Read<node::Constraint> fixed, Read<node::Mass> m_i, Read<matrix::Node> node,
                   Read<matrix::Neighbour<Dim>> neighbour, Read<matrix::Divergence<Dim>> divergence,

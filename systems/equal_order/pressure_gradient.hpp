@@ -14,7 +14,7 @@ namespace minamo {
 /// (E49)  grad p_p = sum_I p_I grad S_I(y_p), kept for the next step.
 template <int Dim>
 struct G2PPressureGradient {
-  static constexpr std::string_view doc = "(E49) grad p_p";
+  static constexpr Doc doc = "(E49) grad p_p";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::Pressure> p_i, Write<particle::PressureGradient<Dim>> grad_p_p) const;
 };
@@ -22,7 +22,7 @@ struct G2PPressureGradient {
 /// (E49)  g_I = sum_p S_Ip m_p grad p_p / m_I.
 template <int Dim>
 struct P2GPressureGradient {
-  static constexpr std::string_view doc = "(E49) g_I";
+  static constexpr Doc doc = "(E49) g_I";
   void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::PressureGradient<Dim>> grad_p_p,
                   Write<node::PressureGradient<Dim>> g_i) const;
 };

@@ -14,7 +14,7 @@ namespace minamo {
 
 template <int Dim>
 struct FillRightHandSide {
-  static constexpr std::string_view doc = "(E25) (E26) right-hand side";
+  static constexpr Doc doc = "(E25) (E26) right-hand side";
   void operator()(Read<Rates> rates, Read<node::Constraint> constraint,
                   Optional<Read<node::ConstraintFrame<Dim>>> frame, Read<node::Mass> m_i,
                   Read<node::BodyForce<Dim>> b_i, Read<node::PredictedVelocity<Dim>> v_predicted,

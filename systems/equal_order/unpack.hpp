@@ -11,7 +11,7 @@ namespace minamo {
 /// u_I and p_I from the solution.
 template <int Dim>
 struct UnpackSolution {
-  static constexpr std::string_view doc = "u_I and p_I from the solution";
+  static constexpr Doc doc = "u_I and p_I from the solution";
   void operator()(Read<matrix::Displacement<Dim>> u, Read<matrix::Pressure> p, Read<node::Row> row,
                   Update<node::Displacement<Dim>> u_i, Write<node::Pressure> p_i) const;
 };

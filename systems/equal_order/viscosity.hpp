@@ -13,7 +13,7 @@ namespace minamo {
 /// And T_IJ of the stabilization, as AssembleLaplacian: its cell matrices are among those of K_IJ.
 template <int Dim>
 struct AssembleViscosity {
-  static constexpr std::string_view doc = "(E22) (E23) (E51) K_IJ; T_IJ";
+  static constexpr Doc doc = "(E22) (E23) (E51) K_IJ; T_IJ";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Moments<Dim>> moments,
                   Read<cell::Viscosity> mu_c, Optional<Read<cell::BulkViscosity>> tau_2, Read<cell::Tau> tau_c,
                   Read<node::Row> row, Write<matrix::Viscosity<Dim>> viscosity,

@@ -17,7 +17,7 @@ namespace minamo {
 /// velocity v^n in the middle of the cell. (E51)  tau_2 = h_s^2/(c_1 tau_1).
 template <int Dim>
 struct FindTauVms {
-  static constexpr std::string_view doc = "(E50) (E51) tau_c, tau_2, VMS";
+  static constexpr Doc doc = "(E50) (E51) tau_c, tau_2, VMS";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<cell::Density> rho_c,
                   Read<cell::Viscosity> mu_c, Read<node::Velocity<Dim>> v_i, Write<cell::Tau> tau_c,
                   Write<cell::BulkViscosity> tau_2, Write<matrix::StabilizationScale> scale) const;

@@ -21,7 +21,7 @@ namespace minamo {
 /// (E35)  V~_I = sum_p S_I(x_p^{n+1}) V_p.
 template <int Dim>
 struct GatherNodeVolume {
-  static constexpr std::string_view doc = "(E35) V~_I at the end of the step";
+  static constexpr Doc doc = "(E35) V~_I at the end of the step";
   void operator()(Read<Grid<Dim>> grid, Read<particle::Position<Dim>> x_p, Read<particle::Volume> V_p,
                   Resize<AdvectedNodes> nodes, Write<AdvectedNodeIndex<Dim>> rows,
                   Write<advected_node::Site<Dim>> sites, Write<advected_node::Volume> v_i) const;
@@ -30,7 +30,7 @@ struct GatherNodeVolume {
 /// (E36)  E_I = V~_I - V_I where positive, or where the node is deep inside the liquid.
 template <int Dim>
 struct FindVolumeExcess {
-  static constexpr std::string_view doc = "(E36) E_I";
+  static constexpr Doc doc = "(E36) E_I";
   void operator()(Read<Grid<Dim>> grid, Read<AdvectedNodeIndex<Dim>> rows, Read<advected_node::Site<Dim>> sites,
                   Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
                   Write<advected_node::VolumeExcess> e_i) const;
@@ -40,7 +40,7 @@ struct FindVolumeExcess {
 /// solver finds it.
 template <int Dim>
 struct FillVolumeSource {
-  static constexpr std::string_view doc = "(E37) c_v r E_I";
+  static constexpr Doc doc = "(E37) c_v r E_I";
   void operator()(Read<Rates> rates, Read<VolumeRate> rate, Read<node::Site<Dim>> sites, Read<matrix::Node> node,
                   Read<AdvectedNodeIndex<Dim>> end_rows, Read<advected_node::VolumeExcess> e_i,
                   Write<matrix::VolumeSource> source) const;
@@ -48,14 +48,14 @@ struct FillVolumeSource {
 
 template <int Dim>
 struct UnpackShift {
-  static constexpr std::string_view doc = "d_I from the solution";
+  static constexpr Doc doc = "d_I from the solution";
   void operator()(Read<matrix::Shift<Dim>> solution, Read<node::Row> row, Write<node::Shift<Dim>> d_i) const;
 };
 
 /// (E38)  x_p += sum_I S_I(x_p) d_I, at most 0.1 h.
 template <int Dim>
 struct ShiftParticles {
-  static constexpr std::string_view doc = "(E38) x_p, shifted";
+  static constexpr Doc doc = "(E38) x_p, shifted";
   void operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<node::Shift<Dim>> d_i,
                   Update<particle::Position<Dim>> x_p) const;
 };

@@ -23,7 +23,7 @@ double mass_threshold(std::span<const double> m_i, std::size_t width = 1, const 
 /// is above. The others have no pressure and move freely.
 template <int Dim>
 struct Activate {
-  static constexpr std::string_view doc = "(E7) active nodes";
+  static constexpr Doc doc = "(E7) active nodes";
   void operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> index, Read<node::Site<Dim>> site, Read<node::Mass> m_i,
                   Resize<ActiveNodes> rows, Write<node::Row> row, Write<matrix::Node> node) const;
 };

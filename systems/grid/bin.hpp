@@ -13,7 +13,7 @@ namespace minamo {
 /// Sorts particles by the dual cell of y_p, blocks of cells first; particles of one cell keep their order.
 template <int Dim>
 struct Bin {
-  static constexpr std::string_view doc = "sort particles by dual cell, colour the blocks of cells";
+  static constexpr Doc doc = "sort particles by dual cell, colour the blocks of cells";
   void operator()(Read<Grid<Dim>> grid, Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles,
                   Write<OccupiedCells<Dim>> cells, Resize<Cells> rows, Update<BinBuffer> buffer) const;
 };
@@ -21,7 +21,7 @@ struct Bin {
 /// The same by the cell of y_p, for the conforming discretization.
 template <int Dim>
 struct BinByCell {
-  static constexpr std::string_view doc = "sort particles by cell, colour the blocks of cells";
+  static constexpr Doc doc = "sort particles by cell, colour the blocks of cells";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<particle::QuadraturePosition<Dim>> y_p,
                   Resize<Particles> particles, Write<GridCells<Dim>> cells, Resize<Cells> rows,
                   Update<BinBuffer> buffer) const;

@@ -11,14 +11,14 @@ namespace minamo {
 /// (E39)  V_I of the nodes of the step.
 template <int Dim>
 struct FindCapacity {
-  static constexpr std::string_view doc = "(E39) V_I";
+  static constexpr Doc doc = "(E39) V_I";
   void operator()(Read<Grid<Dim>> grid, Read<node::Site<Dim>> sites, Write<node::Capacity> capacity) const;
 };
 
 /// (E39)  V_I of the nodes that particles touch where the step has moved them.
 template <int Dim>
 struct FindAdvectedCapacity {
-  static constexpr std::string_view doc = "(E39) V_I at the end of the step";
+  static constexpr Doc doc = "(E39) V_I at the end of the step";
   void operator()(Read<Grid<Dim>> grid, Read<advected_node::Site<Dim>> sites,
                   Write<advected_node::Capacity> capacity) const;
 };

@@ -17,7 +17,7 @@ double filled_indicator(double least_fill);
 /// theta_I = min(1, max(0, (f_I - 0.9)/0.07)), f_I the least phi_J of the nodes of the dual cell of I.
 template <int Dim>
 struct FindFilledNodes {
-  static constexpr std::string_view doc = "(E67) filled nodes";
+  static constexpr Doc doc = "(E67) filled nodes";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid, Read<node::Mass> m_i,
                   Read<node::Capacity> capacity, Write<node::FillFraction> phi_i,
                   Write<node::FilledIndicator> theta_i) const;

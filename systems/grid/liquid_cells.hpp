@@ -20,7 +20,7 @@ double bulk_indicator(double fill_fraction);
 /// as thick as a cell 0.49 and more, one at a surface 0.66. b_c = min(1, max(0, 2.5 f_c - 1.25)) begins where w_c ends.
 template <int Dim>
 struct FindLiquidCells {
-  static constexpr std::string_view doc = "(E61) share of a cell that is liquid, not spray";
+  static constexpr Doc doc = "(E61) share of a cell that is liquid, not spray";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<Fluid> fluid, Read<node::Mass> m_i,
                   Read<node::Capacity> capacity, Write<cell::LiquidIndicator> w_c,
                   Write<cell::BulkIndicator> b_c) const;

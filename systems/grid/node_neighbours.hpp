@@ -11,7 +11,7 @@ namespace minamo {
 
 template <int Dim>
 struct FindNeighbours {
-  static constexpr std::string_view doc = "nodes that can share a particle with an active node";
+  static constexpr Doc doc = "nodes that can share a particle with an active node";
   void operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<node::Site<Dim>> sites, Read<matrix::Node> node,
                   Write<matrix::Neighbour<Dim>> neighbour) const;
 };

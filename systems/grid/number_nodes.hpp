@@ -20,7 +20,7 @@ struct NumberingBuffer {
 /// that had no row start from zero.
 template <int Dim>
 struct NumberNodes {
-  static constexpr std::string_view doc = "number the nodes of occupied dual cells";
+  static constexpr Doc doc = "number the nodes of occupied dual cells";
   void operator()(Read<Grid<Dim>> grid, Read<Walls<Dim>> walls, Resize<Nodes> nodes, Update<OccupiedCells<Dim>> cells,
                   Update<NodeIndex<Dim>> rows, Update<node::Site<Dim>> sites, Write<node::Constraint> constraint,
                   Update<NumberingBuffer> buffer) const;

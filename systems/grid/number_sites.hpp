@@ -29,7 +29,7 @@ void join_sites(const std::uint32_t* rows, std::span<typename staggered::Neighbo
 /// had no row start from zero.
 template <int Dim>
 struct NumberSites {
-  static constexpr std::string_view doc = "number the staggered sites of occupied cells";
+  static constexpr Doc doc = "number the staggered sites of occupied cells";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls, Read<GridCells<Dim>> cells,
                   Optional<Read<GhostCells<Dim>>> ghosts, Resize<Staggered> table, Write<CellSites> sites,
                   Update<StaggeredIndex<Dim>> rows, Update<staggered::Site<Dim>> site,

@@ -11,7 +11,7 @@ namespace minamo {
 /// (E8)  v_I = w_I in the held directions: v_I . n = 0 at slip walls at rest, v_I = 0 at no-slip walls at rest.
 template <int Dim>
 struct ApplyWallCondition {
-  static constexpr std::string_view doc = "(E8) wall conditions on v_I^n";
+  static constexpr Doc doc = "(E8) wall conditions on v_I^n";
   void operator()(Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
                   Optional<Read<node::ConstraintVelocity<Dim>>> w_i, Update<node::Velocity<Dim>> v_i) const;
 };
@@ -19,7 +19,7 @@ struct ApplyWallCondition {
 /// (E8) for the acceleration, which is zero there: walls move steadily.
 template <int Dim>
 struct ApplyWallConditionAcceleration {
-  static constexpr std::string_view doc = "(E8) wall conditions on a_I^n";
+  static constexpr Doc doc = "(E8) wall conditions on a_I^n";
   void operator()(Read<node::Constraint> constraint, Optional<Read<node::ConstraintFrame<Dim>>> frame,
                   Update<node::Acceleration<Dim>> a_i) const;
 };

@@ -48,14 +48,14 @@ void unpack(const std::vector<double>& x, std::span<Vec<Dim>> u, std::span<doubl
 
 template <int Dim>
 struct FactorizeUmfpack {
-  static constexpr std::string_view doc = "factors of the monolithic matrix by UMFPACK";
+  static constexpr Doc doc = "factors of the monolithic matrix by UMFPACK";
   /// \throws StepRejected if the matrix is singular, with the size.
   void operator()(Read<matrix::Monolithic> matrix, Write<UmfpackFactors> factors) const;
 };
 
 template <int Dim>
 struct SolveUmfpack {
-  static constexpr std::string_view doc = "solve the monolithic system by its factors";
+  static constexpr Doc doc = "solve the monolithic system by its factors";
   /// \throws StepRejected if the solution is not finite, with the size.
   void operator()(Read<UmfpackFactors> factors, Read<matrix::Momentum<Dim>> f, Read<matrix::Mass> g,
                   Update<PackedVectors> packed, Write<matrix::Displacement<Dim>> u, Write<matrix::Pressure> p,
@@ -64,7 +64,7 @@ struct SolveUmfpack {
 
 template <int Dim>
 struct SolveVolumeUmfpack {
-  static constexpr std::string_view doc = "(E37) d_I, by the factors of the step";
+  static constexpr Doc doc = "(E37) d_I, by the factors of the step";
   /// \throws StepRejected if the solution is not finite, with the size.
   void operator()(Read<UmfpackFactors> factors, Read<matrix::VolumeSource> g, Update<PackedVectors> packed,
                   Write<matrix::Shift<Dim>> d) const;

@@ -19,7 +19,7 @@ namespace minamo {
 /// (E132)  q_f = -sum_g (B^T lambda)_g/sum_g rho_g V^_g of the last step, over the faces g around f.
 template <int Dim>
 struct FindPressureAcceleration {
-  static constexpr std::string_view doc = "(E132) acceleration by which the pressure of the last step acted";
+  static constexpr Doc doc = "(E132) acceleration by which the pressure of the last step acted";
   void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows, Read<face::Held> held,
                   Optional<Read<face::Contact>> contact, Read<multiplier::Force> lambda, Read<multiplier::Volume> v_l,
                   Read<face::Mass<Dim>> m_f, Read<face::Mobility<Dim>> mobility, Read<face::ExactVolume<Dim>> volume,
@@ -32,7 +32,7 @@ struct FindPressureAcceleration {
 /// (E133)  w_f: 1 where the liquid is nearly at rest, 0 where it moves, and in spray.
 template <int Dim>
 struct FindExactShare {
-  static constexpr std::string_view doc = "(E133) where forces are those on exact integrals over the liquid";
+  static constexpr Doc doc = "(E133) where forces are those on exact integrals over the liquid";
   void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Read<face::Mass<Dim>> m_f,
                   Read<face::Mobility<Dim>> mobility, Read<face::Velocity<Dim>> v_f,
@@ -46,7 +46,7 @@ struct FindExactShare {
 /// (E134)  v*_f += tau (rho_f V^_f/m_f - 1) q_f.
 template <int Dim>
 struct AddExactPressure {
-  static constexpr std::string_view doc = "(E134) pressure acts on exact integrals over the liquid";
+  static constexpr Doc doc = "(E134) pressure acts on exact integrals over the liquid";
   void operator()(Read<Rates> rates, Read<Fluid> fluid, Read<face::Mobility<Dim>> mobility,
                   Read<face::ExactShare<Dim>> share, Read<face::ExactVolume<Dim>> volume,
                   Optional<Read<face::UnseenForce<Dim>>> unseen, Read<face::PressureAcceleration<Dim>> q_f,

@@ -15,7 +15,7 @@ namespace minamo {
 /// The cells that the surface passes;  (E131)  psi_l so that they hold more of what was measured, and V^_f.
 template <int Dim>
 struct FindExactVolume {
-  static constexpr std::string_view doc = "(E131) integrals of N_f over the liquid";
+  static constexpr Doc doc = "(E131) integrals of N_f over the liquid";
   void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<multiplier::ContinuedFill> phi, Read<multiplier::NearExact> near,
                   Read<multiplier::SurfaceNormal<Dim>> n_l, Read<face::Mass<Dim>> m_f,

@@ -43,7 +43,7 @@ bool may_be_at_surface(const Splines<Dim>& splines, const Index<Dim>& site,
 /// (E130)  psi_l and n_l from phi_l, where faces have a share of exact integrals; not of multipliers that bodies cut.
 template <int Dim>
 struct FindLiquidSurface {
-  static constexpr std::string_view doc = "(E130) signed distance of multipliers from the surface";
+  static constexpr Doc doc = "(E130) signed distance of multipliers from the surface";
   void operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::FillFraction> phi,
                   Optional<Read<multiplier::OpenShare>> open, Read<face::ExactShare<Dim>> share,

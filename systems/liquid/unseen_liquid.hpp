@@ -19,7 +19,7 @@ constexpr int sites_to_tellers(int degree) { return 2 * degree - 1; }
 /// (E140)  psi_l of multipliers that are full or empty by their particles, from the planes around.
 template <int Dim>
 struct FindUnseenLiquid {
-  static constexpr std::string_view doc =
+  static constexpr Doc doc =
       "(E140) distance from the surface of multipliers that are full or empty by their particles";
   void operator()(Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows, Read<staggered::Site<Dim>> site,
                   Read<multiplier::FillFraction> fill, Read<multiplier::NearExact> near,
@@ -31,7 +31,7 @@ struct FindUnseenLiquid {
 /// (E140)  force of the pressure of those that are empty.
 template <int Dim>
 struct FindUnseenForce {
-  static constexpr std::string_view doc = "(E140) pressure of liquid that reaches multipliers without particles";
+  static constexpr Doc doc = "(E140) pressure of liquid that reaches multipliers without particles";
   void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<StaggeredIndex<Dim>> rows,
                   Read<UnseenLiquid<Dim>> unseen, Read<face::Mass<Dim>> m_f, Read<face::ExactShare<Dim>> share,
                   Read<face::ExactVolume<Dim>> volume, Read<face::PressureAcceleration<Dim>> q_f,

@@ -30,7 +30,7 @@ struct StepTotals {
 /// more than a fiftieth. An eighth of a step is not held to the latter: what that does not mend no shorter one does.
 template <int Dim>
 struct AcceptStep {
-  static constexpr std::string_view doc = "(E58) reject the step if it cannot be trusted";
+  static constexpr Doc doc = "(E58) reject the step if it cannot be trusted";
   /// \throws StepRejected naming the bound and the worst node or particle, where it is and its value.
   void operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance,
                   Read<SolveReport> solve, Read<node::Site<Dim>> site, Read<node::Mass> m_i,
@@ -43,7 +43,7 @@ struct AcceptStep {
 /// seen in the next one. If particles move by less than a quarter of a cell there, no shorter step would help.
 template <int Dim>
 struct AcceptStepOnFaces {
-  static constexpr std::string_view doc = "(E58) reject the step if it cannot be trusted";
+  static constexpr Doc doc = "(E58) reject the step if it cannot be trusted";
   /// \throws StepRejected naming the bound and the worst face or particle, where it is and its value.
   void operator()(Read<Grid<Dim>> grid, Read<LargestMove> largest, Read<SolverTolerance> tolerance,
                   Read<SolveReport> solve, Read<staggered::Site<Dim>> site, Read<face::Mass<Dim>> m_f,
@@ -56,7 +56,7 @@ struct AcceptStepOnFaces {
 /// The start counts.
 template <int Dim>
 struct NoteStep {
-  static constexpr std::string_view doc = "what counts of every step, whether or not the history has a row of it";
+  static constexpr Doc doc = "what counts of every step, whether or not the history has a row of it";
   void operator()(Read<measure::Overlap> overlap, Read<SolveReport> solve, Update<StepTotals> totals) const;
 };
 

@@ -24,7 +24,7 @@ double kinetic_energy(std::span<const double> m_p, std::span<const Vec<Dim>> v_p
 /// (E28)  K = sum m_p |v_p|^2 / 2;  U = -sum m_p b . (x_p - low corner) for a constant b.
 template <int Dim>
 struct MeasureEnergy {
-  static constexpr std::string_view doc = "(E28) kinetic and potential energy";
+  static constexpr Doc doc = "(E28) kinetic and potential energy";
   void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Read<particle::Mass> m_p, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Optional<Read<Ranks>> ranks, Write<measure::Energy> energy) const;
 };
@@ -34,7 +34,7 @@ struct MeasureEnergy {
 /// of the history, energy_balance, where that is not K + U.
 template <int Dim>
 struct MeasureEnergyBalance {
-  static constexpr std::string_view doc = "(E59) energy less what was given, which no step raises";
+  static constexpr Doc doc = "(E59) energy less what was given, which no step raises";
   void operator()(Read<measure::Energy> energy, Optional<Read<body::Work>> W_b, Optional<Read<opening::EnergyIn>> E_o,
                   Optional<Read<EnergyGiven>> given, Write<measure::EnergyBalance> balance,
                   Update<measure::Columns> columns) const;
@@ -45,7 +45,7 @@ struct MeasureEnergyBalance {
 /// cyclic kin in 3-D, with D_p = sum_I S_I(x_p) (x_I - x_p) (x) (x_I - x_p), which is diagonal.
 template <int Dim>
 struct MeasureMomentum {
-  static constexpr std::string_view doc = "(E29) (E30) momentum and angular momentum";
+  static constexpr Doc doc = "(E29) (E30) momentum and angular momentum";
   void operator()(Read<Grid<Dim>> grid, Optional<Read<Splines<Dim>>> splines, Read<particle::Mass> m_p,
                   Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<Ranks>> ranks,
@@ -55,7 +55,7 @@ struct MeasureMomentum {
 /// max |v_p|.
 template <int Dim>
 struct MeasureMaxSpeed {
-  static constexpr std::string_view doc = "largest particle speed";
+  static constexpr Doc doc = "largest particle speed";
   void operator()(Read<particle::Velocity<Dim>> v_p, Optional<Read<Ranks>> ranks, Write<measure::MaxSpeed> speed) const;
 };
 

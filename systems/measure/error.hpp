@@ -18,7 +18,7 @@ namespace minamo {
 /// (E41)  error_velocity = sqrt(sum V_p |v_p - v_e(x_p)|^2 / sum V_p |v_e(x_p)|^2), at the end of the step.
 template <int Dim>
 struct MeasureErrorVelocity {
-  static constexpr std::string_view doc = "(E41) error of the velocity";
+  static constexpr Doc doc = "(E41) error of the velocity";
   void operator()(Read<exact::Velocity> exact, Read<Clock> clock, Optional<Read<ode::Values>> ode,
                   Read<particle::Volume> V_p, Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p,
                   Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const;
@@ -30,7 +30,7 @@ struct MeasureErrorVelocity {
 /// that of (E13), one step ahead of x^0, against p_e at t = 0: an error of order dt that no step has.
 template <int Dim>
 struct MeasureErrorPressure {
-  static constexpr std::string_view doc = "(E42) error of the pressure";
+  static constexpr Doc doc = "(E42) error of the pressure";
   void operator()(Read<exact::Pressure> exact, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Read<particle::Volume> V_p, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Pressure> p_p,
                   Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const;

@@ -32,14 +32,14 @@ ForceWork force_work_of(const Scene& scene, std::span<const System> systems);
 /// Before the first step.
 template <int Dim>
 struct BeginEnergyGiven {
-  static constexpr std::string_view doc = "no energy is given yet";
+  static constexpr Doc doc = "no energy is given yet";
   void operator()(Write<EnergyGiven> given) const;
 };
 
 /// (E128)  W = sum_I m_I (b_I - b) . u_I, b the part with a potential: constant, or zero.
 template <int Dim>
 struct CountForceWork {
-  static constexpr std::string_view doc = "(E128) work of forces without a potential";
+  static constexpr Doc doc = "(E128) work of forces without a potential";
   void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Optional<Read<NewmarkParameters>> newmark, Read<Rates> rates,
                   Optional<Read<ode::AtBalances>> ode, Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i,
                   Read<node::Displacement<Dim>> u_i, Update<EnergyGiven> given) const;
@@ -49,7 +49,7 @@ struct CountForceWork {
 /// also sum_p m_p b_p . (d_p + s_p) of what moves particles without a velocity, so that a shift that lifts is seen.
 template <int Dim>
 struct CountFaceForceWork {
-  static constexpr std::string_view doc = "(E128) work of forces without a potential";
+  static constexpr Doc doc = "(E128) work of forces without a potential";
   void operator()(Read<Grid<Dim>> grid, Read<BodyForce> b, Optional<Read<NewmarkParameters>> newmark, Read<Rates> rates,
                   Optional<Read<ode::AtBalances>> ode, Optional<Read<particle::BodyForce<Dim>>> b_p,
                   Read<particle::Mass> m_p, Optional<Read<particle::Shift<Dim>>> d_p,

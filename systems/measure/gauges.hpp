@@ -27,7 +27,7 @@ struct Gauges {
 /// empty cell while a body covers `at`. [m]
 template <int Dim>
 struct MeasureGauges {
-  static constexpr std::string_view doc = "(E137) height of the surface at the gauges";
+  static constexpr Doc doc = "(E137) height of the surface at the gauges";
   void operator()(Read<Grid<Dim>> grid, Read<Gauges<Dim>> gauges, Read<particle::Position<Dim>> x_p,
                   Read<particle::Volume> V_p, Optional<Read<BodySet<Dim>>> set, Optional<Read<body::Position<Dim>>> c_b,
                   Optional<Read<body::Rotation<Dim>>> R_b, Optional<Read<Ranks>> ranks,

@@ -52,14 +52,14 @@ struct FormerPosition : Column<Particles, Vec<Dim>> {
 
 template <int Dim>
 struct KeepFormerPositions {
-  static constexpr std::string_view doc = "where particles are before the step, for meters";
+  static constexpr Doc doc = "where particles are before the step, for meters";
   void operator()(Read<particle::Position<Dim>> x_p, Write<meter::FormerPosition<Dim>> former) const;
 };
 
 /// (E138)  What passes the planes in the step, whatever moves it.
 template <int Dim>
 struct PassMeters {
-  static constexpr std::string_view doc = "(E138) volume that passes the meters";
+  static constexpr Doc doc = "(E138) volume that passes the meters";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Meters<Dim>> meters, Read<particle::Volume> V_p,
                   Read<meter::FormerPosition<Dim>> former, Read<particle::Position<Dim>> x_p,
                   Optional<Read<Ranks>> ranks, Update<meter::Volume> volume, Write<meter::Rate> rate) const;
@@ -68,7 +68,7 @@ struct PassMeters {
 /// Columns of the history: NAME, the rate, and NAME_volume.
 template <int Dim>
 struct MeasureMeters {
-  static constexpr std::string_view doc = "flow rate and volume through the meters";
+  static constexpr Doc doc = "flow rate and volume through the meters";
   void operator()(Read<Meters<Dim>> meters, Read<meter::Volume> volume, Read<meter::Rate> rate,
                   Update<measure::Columns> columns) const;
 };

@@ -16,7 +16,7 @@ namespace minamo {
 /// is a mean of the (B v)_l around it.
 template <int Dim>
 struct MeasureFaceDivergence {
-  static constexpr std::string_view doc = "(E31) largest divergence";
+  static constexpr Doc doc = "(E31) largest divergence";
   void operator()(Uses<MacGrid<Dim>> mac, Optional<Read<face::Open<Dim>>> open,
                   Optional<Read<face::WallFlux<Dim>>> wall_flux, Optional<Read<SiteExchange>> shared,
                   Read<unknown::Staggered> of_unknown, Read<face::BalanceVelocity<Dim>> v_f,
@@ -26,7 +26,7 @@ struct MeasureFaceDivergence {
 /// (E32)  overlap = sum_l max(0, V~_l - V_l) / sum_p V_p, at y_p.
 template <int Dim>
 struct MeasureMultiplierOverlap {
-  static constexpr std::string_view doc = "(E32) overlap";
+  static constexpr Doc doc = "(E32) overlap";
   void operator()(Read<particle::Volume> V_p, Read<multiplier::Capacity> capacity, Read<multiplier::Volume> v_l,
                   Optional<Read<SiteExchange>> shared, Write<measure::Overlap> overlap) const;
 };
@@ -35,7 +35,7 @@ struct MeasureMultiplierOverlap {
 /// faces with mass. Zero where the probe is dry.
 template <int Dim, class Velocity>
 struct MeasureProbesOnFacesIn {
-  static constexpr std::string_view doc = "(E43), (E44) pressure and velocity at the probes";
+  static constexpr Doc doc = "(E43), (E44) pressure and velocity at the probes";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<measure::Probes<Dim>> probes, Read<face::Mass<Dim>> m_f, Read<multiplier::Pressure> p_l,
                   Read<Velocity> v_f, Optional<Read<SiteExchange>> shared, Update<measure::Columns> columns) const;

@@ -42,7 +42,7 @@ std::vector<typename Patches<Dim>::Piece> pieces_of(const Outline<Dim>& outline,
 /// outside of the box or in another body does not count; where it is dry the pressure is zero.
 template <int Dim>
 struct MeasurePatches {
-  static constexpr std::string_view doc = "(E139) pressure and its force on the patches";
+  static constexpr Doc doc = "(E139) pressure and its force on the patches";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<Patches<Dim>> patches, Uses<BodyPlacement<Dim>> placement, Optional<Read<DrySides<Dim>>> dry,
                   Read<multiplier::OpenShare> share, Read<multiplier::Pressure> p_l,

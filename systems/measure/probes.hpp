@@ -16,7 +16,7 @@ namespace minamo {
 /// that at the instant of the balances, the velocity that of its end.
 template <int Dim, class Velocity>
 struct MeasureProbesIn {
-  static constexpr std::string_view doc = "(E43), (E44) pressure and velocity at the probes";
+  static constexpr Doc doc = "(E43), (E44) pressure and velocity at the probes";
   void operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<measure::Probes<Dim>> probes,
                   Read<node::Mass> m_i, Read<node::Pressure> p_i, Read<Velocity> v_i,
                   Update<measure::Columns> columns) const;

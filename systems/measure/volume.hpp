@@ -19,7 +19,7 @@ namespace minamo {
 /// (E31)  max_I |sum_J D_IJ . v_J| / (m_I/rho), v the velocity in the mass balance.
 template <int Dim>
 struct MeasureDivergence {
-  static constexpr std::string_view doc = "(E31) largest divergence";
+  static constexpr Doc doc = "(E31) largest divergence";
   void operator()(Read<Fluid> fluid, Read<Rates> rates, Read<matrix::Node> node, Read<matrix::Neighbour<Dim>> neighbour,
                   Read<matrix::Divergence<Dim>> divergence, Read<node::Mass> m_i,
                   Read<node::PredictedVelocity<Dim>> v_predicted, Read<node::Displacement<Dim>> u_i,
@@ -34,7 +34,7 @@ double overlap_of(std::span<const double> V_p, std::span<const double> capacity,
 /// (E32)  overlap = sum_I max(0, V~_I - V_I) / sum_p V_p, V~_I (E35), V_I (E39).
 template <int Dim>
 struct MeasureOverlap {
-  static constexpr std::string_view doc = "(E32) overlap";
+  static constexpr Doc doc = "(E32) overlap";
   void operator()(Read<particle::Volume> V_p, Read<advected_node::Capacity> capacity, Read<advected_node::Volume> v_i,
                   Write<measure::Overlap> overlap) const;
 };

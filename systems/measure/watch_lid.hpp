@@ -35,7 +35,7 @@ Lids<Dim> lids_of(const Vec<Dim>& body_force, World& world);
 /// Warns once when a particle is within a quarter of a cell of a lid, as particles of liquid that touches it are.
 template <int Dim>
 struct WatchLid {
-  static constexpr std::string_view doc = "warn when liquid touches the lid of a tank for the first time";
+  static constexpr Doc doc = "warn when liquid touches the lid of a tank for the first time";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Lids<Dim>> lids,
                   Optional<Read<OccupiedCells<Dim>>> dual_cells, Optional<Read<GridCells<Dim>>> cells,
                   Read<particle::Position<Dim>> x_p, Optional<Read<Ranks>> ranks, Update<Warnings> warnings) const;

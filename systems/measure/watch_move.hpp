@@ -16,7 +16,7 @@ inline constexpr double longest_sound_move = 2;
 /// Warns once if max |v_p| dt > 2 h, and names the step of CFL number 1.
 template <int Dim>
 struct WatchMove {
-  static constexpr std::string_view doc = "warn if a fixed step moves particles by more than two cells";
+  static constexpr Doc doc = "warn if a fixed step moves particles by more than two cells";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<measure::MaxSpeed> speed,
                   Update<Warnings> warnings) const;
 };

@@ -28,7 +28,7 @@ struct VolumeAdvice {
 /// for those that have left through an opening.
 template <int Dim>
 struct WatchVolume {
-  static constexpr std::string_view doc = "(E127) warnings of volume that is lost";
+  static constexpr Doc doc = "(E127) warnings of volume that is lost";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodyForce> b, Optional<Read<Splines<Dim>>> splines,
                   Optional<Read<StaticCut<Dim>>> at_rest, Optional<Read<OpeningSet<Dim>>> openings,
                   Optional<Read<Ranks>> ranks, Read<particle::Volume> V_p, Read<particle::Position<Dim>> x_p,

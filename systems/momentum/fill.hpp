@@ -20,7 +20,7 @@ namespace minamo {
 /// (E35) at y_p: V~_l = sum_p N_l V_p, and what the second term of (E63) brings.
 template <int Dim>
 struct P2GMultipliers {
-  static constexpr std::string_view doc = "(E35) (E63) volume and divergence of the middle around multipliers";
+  static constexpr Doc doc = "(E35) (E63) volume and divergence of the middle around multipliers";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v_p, Optional<Read<SiteExchange>> shared,
@@ -42,7 +42,7 @@ double least_fill_of_face(const Splines<Dim>& splines, const Index<Dim>& site,
 /// multiplier, and the least phi' of both; beyond walls there are none.
 template <int Dim>
 struct FindFill {
-  static constexpr std::string_view doc = "(E125) fill fraction of multipliers";
+  static constexpr Doc doc = "(E125) fill fraction of multipliers";
   void operator()(Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<staggered::Neighbour<Dim>> neighbour, Read<multiplier::Volume> v_l,
                   Read<multiplier::Capacity> capacity, Optional<Read<HiddenSites>> hidden,
@@ -53,7 +53,7 @@ struct FindFill {
 /// (E61) of a cell, f_c = sum_l V~_l/sum_l V_l over its multipliers.
 template <int Dim>
 struct FindLiquidCellsByMultipliers {
-  static constexpr std::string_view doc = "(E61) w_c, b_c: liquid, spray or bulk";
+  static constexpr Doc doc = "(E61) w_c, b_c: liquid, spray or bulk";
   void operator()(Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity, Write<cell::LiquidIndicator> w_c,
                   Write<cell::BulkIndicator> b_c) const;
@@ -62,7 +62,7 @@ struct FindLiquidCellsByMultipliers {
 /// 1/m_f, by particles.
 template <int Dim>
 struct FindMobility {
-  static constexpr std::string_view doc = "1/m_f, by particles";
+  static constexpr Doc doc = "1/m_f, by particles";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<staggered::Site<Dim>> site,
                   Read<face::Held> held, Read<face::Mass<Dim>> m_f, Optional<Read<face::UncutMass<Dim>>> uncut,
                   Write<face::Mobility<Dim>> mobility) const;
@@ -71,7 +71,7 @@ struct FindMobility {
 /// (E68)  1/m_f with the mass of a full grid where the liquid fills it, of several liquids with (E118).
 template <int Dim>
 struct FindMobilityMixed {
-  static constexpr std::string_view doc = "(E68) 1/m_f, inside the liquid that of a full grid";
+  static constexpr Doc doc = "(E68) 1/m_f, inside the liquid that of a full grid";
   void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<face::Held> held, Read<face::Mass<Dim>> m_f,
                   Read<multiplier::LeastFill> least, Optional<Read<face::UncutMass<Dim>>> uncut,
                   Optional<Read<face::Density<Dim>>> rho_f, Write<face::Mobility<Dim>> mobility) const;
@@ -80,7 +80,7 @@ struct FindMobilityMixed {
 /// (E78), (E134)  The active multipliers and the matrix S = B m^-1 B^T between them.
 template <int Dim>
 struct AssembleMultipliers {
-  static constexpr std::string_view doc = "(E77) (E78) active multipliers, S = B m^-1 B^T";
+  static constexpr Doc doc = "(E77) (E78) active multipliers, S = B m^-1 B^T";
   void operator()(Uses<MacGrid<Dim>> mac, Read<face::Mobility<Dim>> mobility, Read<multiplier::FillFraction> phi,
                   Optional<Read<face::Open<Dim>>> open, Optional<Read<multiplier::Released>> released,
                   Optional<Read<SurfaceTension>> tension, Optional<Read<multiplier::ContinuedFill>> continued,

@@ -19,7 +19,7 @@ namespace minamo {
 /// side are held at rest.
 template <int Dim>
 struct OpenFaces {
-  static constexpr std::string_view doc = "(E97) faces that openings hold, or leave open";
+  static constexpr Doc doc = "(E97) faces that openings hold, or leave open";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set,
                   Read<staggered::Site<Dim>> site, Update<face::Held> held) const;
 };
@@ -27,7 +27,7 @@ struct OpenFaces {
 /// (E97)  v_f^n = w(x_f, t^n) on faces that inflow holds.
 template <int Dim>
 struct HoldInflow {
-  static constexpr std::string_view doc = "(E97) v_f^n of inflow";
+  static constexpr Doc doc = "(E97) v_f^n of inflow";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls,
                   Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site, Update<face::Velocity<Dim>> v_f) const;
 };
@@ -35,7 +35,7 @@ struct HoldInflow {
 /// (E97)  w_f at the instant of the balances.
 template <int Dim>
 struct PrescribeInflow {
-  static constexpr std::string_view doc = "(E97) w_f of inflow in the balances";
+  static constexpr Doc doc = "(E97) w_f of inflow in the balances";
   void operator()(Read<Clock> clock, Read<Rates> rates, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                   Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set, Read<staggered::Site<Dim>> site,
                   Write<opening::Velocities<Dim>> velocities, Write<face::Prescribed<Dim>> w_f) const;
@@ -45,7 +45,7 @@ struct PrescribeInflow {
 /// that.
 template <int Dim>
 struct PassInflow {
-  static constexpr std::string_view doc = "(E97) what bodies leave open of faces that inflow holds";
+  static constexpr Doc doc = "(E97) what bodies leave open of faces that inflow holds";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set,
                   Read<staggered::Site<Dim>> site, Read<face::Closed<Dim>> closed, Update<face::Open<Dim>> open) const;
 };
@@ -55,7 +55,7 @@ struct PassInflow {
 /// the middle of the step count nothing. What particles bring of (E63) is in proportion.
 template <int Dim>
 struct FillAtOpenings {
-  static constexpr std::string_view doc = "(E98) V~_l at openings, where lattices end";
+  static constexpr Doc doc = "(E98) V~_l at openings, where lattices end";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::QuadraturePosition<Dim>> y_p,
@@ -68,7 +68,7 @@ struct FillAtOpenings {
 /// under the level outside, in proportion.
 template <int Dim>
 struct PushAtOpenings {
-  static constexpr std::string_view doc = "(E99) pressure outside openings";
+  static constexpr Doc doc = "(E99) pressure outside openings";
   void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Read<OpeningSet<Dim>> set,
                   Read<multiplier::FillFraction> phi, Read<face::Velocity<Dim>> v_f, Read<face::Mobility<Dim>> mobility,
                   Write<face::OutsideForce<Dim>> F_f, Update<face::Predictor<Dim>> predictor) const;
@@ -79,7 +79,7 @@ struct PushAtOpenings {
 /// near bodies a_f F_f is the force outside.
 template <int Dim>
 struct TakeOpeningVelocities {
-  static constexpr std::string_view doc = "(E100) velocities in openings, and the work done there";
+  static constexpr Doc doc = "(E100) velocities in openings, and the work done there";
   void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<Walls<Dim>> walls, Read<OpeningSet<Dim>> set,
                   Read<BodyForce> b, Read<face::Mass<Dim>> m_f, Read<face::OutsideForce<Dim>> F_f,
                   Read<face::Velocity<Dim>> v_old, Read<face::BalanceVelocity<Dim>> v_f,
@@ -94,7 +94,7 @@ struct TakeOpeningVelocities {
 /// \throws StepRejected naming the rate
 template <int Dim>
 struct RequireOutlet {
-  static constexpr std::string_view doc = "reject the step if what comes in has no way out";
+  static constexpr Doc doc = "reject the step if what comes in has no way out";
   void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<face::Prescribed<Dim>> w_f,
                   Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,
                   Read<unknown::Staggered> of_unknown, Read<unknown::NullVector> n_l,

@@ -14,7 +14,7 @@ namespace minamo {
 /// particles there are.
 template <int Dim>
 struct MeasureOpenings {
-  static constexpr std::string_view doc = "what came in through openings";
+  static constexpr Doc doc = "what came in through openings";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<OpeningSet<Dim>> set,
                   Read<opening::Velocities<Dim>> velocities, Read<opening::MassIn> mass_in,
                   Read<opening::EnergyIn> energy_in, Read<particle::Id> id, Optional<Read<Ranks>> ranks,
@@ -24,7 +24,7 @@ struct MeasureOpenings {
 /// The same before the first step, when there are no rates.
 template <int Dim>
 struct MeasureOpeningsAtStart {
-  static constexpr std::string_view doc = "what came in through openings, at the start";
+  static constexpr Doc doc = "what came in through openings, at the start";
   void operator()(Read<OpeningSet<Dim>> set, Read<opening::MassIn> mass_in, Read<opening::EnergyIn> energy_in,
                   Read<particle::Id> id, Optional<Read<Ranks>> ranks, Update<measure::Columns> columns) const;
 };

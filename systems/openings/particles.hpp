@@ -22,7 +22,7 @@ namespace minamo {
 /// know of all of them; the one that has the block of a particle makes it.
 template <int Dim>
 struct LetIn {
-  static constexpr std::string_view doc = "(E101) particles that come in through openings";
+  static constexpr Doc doc = "(E101) particles that come in through openings";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                   Read<BodyForce> b, Read<OpeningSet<Dim>> set, Optional<Read<Ranks>> ranks,
                   Optional<Read<RankMap>> map, Resize<Particles> particles, Update<particle::Id> id,
@@ -36,14 +36,14 @@ struct LetIn {
 /// The velocity gradients of those particles, for transfer schemes that carry one.
 template <int Dim>
 struct GiveGradient {
-  static constexpr std::string_view doc = "grad v_p of particles that come in";
+  static constexpr Doc doc = "grad v_p of particles that come in";
   void operator()(Read<opening::Arrivals<Dim>> arrivals, Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 
 /// (E103)  Where the pressure drives them, the columns move by what the balances gave.
 template <int Dim>
 struct MoveColumns {
-  static constexpr std::string_view doc = "(E103) columns of particles outside that the pressure drives";
+  static constexpr Doc doc = "(E103) columns of particles outside that the pressure drives";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid,
                   Read<OpeningSet<Dim>> set, Read<opening::Velocities<Dim>> velocities, Update<opening::Front> front,
                   Update<opening::Speed> speed) const;
@@ -52,7 +52,7 @@ struct MoveColumns {
 /// Particles beyond an opening are gone.
 template <int Dim>
 struct LetOut {
-  static constexpr std::string_view doc = "particles that have left through openings";
+  static constexpr Doc doc = "particles that have left through openings";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<BodyForce> b, Read<OpeningSet<Dim>> set,
                   Optional<Read<Ranks>> ranks, Resize<Particles> particles, Read<particle::Mass> m_p,
                   Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p, Update<opening::MassIn> mass_in,

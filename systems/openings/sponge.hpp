@@ -35,7 +35,7 @@ struct SpongeShare : Column<Particles, double> {
 /// \throws std::runtime_error if a rate or `where` is not a number
 template <int Dim>
 struct SoakVelocity {
-  static constexpr std::string_view doc = "(E102) v_p in sponges";
+  static constexpr Doc doc = "(E102) v_p in sponges";
   void operator()(Read<Clock> clock, Read<Sponges> sponges, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Optional<Read<Ranks>> ranks, Write<SpongeShare> kept,
                   Update<particle::Velocity<Dim>> v_p, Update<EnergyGiven> given) const;
@@ -44,7 +44,7 @@ struct SoakVelocity {
 /// (E102)  grad v_p <- grad v_p exp(-r dt).
 template <int Dim>
 struct SoakGradient {
-  static constexpr std::string_view doc = "(E102) grad v_p in sponges";
+  static constexpr Doc doc = "(E102) grad v_p in sponges";
   void operator()(Read<SpongeShare> kept, Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
 

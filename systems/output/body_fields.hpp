@@ -13,7 +13,7 @@ namespace minamo {
 /// Adds the bodies to the frame that write_frame has begun. \throws std::runtime_error if the file cannot be written.
 template <int Dim>
 struct WriteBodies {
-  static constexpr std::string_view doc = "bodies in a frame of fields.h5";
+  static constexpr Doc doc = "bodies in a frame of fields.h5";
   void operator()(Read<BodyOutlines<Dim>> outlines, Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b,
                   Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Read<body::Angle<Dim>> alpha_b,
                   Update<FieldsFile> fields) const;

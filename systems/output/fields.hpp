@@ -22,7 +22,7 @@ namespace minamo {
 /// (E33)  p_p = sum_I S_I(y_p) p_I.
 template <int Dim>
 struct SamplePressure {
-  static constexpr std::string_view doc = "(E33) p_p";
+  static constexpr Doc doc = "(E33) p_p";
   void operator()(Read<Grid<Dim>> grid, Read<NodeIndex<Dim>> rows, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<node::Pressure> p_i, Write<particle::Pressure> p_p) const;
 };
@@ -31,7 +31,7 @@ struct SamplePressure {
 /// take_back_frame() undoes it. \throws std::runtime_error if the file cannot be written.
 template <int Dim>
 struct WriteFrame {
-  static constexpr std::string_view doc = "a frame of fields.h5";
+  static constexpr Doc doc = "a frame of fields.h5";
   void operator()(Read<Clock> clock, Read<FieldsChoice> choice, Read<particle::Id> id,
                   Read<particle::Position<Dim>> x_p, Read<particle::Velocity<Dim>> v_p, Read<particle::Pressure> p_p,
                   Read<particle::Mass> m_p, Read<particle::Volume> V_p,
@@ -44,7 +44,7 @@ struct WriteFrame {
 /// of particles and bodies.
 template <int Dim>
 struct WriteXdmf {
-  static constexpr std::string_view doc = "fields.xdmf";
+  static constexpr Doc doc = "fields.xdmf";
   void operator()(Optional<Read<BodyOutlines<Dim>>> outlines, Update<FieldsFile> fields) const;
 };
 

@@ -90,7 +90,7 @@ std::int64_t cut_history(const std::string& path, std::int64_t rows);
 /// \throws std::runtime_error if a system sets a column that the header does not have, or if writing fails.
 template <int Dim>
 struct WriteHistory {
-  static constexpr std::string_view doc = "a row of history.csv";
+  static constexpr Doc doc = "a row of history.csv";
   void operator()(Read<Clock> clock, Read<measure::Energy> energy, Read<measure::EnergyBalance> balance,
                   Read<measure::Momentum<Dim>> momentum, Read<measure::MaxSpeed> speed,
                   Read<measure::MaxDivergence> divergence, Read<measure::Overlap> overlap, Read<SolveReport> solve,
@@ -101,7 +101,7 @@ struct WriteHistory {
 /// So that the rows on the disk reach as far as the frames.
 template <int Dim>
 struct FlushHistory {
-  static constexpr std::string_view doc = "the rows of history.csv so far, on the disk";
+  static constexpr Doc doc = "the rows of history.csv so far, on the disk";
   /// \throws std::runtime_error if writing fails.
   void operator()(Update<HistoryFile> history) const;
 };

@@ -17,7 +17,7 @@ namespace minamo {
 /// preconditioned by the diagonal. Of multipliers that bodies cut, p_l = lambda_l/(phi_l V_l).
 template <int Dim>
 struct RecoverPressure {
-  static constexpr std::string_view doc = "(E75) p_p from the multipliers";
+  static constexpr Doc doc = "(E75) p_p from the multipliers";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Volume> V_p, Read<multiplier::Force> lambda,

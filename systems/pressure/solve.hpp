@@ -60,7 +60,7 @@ StaggeredLaplacian<Dim> laplacian_of(const Splines<Dim>& splines, std::span<cons
 
 template <int Dim>
 struct PrepareMultipliers {
-  static constexpr std::string_view doc = "(E79) factors or grids of S";
+  static constexpr Doc doc = "(E79) factors or grids of S";
   void operator()(Read<Splines<Dim>> splines, Read<unknown::Site<Dim>> site, Read<unknown::Neighbour<Dim>> neighbour,
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,
                   Read<unknown::NullVector> null_vector, Write<MultiplierSolver<Dim>> solver) const;
@@ -69,7 +69,7 @@ struct PrepareMultipliers {
 /// S x = source for the three sources of a step at once.
 template <int Dim>
 struct SolveMultipliers {
-  static constexpr std::string_view doc = "(E79) S x = B v* and the other sources";
+  static constexpr Doc doc = "(E79) S x = B v* and the other sources";
   void operator()(Read<Splines<Dim>> splines, Read<SolverTolerance> tolerance, Read<unknown::Site<Dim>> site,
                   Read<unknown::Neighbour<Dim>> neighbour, Read<unknown::Conductance<Dim>> conductance,
                   Read<unknown::Diagonal> diagonal, Read<unknown::NullVector> null_vector, Read<unknown::Source> source,

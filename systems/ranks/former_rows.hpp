@@ -21,7 +21,7 @@ struct FormerRows {
 /// Before particles move to other ranks, and rows with them.
 template <int Dim>
 struct KeepFormerRows {
-  static constexpr std::string_view doc = "what outlived the last step, of the rows of this rank";
+  static constexpr Doc doc = "what outlived the last step, of the rows of this rank";
   void operator()(Read<Ranks> ranks, Read<RankMap> map, Read<Splines<Dim>> splines, Read<staggered::Site<Dim>> site,
                   Read<SiteExchange> shared, RowBytes<Staggered> table, Write<FormerRows<Dim>> former) const;
 };
@@ -29,7 +29,7 @@ struct KeepFormerRows {
 /// Asks for that of rows that are new here those ranks that had particles at their sites.
 template <int Dim>
 struct AskForFormerRows {
-  static constexpr std::string_view doc = "the same of rows that are new on this rank, from those that had them";
+  static constexpr Doc doc = "the same of rows that are new on this rank, from those that had them";
   void operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> index,
                   Read<staggered::Site<Dim>> site, Read<SiteExchange> shared, Read<FormerRows<Dim>> former,
                   RowBytes<Staggered> table) const;

@@ -52,7 +52,7 @@ constexpr int layers_of_ghosts(int degree, int sites) { return (degree + sites +
 
 template <int Dim>
 struct FindGhostCells {
-  static constexpr std::string_view doc = "occupied cells of other ranks around those of this one";
+  static constexpr Doc doc = "occupied cells of other ranks around those of this one";
   void operator()(Read<Ranks> ranks, Read<RankMap> map, Read<ReachOnRanks> reach, Read<Grid<Dim>> grid,
                   Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Optional<Read<HiddenSites>> hidden,
                   Optional<Read<BlocksNearBodies>> near, Write<GhostCells<Dim>> ghosts) const;

@@ -14,7 +14,7 @@ namespace minamo {
 /// more than the mean, the curve is cut anew before if that helps.
 template <int Dim>
 struct MigrateParticles {
-  static constexpr std::string_view doc = "particles to the rank that owns their block";
+  static constexpr Doc doc = "particles to the rank that owns their block";
   void operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                   Read<particle::QuadraturePosition<Dim>> y_p, Resize<Particles> particles, Update<RankMap> map) const;
 };

@@ -119,7 +119,7 @@ void add_up_on_all(const SiteExchange* shared, std::span<T> values) {
 
 template <int Dim>
 struct PlanSiteExchange {
-  static constexpr std::string_view doc = "which sums at sites ranks share";
+  static constexpr Doc doc = "which sums at sites ranks share";
   void operator()(Read<Ranks> ranks, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<GhostCells<Dim>> ghosts, Optional<Read<HiddenSites>> hidden,
                   Read<StaggeredIndex<Dim>> index, Read<staggered::Site<Dim>> site, Write<SiteExchange> exchange) const;

@@ -21,7 +21,7 @@ double distance_of_fill(double fraction);
 /// (E112)  psi_i = h F^-1(phi_i), phi_i = sum_p N_i V_p/V_i.
 template <int Dim>
 struct FindSurfaceDistance {
-  static constexpr std::string_view doc = "(E112) psi_i, distance from the free surface";
+  static constexpr Doc doc = "(E112) psi_i, distance from the free surface";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Volume> V_p, Read<staggered::Site<Dim>> site, Optional<Read<SiteExchange>> shared,
@@ -31,7 +31,7 @@ struct FindSurfaceDistance {
 /// (E112)  Where psi, linear in triangles or tetrahedra, is zero; (E121) outside of bodies.
 template <int Dim>
 struct FindFreeSurface {
-  static constexpr std::string_view doc = "(E112) segments or triangles of the free surface, contact lines";
+  static constexpr Doc doc = "(E112) segments or triangles of the free surface, contact lines";
   void operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid, Read<StaggeredIndex<Dim>> rows,
                   Read<staggered::Site<Dim>> site, Read<surface::Distance> psi, Read<Splines<Dim>> splines,
                   Optional<Read<surface::SolidDistance>> solid, Optional<Read<surface::OpenShare>> open,

@@ -42,7 +42,7 @@ struct DistanceAround {
 /// around.
 template <int Dim>
 struct ExtendSurfaceDistance {
-  static constexpr std::string_view doc = "(E121) psi_i near bodies and in them";
+  static constexpr Doc doc = "(E121) psi_i near bodies and in them";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<SolidAtRest> at_rest, Uses<BodyPlacement<Dim>> placement, Read<staggered::Site<Dim>> site,
                   Write<surface::SolidDistance> solid, Write<surface::OpenShare> open,

@@ -25,7 +25,7 @@ AreaGradient<Dim> area_gradient(const typename FreeSurface<Dim>::Element& elemen
 /// (E113)  A_i = integral of N_i over the surface.
 template <int Dim>
 struct MeasureSurfaceAround {
-  static constexpr std::string_view doc = "(E113) A_i, surface around quadratic splines";
+  static constexpr Doc doc = "(E113) A_i, surface around quadratic splines";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Read<FreeSurface<Dim>> surface, Update<PieceSums<Dim>> sums, Write<surface::Around> A_i) const;
 };
@@ -34,7 +34,7 @@ struct MeasureSurfaceAround {
 /// the forces (E121).
 template <int Dim>
 struct FindSurfaceTraction {
-  static constexpr std::string_view doc = "(E113) (E114) (E121) t_i of surface and contact lines";
+  static constexpr Doc doc = "(E113) (E114) (E121) t_i of surface and contact lines";
   void operator()(Read<SurfaceTension> tension, Read<Grid<Dim>> grid, Read<Walls<Dim>> walls,
                   Read<StaggeredIndex<Dim>> rows, Read<FreeSurface<Dim>> surface, Read<surface::Around> A_i,
                   Optional<Read<body::MiddlePosition<Dim>>> c_b, Optional<Read<SiteExchange>> shared,
@@ -45,7 +45,7 @@ struct FindSurfaceTraction {
 /// (E113)  F_f = integral of N_f sum_i N_i t_i over the surface; v*_f gets tau F_f/m_f. (E121) Near bodies E^T F_f.
 template <int Dim>
 struct AddSurfaceTension {
-  static constexpr std::string_view doc = "(E113) F_f of surface tension";
+  static constexpr Doc doc = "(E113) F_f of surface tension";
   void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<StaggeredIndex<Dim>> rows, Read<face::Held> held,
                   Read<multiplier::Row> row, Read<FreeSurface<Dim>> surface, Read<surface::Traction<Dim>> t_i,
                   Read<face::Mobility<Dim>> mobility, Optional<Read<face::Open<Dim>>> open,
@@ -57,7 +57,7 @@ struct AddSurfaceTension {
 /// (E115)  sigma (A - cos theta W), taken from the middle of the step to its end by the work of the forces.
 template <int Dim>
 struct MeasureSurfaceEnergy {
-  static constexpr std::string_view doc = "(E115) surface energy at the end of the step";
+  static constexpr Doc doc = "(E115) surface energy at the end of the step";
   void operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface, Read<Grid<Dim>> grid,
                   Read<particle::Volume> V_p, Read<face::SurfaceForce<Dim>> F_f, Read<face::Displacement<Dim>> u_f,
                   Optional<Read<SiteExchange>> shared, Update<measure::Energy> energy,
@@ -67,7 +67,7 @@ struct MeasureSurfaceEnergy {
 /// The same where nothing has moved yet.
 template <int Dim>
 struct MeasureSurfaceEnergyAtStart {
-  static constexpr std::string_view doc = "(E115) surface energy at the start";
+  static constexpr Doc doc = "(E115) surface energy at the start";
   void operator()(Read<SurfaceTension> tension, Read<FreeSurface<Dim>> surface, Read<Grid<Dim>> grid,
                   Read<particle::Volume> V_p, Optional<Read<SiteExchange>> shared, Update<measure::Energy> energy,
                   Update<measure::Columns> columns) const;

@@ -41,7 +41,7 @@ std::optional<Vec<Dim>> force_with_potential(const Grid<Dim>& grid, const BodyFo
 /// (E14)  b_I = b(t), the same everywhere.
 template <int Dim>
 struct UniformBodyForce {
-  static constexpr std::string_view doc = "(E14) b_I, uniform";
+  static constexpr Doc doc = "(E14) b_I, uniform";
   void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode, Read<node::Mass> m_i,
                   Write<node::BodyForce<Dim>> b_i) const;
 };
@@ -49,7 +49,7 @@ struct UniformBodyForce {
 /// b_p = b(y_p, t).
 template <int Dim>
 struct SampleBodyForce {
-  static constexpr std::string_view doc = "b_p at the particles";
+  static constexpr Doc doc = "b_p at the particles";
   void operator()(Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Read<particle::QuadraturePosition<Dim>> y_p, Write<particle::BodyForce<Dim>> b_p) const;
 };
@@ -57,7 +57,7 @@ struct SampleBodyForce {
 /// (E14)  b_I = sum_p S_Ip m_p b_p / m_I.
 template <int Dim>
 struct P2GBodyForce {
-  static constexpr std::string_view doc = "(E14) b_I, from the particles";
+  static constexpr Doc doc = "(E14) b_I, from the particles";
   void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::BodyForce<Dim>> b_p,
                   Write<node::BodyForce<Dim>> b_i) const;
 };
@@ -68,7 +68,7 @@ struct P2GBodyForce {
 /// pressure force on light nodes is lost, less than 1e-5 in tests/property/conservation_test.cpp.
 template <int Dim>
 struct MoveBallisticNodes {
-  static constexpr std::string_view doc = "(E15) u_I of light nodes";
+  static constexpr Doc doc = "(E15) u_I of light nodes";
   void operator()(Read<node::Row> row, Read<node::Constraint> constraint,
                   Optional<Read<node::ConstraintFrame<Dim>>> frame, Optional<Read<node::ConstraintVelocity<Dim>>> w_i,
                   Read<node::Mass> m_i, Read<node::BodyForce<Dim>> b_i, Read<Rates> rates,

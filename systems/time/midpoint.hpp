@@ -19,7 +19,7 @@ inline Rates midpoint_rates(const Clock& clock) {
 /// (E12)  v_mid = u/dt, a_mid = 2 (u/dt - v^n)/dt:  c_v = 1/dt, v^ = 0; c_a = 2/dt^2, a^ = -2 v^n/dt.
 template <int Dim>
 struct PredictMidpoint {
-  static constexpr std::string_view doc = "(E12) rates and known parts, midpoint";
+  static constexpr Doc doc = "(E12) rates and known parts, midpoint";
   void operator()(Read<Clock> clock, Read<node::Velocity<Dim>> v_i, Write<Rates> rates,
                   Write<node::PredictedVelocity<Dim>> v_predicted,
                   Write<node::PredictedAcceleration<Dim>> a_predicted) const;
@@ -28,7 +28,7 @@ struct PredictMidpoint {
 /// (E12)  v^{n+1} = 2 u/dt - v^n.
 template <int Dim>
 struct CorrectMidpoint {
-  static constexpr std::string_view doc = "(E12) v_I at the end of the step, midpoint";
+  static constexpr Doc doc = "(E12) v_I at the end of the step, midpoint";
   void operator()(Read<Clock> clock, Read<node::Displacement<Dim>> u_i, Read<node::Velocity<Dim>> v_i,
                   Write<node::NewVelocity<Dim>> v_new) const;
 };

@@ -33,7 +33,7 @@ inline Rates backward_euler_rates(const Clock& clock) {
 ///        c_a = 1/(beta dt^2),   a^ = -v^n/(beta dt) - (1/(2 beta) - 1) a^n.
 template <int Dim>
 struct PredictNewmark {
-  static constexpr std::string_view doc = "(E10) rates and known parts, newmark";
+  static constexpr Doc doc = "(E10) rates and known parts, newmark";
   void operator()(Read<Clock> clock, Read<NewmarkParameters> newmark, Read<node::Velocity<Dim>> v_i,
                   Read<node::Acceleration<Dim>> a_i, Write<Rates> rates,
                   Write<node::PredictedVelocity<Dim>> v_predicted,
@@ -43,7 +43,7 @@ struct PredictNewmark {
 /// (E10)  v^{n+1} = c_v u + v^, a^{n+1} = c_a u + a^.
 template <int Dim>
 struct CorrectNewmark {
-  static constexpr std::string_view doc = "(E10) v_I and a_I at the end of the step, newmark";
+  static constexpr Doc doc = "(E10) v_I and a_I at the end of the step, newmark";
   void operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i, Read<node::PredictedVelocity<Dim>> v_predicted,
                   Read<node::PredictedAcceleration<Dim>> a_predicted, Write<node::NewVelocity<Dim>> v_new,
                   Write<node::NewAcceleration<Dim>> a_new) const;
@@ -52,7 +52,7 @@ struct CorrectNewmark {
 /// (E13)  Backward Euler: c_v = 1/dt, v^ = 0; c_a = 1/dt^2, a^ = -v^n/dt.
 template <int Dim>
 struct PredictBackwardEuler {
-  static constexpr std::string_view doc = "(E13) rates and known parts, starting step";
+  static constexpr Doc doc = "(E13) rates and known parts, starting step";
   void operator()(Read<Clock> clock, Read<node::Velocity<Dim>> v_i, Write<Rates> rates,
                   Write<node::PredictedVelocity<Dim>> v_predicted,
                   Write<node::PredictedAcceleration<Dim>> a_predicted) const;
@@ -61,7 +61,7 @@ struct PredictBackwardEuler {
 /// (E13)  a^0 = c_a u + a^.
 template <int Dim>
 struct CorrectBackwardEuler {
-  static constexpr std::string_view doc = "(E13) a_I of the starting step";
+  static constexpr Doc doc = "(E13) a_I of the starting step";
   void operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i,
                   Read<node::PredictedAcceleration<Dim>> a_predicted, Write<node::NewAcceleration<Dim>> a_new) const;
 };
@@ -69,7 +69,7 @@ struct CorrectBackwardEuler {
 /// (E13)  v = c_v u.
 template <int Dim>
 struct CorrectBackwardEulerVelocity {
-  static constexpr std::string_view doc = "(E13) v_I of the starting step";
+  static constexpr Doc doc = "(E13) v_I of the starting step";
   void operator()(Read<Rates> rates, Read<node::Displacement<Dim>> u_i, Write<node::NewVelocity<Dim>> v_new) const;
 };
 

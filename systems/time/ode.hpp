@@ -18,7 +18,7 @@ Instant advance(std::span<const Expression> rate, const Instant& from, double to
 /// \throws StepRejected, with its name, if a variable becomes infinite or NaN.
 template <int Dim>
 struct IntegrateOde {
-  static constexpr std::string_view doc = "(E40) the ode variables of the scene";
+  static constexpr Doc doc = "(E40) the ode variables of the scene";
   void operator()(Read<Clock> clock, Read<Rates> rates, Read<ode::Equations> equations, Update<ode::Values> values,
                   Write<ode::AtBalances> at_balances) const;
 };
@@ -26,7 +26,7 @@ struct IntegrateOde {
 /// For the start, whose balances hold before the first step.
 template <int Dim>
 struct HoldOde {
-  static constexpr std::string_view doc = "the ode variables at the start";
+  static constexpr Doc doc = "the ode variables at the start";
   void operator()(Read<ode::Values> values, Write<ode::AtBalances> at_balances) const;
 };
 

@@ -20,7 +20,7 @@ struct Turns {
 /// (E122)  f = a - b; a step turns over if sum_I m_I f_I^n . f_I^{n+1} < 0 and f^{n+1} is more than rounding.
 template <int Dim>
 struct WatchTurns {
-  static constexpr std::string_view doc = "(E122) whether pressure and acceleration turn over, newmark";
+  static constexpr Doc doc = "(E122) whether pressure and acceleration turn over, newmark";
   void operator()(Read<Clock> clock, Read<node::Mass> m_i, Read<node::Velocity<Dim>> v_i,
                   Read<node::Acceleration<Dim>> a_old, Read<node::NewAcceleration<Dim>> a_new,
                   Read<node::BodyForce<Dim>> b_i, Update<Turns> turns) const;
@@ -29,7 +29,7 @@ struct WatchTurns {
 /// (E122) on faces.
 template <int Dim>
 struct WatchTurnsOfFaces {
-  static constexpr std::string_view doc = "(E122) whether pressure and acceleration turn over, newmark";
+  static constexpr Doc doc = "(E122) whether pressure and acceleration turn over, newmark";
   void operator()(Read<Clock> clock, Read<face::Mass<Dim>> m_f, Read<face::Velocity<Dim>> v_f,
                   Read<face::Acceleration<Dim>> a_old, Read<face::NewAcceleration<Dim>> a_new,
                   Read<face::BodyForce<Dim>> b_f, Optional<Read<SiteExchange>> shared, Update<Turns> turns) const;

@@ -39,7 +39,7 @@ inline Placed<Dim> inside_box(const Grid<Dim>& grid, const Vec<Dim>& x) {
 /// wall and counted.
 template <int Dim>
 struct Advect {
-  static constexpr std::string_view doc = "(E11) x_p; clamped at walls, counted";
+  static constexpr Doc doc = "(E11) x_p; clamped at walls, counted";
   void operator()(Uses<NodesToParticles<Dim>> target, Read<node::Displacement<Dim>> u_i,
                   Update<particle::Position<Dim>> x_p, Update<Clamped> clamped) const;
 };

@@ -18,7 +18,7 @@ namespace minamo {
 /// (E17), (E45)  v_p = sum_I S_Ip v_I^{n+1}, C_p = sum_I S_Ip v_I^{n+1} (x) D_p^-1 (x_I - y_p).
 template <int Dim>
 struct G2PVelocityApic {
-  static constexpr std::string_view doc = "(E17) (E45) v_p and C_p, APIC";
+  static constexpr Doc doc = "(E17) (E45) v_p and C_p, APIC";
   void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewVelocity<Dim>> v_i,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> c_p) const;
 };
@@ -26,7 +26,7 @@ struct G2PVelocityApic {
 /// (E17), (E45) for the acceleration.
 template <int Dim>
 struct G2PAccelerationApic {
-  static constexpr std::string_view doc = "(E17) (E45) a_p and its affine part, APIC with newmark";
+  static constexpr Doc doc = "(E17) (E45) a_p and its affine part, APIC with newmark";
   void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewAcceleration<Dim>> a_i,
                   Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> c_p) const;
 };

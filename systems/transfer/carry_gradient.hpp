@@ -25,7 +25,7 @@ double resolved_share(double strain);
 /// (E62), half a step on: before P2G to the middle of the step, after G2P to its end.
 template <int Dim>
 struct CarryGradient {
-  static constexpr std::string_view doc = "(E62) velocity gradient, carried on by half a step";
+  static constexpr Doc doc = "(E62) velocity gradient, carried on by half a step";
   void operator()(Read<Clock> clock, Read<OccupiedCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
                   Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };
@@ -33,7 +33,7 @@ struct CarryGradient {
 /// (E62) in the conforming discretization, at the end of a step and on to the middle of the next.
 template <int Dim>
 struct CarryGradientByFaces {
-  static constexpr std::string_view doc = "(E62) velocity gradient, carried on by a step";
+  static constexpr Doc doc = "(E62) velocity gradient, carried on by a step";
   void operator()(Read<Clock> clock, Read<GridCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
                   Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };

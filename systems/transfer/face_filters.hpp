@@ -15,7 +15,7 @@ namespace minamo {
 /// (E46) on faces: v*_f = sum_{k<m} (1 - S^+ S)^k v_f^n, zero where walls hold.
 template <int Dim>
 struct FilterFacesXpic {
-  static constexpr std::string_view doc = "(E46) v*_f, XPIC";
+  static constexpr Doc doc = "(E46) v*_f, XPIC";
   int order = 2;  ///< [1]
 
   FilterFacesXpic() = default;
@@ -29,7 +29,7 @@ struct FilterFacesXpic {
 /// (E47) on faces: v_p = sum_f N_f (v*_f + v_f^{n+1} - v_f^n).
 template <int Dim>
 struct G2PFacesXpic {
-  static constexpr std::string_view doc = "(E47) v_p, XPIC";
+  static constexpr Doc doc = "(E47) v_p, XPIC";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::FilteredVelocity<Dim>> v_filtered,
                   Read<face::Velocity<Dim>> v_old, Read<face::NewVelocity<Dim>> v_new,
                   Write<particle::Velocity<Dim>> v_p) const;
@@ -38,7 +38,7 @@ struct G2PFacesXpic {
 /// (E66) on faces: v*_f = sum_{l<k} (1 - S^+ S)^l v_f^{n+1}, zero where walls hold.
 template <int Dim>
 struct FilterFacesFmpm {
-  static constexpr std::string_view doc = "(E66) v*_f, FMPM";
+  static constexpr Doc doc = "(E66) v*_f, FMPM";
   int order = 2;  ///< [1]
 
   FilterFacesFmpm() = default;
@@ -52,7 +52,7 @@ struct FilterFacesFmpm {
 /// (E66) on faces: v_p = sum_f N_f v*_f.
 template <int Dim>
 struct G2PFacesFmpm {
-  static constexpr std::string_view doc = "(E66) v_p, FMPM";
+  static constexpr Doc doc = "(E66) v_p, FMPM";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::FilteredVelocity<Dim>> v_filtered,
                   Write<particle::Velocity<Dim>> v_p) const;
 };

@@ -16,7 +16,7 @@ namespace minamo {
 /// (E3), (E4) on faces: m_f = sum_p N_f m_p, v_f = sum_p N_f m_p v_p / m_f.
 template <int Dim>
 struct P2GFacesPic {
-  static constexpr std::string_view doc = "(E3) (E4) m_f and v_f^n, PIC";
+  static constexpr Doc doc = "(E3) (E4) m_f and v_f^n, PIC";
   void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Velocity<Dim>> v_p, Write<face::Mass<Dim>> m_f,
                   Write<face::Velocity<Dim>> v_f) const;
 };
@@ -24,7 +24,7 @@ struct P2GFacesPic {
 /// (E3), (E5) on faces, with the gradient that particles carry.
 template <int Dim>
 struct P2GFacesTpic {
-  static constexpr std::string_view doc = "(E3) (E5) m_f and v_f^n, TPIC";
+  static constexpr Doc doc = "(E3) (E5) m_f and v_f^n, TPIC";
   void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                   Read<particle::VelocityGradient<Dim>> grad_v_p, Write<face::Mass<Dim>> m_f,
                   Write<face::Velocity<Dim>> v_f) const;
@@ -33,7 +33,7 @@ struct P2GFacesTpic {
 /// (E17)  v_p = sum_f N_f v_f^{n+1}.
 template <int Dim>
 struct G2PFacesPic {
-  static constexpr std::string_view doc = "(E17) v_p, PIC";
+  static constexpr Doc doc = "(E17) v_p, PIC";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p) const;
 };
@@ -41,7 +41,7 @@ struct G2PFacesPic {
 /// (E16) on faces.
 template <int Dim>
 struct G2PFacesFlip {
-  static constexpr std::string_view doc = "(E16) v_p, FLIP blended with PIC";
+  static constexpr Doc doc = "(E16) v_p, FLIP blended with PIC";
   double blend = 0.99;  ///< 1 is pure FLIP
 
   G2PFacesFlip() = default;
@@ -53,7 +53,7 @@ struct G2PFacesFlip {
 /// (E17), (E18) on faces; (E71) the antisymmetric part of the gradient that of APIC.
 template <int Dim>
 struct G2PFacesTpic {
-  static constexpr std::string_view doc = "(E17) (E18) (E71) v_p and its gradient, TPIC";
+  static constexpr Doc doc = "(E17) (E18) (E71) v_p and its gradient, TPIC";
   bool conserves_spin = true;  ///< (E71)
 
   G2PFacesTpic() = default;
@@ -65,7 +65,7 @@ struct G2PFacesTpic {
 /// (E17), (E45) on faces.
 template <int Dim>
 struct G2PFacesApic {
-  static constexpr std::string_view doc = "(E17) (E45) v_p and C_p, APIC";
+  static constexpr Doc doc = "(E17) (E45) v_p and C_p, APIC";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewVelocity<Dim>> v_f,
                   Write<particle::Velocity<Dim>> v_p, Write<particle::VelocityGradient<Dim>> c_p) const;
 };
@@ -73,7 +73,7 @@ struct G2PFacesApic {
 /// (E4) on faces for the acceleration.
 template <int Dim>
 struct P2GFaceAccelerationPic {
-  static constexpr std::string_view doc = "(E4) a_f^n, newmark";
+  static constexpr Doc doc = "(E4) a_f^n, newmark";
   void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Acceleration<Dim>> a_p, Read<face::Mass<Dim>> m_f,
                   Write<face::Acceleration<Dim>> a_f) const;
 };
@@ -81,7 +81,7 @@ struct P2GFaceAccelerationPic {
 /// (E5) on faces for the acceleration.
 template <int Dim>
 struct P2GFaceAccelerationTpic {
-  static constexpr std::string_view doc = "(E5) a_f^n, TPIC with newmark";
+  static constexpr Doc doc = "(E5) a_f^n, TPIC with newmark";
   void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Acceleration<Dim>> a_p,
                   Read<particle::AccelerationGradient<Dim>> grad_a_p, Read<face::Mass<Dim>> m_f,
                   Write<face::Acceleration<Dim>> a_f) const;
@@ -90,7 +90,7 @@ struct P2GFaceAccelerationTpic {
 /// (E17) on faces for the acceleration.
 template <int Dim>
 struct G2PFaceAccelerationPic {
-  static constexpr std::string_view doc = "(E17) a_p, newmark";
+  static constexpr Doc doc = "(E17) a_p, newmark";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewAcceleration<Dim>> a_f,
                   Write<particle::Acceleration<Dim>> a_p) const;
 };
@@ -98,7 +98,7 @@ struct G2PFaceAccelerationPic {
 /// (E17), (E18) on faces for the acceleration.
 template <int Dim>
 struct G2PFaceAccelerationTpic {
-  static constexpr std::string_view doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
+  static constexpr Doc doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewAcceleration<Dim>> a_f,
                   Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
 };
@@ -106,7 +106,7 @@ struct G2PFaceAccelerationTpic {
 /// (E17), (E45) on faces for the acceleration.
 template <int Dim>
 struct G2PFaceAccelerationApic {
-  static constexpr std::string_view doc = "(E17) (E45) a_p and its affine part, APIC with newmark";
+  static constexpr Doc doc = "(E17) (E45) a_p and its affine part, APIC with newmark";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::NewAcceleration<Dim>> a_f,
                   Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> c_p) const;
 };
@@ -114,7 +114,7 @@ struct G2PFaceAccelerationApic {
 /// (E11) on faces: x_p^{n+1} = x_p^n + sum_f N_f u_f.
 template <int Dim>
 struct AdvectByFaces {
-  static constexpr std::string_view doc = "(E11) x_p; clamped at walls, counted";
+  static constexpr Doc doc = "(E11) x_p; clamped at walls, counted";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::Displacement<Dim>> u_f,
                   Optional<Read<OpeningSet<Dim>>> openings, Update<particle::Position<Dim>> x_p,
                   Update<Clamped> clamped) const;

@@ -17,7 +17,7 @@ namespace minamo {
 /// walls still exact and without momentum.
 template <int Dim>
 struct P2GFacesTpic2 {
-  static constexpr std::string_view doc = "(E3) (E64) m_f and v_f^n, TPIC of second order";
+  static constexpr Doc doc = "(E3) (E64) m_f and v_f^n, TPIC of second order";
   void operator()(Uses<ParticlesToFaces<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                   Read<particle::VelocityGradient<Dim>> grad_v_p, Read<particle::VelocityCurvature<Dim>> h_p,
                   Write<face::Mass<Dim>> m_f, Write<face::Velocity<Dim>> v_f) const;
@@ -26,7 +26,7 @@ struct P2GFacesTpic2 {
 /// (E17), (E65), (E72) on faces.
 template <int Dim>
 struct G2PFacesTpic2 {
-  static constexpr std::string_view doc = "(E17) (E65) (E72) v_p and two derivatives, TPIC of second order";
+  static constexpr Doc doc = "(E17) (E65) (E72) v_p and two derivatives, TPIC of second order";
   double share = 1;  ///< s [1]
 
   G2PFacesTpic2() = default;

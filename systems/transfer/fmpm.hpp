@@ -17,7 +17,7 @@ namespace minamo {
 /// (E66)  v*_I = sum_{l<k} (1 - S^+ S)^l v_I^{n+1}, S and S^+ of (E46).
 template <int Dim>
 struct FilterVelocityFmpm {
-  static constexpr std::string_view doc = "(E66) v*_I, FMPM";
+  static constexpr Doc doc = "(E66) v*_I, FMPM";
   int order = 2;  ///< [1]
 
   FilterVelocityFmpm() = default;
@@ -32,7 +32,7 @@ struct FilterVelocityFmpm {
 /// (E66)  v_p = sum_I S_Ip v*_I.
 template <int Dim>
 struct G2PVelocityFmpm {
-  static constexpr std::string_view doc = "(E66) v_p, FMPM";
+  static constexpr Doc doc = "(E66) v_p, FMPM";
   void operator()(Uses<NodesToParticles<Dim>> target, Read<node::FilteredVelocity<Dim>> v_filtered,
                   Write<particle::Velocity<Dim>> v_p) const;
 };

@@ -14,7 +14,7 @@ namespace minamo {
 /// gives to the faces comes back as energy.
 template <int Dim>
 struct LimitGradient {
-  static constexpr std::string_view doc = "(E73) velocity gradients, where the grid does not resolve them";
+  static constexpr Doc doc = "(E73) velocity gradients, where the grid does not resolve them";
   void operator()(Read<Clock> clock, Read<GridCells<Dim>> cells, Read<cell::LiquidIndicator> w_c,
                   Update<particle::VelocityGradient<Dim>> grad_v_p) const;
 };

@@ -13,7 +13,7 @@ namespace minamo {
 /// (E3)  m_I = sum_p S_Ip m_p.
 template <int Dim>
 struct P2GMass {
-  static constexpr std::string_view doc = "(E3) m_I";
+  static constexpr Doc doc = "(E3) m_I";
   void operator()(Read<Grid<Dim>> grid, Read<OccupiedCells<Dim>> cells, Read<particle::QuadraturePosition<Dim>> y_p,
                   Read<particle::Mass> m_p, Write<node::Mass> m_i) const;
 };

@@ -21,7 +21,7 @@ inline double flip_blend(Input& input) {
 /// (E4) for the velocity.
 template <int Dim>
 struct P2GVelocityPic {
-  static constexpr std::string_view doc = "(E4) v_I^n, PIC and FLIP";
+  static constexpr Doc doc = "(E4) v_I^n, PIC and FLIP";
   void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                   Write<node::Velocity<Dim>> v_i) const;
 };
@@ -29,7 +29,7 @@ struct P2GVelocityPic {
 /// (E4) for the acceleration.
 template <int Dim>
 struct P2GAccelerationPic {
-  static constexpr std::string_view doc = "(E4) a_I^n, PIC and FLIP with newmark";
+  static constexpr Doc doc = "(E4) a_I^n, PIC and FLIP with newmark";
   void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Acceleration<Dim>> a_p,
                   Write<node::Acceleration<Dim>> a_i) const;
 };
@@ -37,7 +37,7 @@ struct P2GAccelerationPic {
 /// (E17)  v_p = sum_I S_Ip v_I^{n+1}.
 template <int Dim>
 struct G2PVelocityPic {
-  static constexpr std::string_view doc = "(E17) v_p, PIC";
+  static constexpr Doc doc = "(E17) v_p, PIC";
   void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewVelocity<Dim>> v_i,
                   Write<particle::Velocity<Dim>> v_p) const;
 };
@@ -45,7 +45,7 @@ struct G2PVelocityPic {
 /// (E16)  v_p = alpha (v_p + sum_I S_Ip (v_I^{n+1} - v_I^n)) + (1 - alpha) sum_I S_Ip v_I^{n+1}.
 template <int Dim>
 struct G2PVelocityFlip {
-  static constexpr std::string_view doc = "(E16) v_p, FLIP blended with PIC";
+  static constexpr Doc doc = "(E16) v_p, FLIP blended with PIC";
   double blend = 0.99;  ///< alpha [1]
 
   G2PVelocityFlip() = default;
@@ -58,7 +58,7 @@ struct G2PVelocityFlip {
 /// (E17) for the acceleration.
 template <int Dim>
 struct G2PAccelerationPic {
-  static constexpr std::string_view doc = "(E17) a_p, PIC and FLIP with newmark";
+  static constexpr Doc doc = "(E17) a_p, PIC and FLIP with newmark";
   void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewAcceleration<Dim>> a_i,
                   Write<particle::Acceleration<Dim>> a_p) const;
 };

@@ -24,7 +24,7 @@ inline bool is_spin_conserved(Input& in) {
 /// (E5) for the velocity.
 template <int Dim>
 struct P2GVelocityTpic {
-  static constexpr std::string_view doc = "(E5) v_I^n, TPIC";
+  static constexpr Doc doc = "(E5) v_I^n, TPIC";
   void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                   Read<particle::VelocityGradient<Dim>> grad_v_p, Write<node::Velocity<Dim>> v_i) const;
 };
@@ -32,7 +32,7 @@ struct P2GVelocityTpic {
 /// (E5) for the acceleration.
 template <int Dim>
 struct P2GAccelerationTpic {
-  static constexpr std::string_view doc = "(E5) a_I^n, TPIC with newmark";
+  static constexpr Doc doc = "(E5) a_I^n, TPIC with newmark";
   void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Acceleration<Dim>> a_p,
                   Read<particle::AccelerationGradient<Dim>> grad_a_p, Write<node::Acceleration<Dim>> a_i) const;
 };
@@ -41,7 +41,7 @@ struct P2GAccelerationTpic {
 /// that of APIC, so that away from walls particles take over the angular momentum of the grid.
 template <int Dim>
 struct G2PVelocityTpic {
-  static constexpr std::string_view doc = "(E17) (E18) (E71) v_p and its gradient, TPIC";
+  static constexpr Doc doc = "(E17) (E18) (E71) v_p and its gradient, TPIC";
   bool conserves_spin = true;  ///< (E71)
 
   G2PVelocityTpic() = default;
@@ -53,7 +53,7 @@ struct G2PVelocityTpic {
 /// (E17), (E18) for the acceleration.
 template <int Dim>
 struct G2PAccelerationTpic {
-  static constexpr std::string_view doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
+  static constexpr Doc doc = "(E17) (E18) a_p and its gradient, TPIC with newmark";
   void operator()(Uses<NodesToParticles<Dim>> target, Read<node::NewAcceleration<Dim>> a_i,
                   Write<particle::Acceleration<Dim>> a_p, Write<particle::AccelerationGradient<Dim>> grad_a_p) const;
 };

@@ -24,7 +24,7 @@ inline double curvature_share(Input& in) {
 /// D_p = sum_I S_Ip r (x) r, so that no term changes the momentum.
 template <int Dim>
 struct P2GVelocityTpic2 {
-  static constexpr std::string_view doc = "(E64) v_I^n, TPIC of second order";
+  static constexpr Doc doc = "(E64) v_I^n, TPIC of second order";
   void operator()(Uses<ParticlesToNodes<Dim>> source, Read<particle::Velocity<Dim>> v_p,
                   Read<particle::VelocityGradient<Dim>> grad_v_p, Read<particle::VelocityCurvature<Dim>> h_p,
                   Write<node::Velocity<Dim>> v_i) const;
@@ -37,7 +37,7 @@ struct P2GVelocityTpic2 {
 /// of the angular momentum that (E71) takes over.
 template <int Dim>
 struct G2PVelocityTpic2 {
-  static constexpr std::string_view doc = "(E17) (E65) (E72) v_p and two derivatives, TPIC of second order";
+  static constexpr Doc doc = "(E17) (E65) (E72) v_p and two derivatives, TPIC of second order";
   double share = 1;  ///< s [1]
 
   G2PVelocityTpic2() = default;

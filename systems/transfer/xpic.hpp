@@ -17,7 +17,7 @@ namespace minamo {
 /// (E46)  v*_I = sum_{k<m} (1 - S^+ S)^k v_I^n, S grid to particles, S^+ the mass-weighted mean of (E4).
 template <int Dim>
 struct FilterVelocityXpic {
-  static constexpr std::string_view doc = "(E46) v*_I, XPIC";
+  static constexpr Doc doc = "(E46) v*_I, XPIC";
   int order = 2;  ///< [1]
 
   FilterVelocityXpic() = default;
@@ -32,7 +32,7 @@ struct FilterVelocityXpic {
 /// (E47)  v_p = sum_I S_Ip (v*_I + v_I^{n+1} - v_I^n).
 template <int Dim>
 struct G2PVelocityXpic {
-  static constexpr std::string_view doc = "(E47) v_p, XPIC";
+  static constexpr Doc doc = "(E47) v_p, XPIC";
   void operator()(Uses<NodesToParticles<Dim>> target, Read<node::FilteredVelocity<Dim>> v_filtered,
                   Read<node::Velocity<Dim>> v_old, Read<node::NewVelocity<Dim>> v_new,
                   Write<particle::Velocity<Dim>> v_p) const;

@@ -19,7 +19,7 @@ namespace minamo {
 /// (E80)  mu_c = mu sum_p V_p/h^d over the particles of a cell; mu where all around is full of liquid.
 template <int Dim>
 struct FindCellViscosity {
-  static constexpr std::string_view doc = "(E80) mu_c, what of a cell is liquid";
+  static constexpr Doc doc = "(E80) mu_c, what of a cell is liquid";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluid> fluid, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::Volume> V_p, Read<multiplier::FillAround> around,
                   Optional<Read<CutFriction<Dim>>> cut, Optional<Read<FrictionAtRest<Dim>>> at_rest,
@@ -32,7 +32,7 @@ struct FindCellViscosity {
 /// particles touch. By cells, so that momentum and angular momentum stay. Near bodies that rub by (E110).
 template <int Dim>
 struct RubFaces {
-  static constexpr std::string_view doc = "(E81) friction at the start of the step, of liquids that flow easily";
+  static constexpr Doc doc = "(E81) friction at the start of the step, of liquids that flow easily";
   void operator()(Read<Rates> rates, Read<Splines<Dim>> splines, Read<FrictionMatrices<Dim>> matrices,
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,
                   Optional<Read<face::Open<Dim>>> open, Optional<Read<FaceExtension<Dim>>> extension,

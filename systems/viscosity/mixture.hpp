@@ -17,7 +17,7 @@ namespace minamo {
 /// (E118)  rho_f = sum_p N_f m_p/sum_p N_f V_p.
 template <int Dim>
 struct FindFaceDensity {
-  static constexpr std::string_view doc = "(E118) density of the liquids around faces";
+  static constexpr Doc doc = "(E118) density of the liquids around faces";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p, Read<particle::Volume> V_p,
                   Optional<Read<SiteExchange>> shared, Write<face::LiquidVolume<Dim>> V_f,
@@ -28,7 +28,7 @@ struct FindFaceDensity {
 /// the shear rate, times what of the cell is liquid, as in (E80).
 template <int Dim>
 struct FindCellViscosityOfFluids {
-  static constexpr std::string_view doc = "(E118) mu_c of several liquids";
+  static constexpr Doc doc = "(E118) mu_c of several liquids";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<Fluids> fluids, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::Volume> V_p, Read<particle::FluidIndex> k_p,
                   Optional<Read<particle::ShearRate>> g_p, Optional<Read<particle::Viscosity>> mu_p,

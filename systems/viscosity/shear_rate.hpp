@@ -19,7 +19,7 @@ namespace minamo {
 /// the pressure of the last step, (E117).
 template <int Dim>
 struct ShearParticles {
-  static constexpr std::string_view doc = "(E96) shear rate and viscosity at the start of the step";
+  static constexpr Doc doc = "(E96) shear rate and viscosity at the start of the step";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<Rheology> rheology, Optional<Read<particle::FluidIndex>> k_p,
                   Optional<Read<particle::LastPressure>> p_p, Read<face::Velocity<Dim>> v_f,
                   Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
@@ -28,7 +28,7 @@ struct ShearParticles {
 /// (E96) of the velocity that the balances have given.
 template <int Dim>
 struct ShearParticlesAgain {
-  static constexpr std::string_view doc = "(E96) shear rate and viscosity of the balances";
+  static constexpr Doc doc = "(E96) shear rate and viscosity of the balances";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<Rheology> rheology, Optional<Read<particle::FluidIndex>> k_p,
                   Optional<Read<particle::LastPressure>> p_p, Read<face::BalanceVelocity<Dim>> v_f,
                   Write<particle::ShearRate> g_p, Write<particle::Viscosity> mu_p) const;
@@ -38,7 +38,7 @@ struct ShearParticlesAgain {
 /// of the cell is liquid, as in (E80).
 template <int Dim>
 struct FindCellViscosityByParticles {
-  static constexpr std::string_view doc = "(E96) mu_c of the viscosities of particles";
+  static constexpr Doc doc = "(E96) mu_c of the viscosities of particles";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<particle::Volume> V_p, Read<particle::ShearRate> g_p, Read<particle::Viscosity> mu_p,
                   Read<multiplier::FillAround> around, Optional<Read<CutFriction<Dim>>> cut,
@@ -48,21 +48,21 @@ struct FindCellViscosityByParticles {
 /// (E117)  For the next step: the pressure that this one has found.
 template <int Dim>
 struct KeepPressure {
-  static constexpr std::string_view doc = "(E117) p_p for the viscosity of the next step";
+  static constexpr Doc doc = "(E117) p_p for the viscosity of the next step";
   void operator()(Read<particle::Pressure> found, Write<particle::LastPressure> p_p) const;
 };
 
 /// Before the loop: the velocities to compare with.
 template <int Dim>
 struct KeepBalanceVelocity {
-  static constexpr std::string_view doc = "v_f before the viscosity is found again";
+  static constexpr Doc doc = "v_f before the viscosity is found again";
   void operator()(Read<face::BalanceVelocity<Dim>> v_f, Write<face::LastBalanceVelocity<Dim>> last) const;
 };
 
 /// (E96)  It is enough when no velocity changes by more than 1e-4 of the largest, or after `iterations` solves.
 template <int Dim>
 struct CompareBalanceVelocity {
-  static constexpr std::string_view doc = "(E96) whether the viscosity fits the velocities";
+  static constexpr Doc doc = "(E96) whether the viscosity fits the velocities";
   void operator()(Read<Rheology> rheology, Read<face::BalanceVelocity<Dim>> v_f, Optional<Read<SiteExchange>> shared,
                   Update<ViscosityLoop> loop, Update<face::LastBalanceVelocity<Dim>> last) const;
 };

@@ -48,7 +48,7 @@ struct FrictionWork {
 /// as they are.
 template <int Dim>
 struct SolveFriction {
-  static constexpr std::string_view doc = "v_f and lambda_l with friction";
+  static constexpr Doc doc = "v_f and lambda_l with friction";
   void operator()(Read<SolverTolerance> tolerance, Read<Rates> rates, Uses<MacGrid<Dim>> mac,
                   Read<FrictionMatrices<Dim>> matrices, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<face::Mobility<Dim>> mobility, Optional<Read<face::Open<Dim>>> open,

@@ -31,7 +31,7 @@ struct WholeMatrices {
 /// f = (m/tau) (v* + w), g = 0 for v; f = 0 for w and d, whose divergence is given.
 template <int Dim>
 struct SolveFacesUmfpack {
-  static constexpr std::string_view doc = "(E84) v_f, damping and shift by sparse LU of all equations at once";
+  static constexpr Doc doc = "(E84) v_f, damping and shift by sparse LU of all equations at once";
   /// \throws StepRejected if the matrix is singular or the solution not finite, with the size.
   void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<face::Mobility<Dim>> mobility,
                   Read<face::Predictor<Dim>> predictor, Read<unknown::Staggered> of_unknown,
@@ -46,7 +46,7 @@ struct SolveFacesUmfpack {
 /// v_f and lambda_l with friction in the balances (E82); damping and the shift stay as they are.
 template <int Dim>
 struct SolveFrictionUmfpack {
-  static constexpr std::string_view doc = "(E84) v_f and lambda_l with friction, by sparse LU of all equations at once";
+  static constexpr Doc doc = "(E84) v_f and lambda_l with friction, by sparse LU of all equations at once";
   /// \throws StepRejected if the matrix is singular or the solution not finite, with the size.
   void operator()(Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<FrictionMatrices<Dim>> friction,
                   Read<GridCells<Dim>> cells, Read<CellSites> sites, Read<face::Mobility<Dim>> mobility,

@@ -46,7 +46,7 @@ struct StirGrid {
 /// (E74)  C = sum_p S V_p/d^Dim on the parts of cells, S quadratic B-splines of spacing d.
 template <int Dim>
 struct FillParts {
-  static constexpr std::string_view doc = "(E74) fill fraction of the parts of cells";
+  static constexpr Doc doc = "(E74) fill fraction of the parts of cells";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells, Read<CellSites> sites,
                   Read<StirGrid> stir, Read<staggered::Neighbour<Dim>> neighbour,
                   Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Volume> V_p,
@@ -61,7 +61,7 @@ struct FillParts {
 /// would move it. Near bodies with what they fill, C + C_s.
 template <int Dim>
 struct StirParticles {
-  static constexpr std::string_view doc = "(E74) s_p, away from where particles lie close";
+  static constexpr Doc doc = "(E74) s_p, away from where particles lie close";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<StirGrid> stir, Read<PartFill> parts, Optional<Read<SolidParts>> solid,
                   Read<multiplier::FillFraction> phi, Read<face::NewVelocity<Dim>> v_f,
@@ -71,7 +71,7 @@ struct StirParticles {
 /// (E38)  d_p = sum_f N_f d_f.
 template <int Dim>
 struct GatherFaceShift {
-  static constexpr std::string_view doc = "(E38) d_p";
+  static constexpr Doc doc = "(E38) d_p";
   void operator()(Uses<FacesToParticles<Dim>> target, Read<face::Shift<Dim>> d_f,
                   Write<particle::Shift<Dim>> d_p) const;
 };
@@ -80,7 +80,7 @@ struct GatherFaceShift {
 /// with bodies the share of it that the strain of the step asks for, as in (E124).
 template <int Dim>
 struct FillFaceVolumeSource {
-  static constexpr std::string_view doc = "(E36) (E37) r E_l/V_l, source of the shift";
+  static constexpr Doc doc = "(E36) (E37) r E_l/V_l, source of the shift";
   void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<VolumeRate> rate, Read<face::Velocity<Dim>> v_f,
                   Read<face::Mass<Dim>> m_f, Read<multiplier::FillFraction> phi,
                   Optional<Read<multiplier::OpenShare>> open, Read<multiplier::Volume> v_l,
@@ -92,7 +92,7 @@ struct FillFaceVolumeSource {
 /// go on where a step has lost none.
 template <int Dim>
 struct LimitParticleShift {
-  static constexpr std::string_view doc = "(E69) (E124) shifts lift no more than they lower and the step has lost";
+  static constexpr Doc doc = "(E69) (E124) shifts lift no more than they lower and the step has lost";
   void operator()(Read<Clock> clock, Read<BodyForce> b, Read<Rates> rates, Optional<Read<ode::AtBalances>> ode,
                   Optional<Read<particle::BodyForce<Dim>>> b_p, Read<EnergyBefore> before,
                   Optional<Read<particle::VelocityGradient<Dim>>> grad_v, Optional<Read<body::Work>> W_b,
@@ -105,7 +105,7 @@ struct LimitParticleShift {
 /// x_p += d_p + s_p, at most 0.1 h. Velocities do not change: with grad v s_p the energy would rise.
 template <int Dim>
 struct ApplyParticleShift {
-  static constexpr std::string_view doc = "(E38) x_p, moved by d_p and s_p";
+  static constexpr Doc doc = "(E38) x_p, moved by d_p and s_p";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<particle::Shift<Dim>> d_p,
                   Read<particle::Stir<Dim>> s_p, Optional<Read<OpeningSet<Dim>>> openings,
                   Update<particle::Position<Dim>> x_p) const;

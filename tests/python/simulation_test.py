@@ -3,6 +3,7 @@
 import json
 import logging
 import os
+import re
 import shutil
 import signal
 import threading
@@ -269,8 +270,10 @@ class Lists(unittest.TestCase):
     def test_what_the_program_lists(self):
         for what in ("systems", "components"):
             lines = program("list", what).stdout.splitlines()[2:]
-            names = [line.split("|")[1].strip() for line in lines]
-            self.assertEqual([entry["name"] for entry in minamo.list(what)], names)
+            first = [re.match(r"\| (?:\[(\w+)\]\((.*?)\)|([\w.]+)) \|", line).groups() for line in lines]
+            self.assertEqual([entry["name"] for entry in minamo.list(what)], [linked or name for linked, _, name in first])
+            self.assertEqual([entry.get("file", "").removeprefix("systems/") for entry in minamo.list(what)],
+                             [file or "" for _, file, _ in first])
         for what in ("parts", "schemes", "solvers"):
             lines = program("list", what).stdout.splitlines()
             self.assertEqual([entry["name"] for entry in minamo.list(what)], [line.split()[0] for line in lines])

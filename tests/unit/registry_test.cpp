@@ -1,6 +1,10 @@
+#include "support/scene_run.hpp"
+
 #include "engine/schedule/registry.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <filesystem>
 
 using namespace minamo;
 
@@ -51,6 +55,21 @@ TEST_CASE("a system made without options has its defaults", "[unit]") {
   World world;
   two_systems().make("with_options", 2).run(world);
   CHECK(world.resource<Count>().option == 1);
+}
+
+TEST_CASE("a doc knows the file that it stands in", "[unit]") {
+  constexpr Doc doc = "(E0)  n = Dim.";
+  CHECK(doc.text == "(E0)  n = Dim.");
+  CHECK(doc.file.ends_with("tests/unit/registry_test.cpp"));
+}
+
+TEST_CASE("systems that are built in tell the file that declares them", "[unit]") {
+  for (const auto& [name, entry] : scene_run::registry().entries()) {
+    CAPTURE(name, entry.file);
+    CHECK(std::filesystem::exists(std::filesystem::path(MINAMO_SOURCE_DIR) / entry.file));
+    CHECK(entry.file.starts_with("systems/"));
+  }
+  CHECK(two_systems().entries().at("note_dimension").file.empty());
 }
 
 TEST_CASE("the doc line of a kernel is kept", "[unit]") {

@@ -35,7 +35,7 @@ class PetscSolver {
 /// S x = source for the three sources of a step; every rank has the solutions of the unknowns that it knows.
 template <int Dim>
 struct SolveMultipliersPetsc {
-  static constexpr std::string_view doc = "(E79) S x = B v* and the other sources, on all ranks";
+  static constexpr Doc doc = "(E79) S x = B v* and the other sources, on all ranks";
   void operator()(Read<SiteExchange> shared, Read<SolverTolerance> tolerance, Read<multiplier::Row> row,
                   Read<unknown::Staggered> of_unknown, Read<unknown::Neighbour<Dim>> neighbour,
                   Read<unknown::Conductance<Dim>> conductance, Read<unknown::Diagonal> diagonal,

@@ -84,11 +84,17 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
+/// With a link from the folder of all systems to the file that declares it.
+std::string linked(const SystemRegistry::Entry& system) {
+  constexpr std::string_view folder = "systems/";
+  return system.file.empty() ? system.name : fmt::format("[{}]({})", system.name, system.file.substr(folder.size()));
+}
+
 void list_systems(const SystemRegistry& registry) {
   std::cout << "| system | does | reads | writes | on ranks |\n|---|---|---|---|---|\n";
   for (const auto& [name, entry] : registry.entries()) {
     const System system = entry.make(2, nullptr);
-    std::cout << fmt::format("| {} | {} | {} | {} | {} |\n", name, entry.doc, accesses(system, false),
+    std::cout << fmt::format("| {} | {} | {} | {} | {} |\n", linked(entry), entry.doc, accesses(system, false),
                              accesses(system, true), name_of(entry.on_ranks));
   }
 }

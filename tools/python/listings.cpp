@@ -33,6 +33,7 @@ py::list systems_of(const SystemRegistry& registry) {
     py::dict described;
     described["name"] = name;
     described["doc"] = entry.doc;
+    described["file"] = entry.file;
     described["reads"] = names_of(system, [](Mode mode) { return mode == Mode::read || mode == Mode::update; });
     described["writes"] = names_of(system, [](Mode mode) { return mode != Mode::read; });
     systems.append(described);

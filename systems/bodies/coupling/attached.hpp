@@ -14,7 +14,7 @@ namespace minamo {
 /// (E94)  m_f = rho V_f (O_f - a_f) of the nearest body where the liquid around is full.
 template <int Dim>
 struct FindAttachedMass {
-  static constexpr std::string_view doc = "(E94) mass of the liquid that moves with a body";
+  static constexpr Doc doc = "(E94) mass of the liquid that moves with a body";
   void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Uses<BodyPlacement<Dim>> placement,
                   Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,
                   Read<multiplier::OpenShare> share, Read<multiplier::FillFraction> phi,

@@ -20,7 +20,7 @@ namespace minamo {
 /// would pull.
 template <int Dim>
 struct CountClosedFaces {
-  static constexpr std::string_view doc = "(E126) what faces near bodies give to particles, no pressure to the faces";
+  static constexpr Doc doc = "(E126) what faces near bodies give to particles, no pressure to the faces";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                   Read<FaceExtension<Dim>> extension, Read<VelocityOfParticles> of_particles, Read<BodySet<Dim>> set,
                   Read<staggered::Site<Dim>> site, Read<face::Held> held, Read<face::Mass<Dim>> m_f,

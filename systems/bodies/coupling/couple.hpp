@@ -22,8 +22,7 @@ namespace minamo {
 /// \throws StepRejected if a velocity is not finite
 template <int Dim>
 struct CoupleFreeBodies {
-  static constexpr std::string_view doc =
-      "(E92) (E93) velocities of free bodies, and what they change of the solutions";
+  static constexpr Doc doc = "(E92) (E93) velocities of free bodies, and what they change of the solutions";
   void operator()(Read<Clock> clock, Read<Rates> rates, Uses<MacGrid<Dim>> mac, Read<SolverTolerance> tolerance,
                   Read<BodyForce> force, Optional<Read<ode::AtBalances>> ode, Read<BodySet<Dim>> set,
                   Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::StopImpulse<Dim>> J_b,

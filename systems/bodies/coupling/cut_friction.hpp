@@ -21,7 +21,7 @@ double cut_friction_bytes(const BodySet<Dim>& set, const Grid<Dim>& grid, int de
 
 template <int Dim>
 struct FindCutFriction {
-  static constexpr std::string_view doc = "(E110) friction matrices of cells that bodies cut";
+  static constexpr Doc doc = "(E110) friction matrices of cells that bodies cut";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<GridCells<Dim>> cells,
                   Uses<BodyPlacement<Dim>> placement, Read<FrictionAtRest<Dim>> at_rest,
                   Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,

@@ -23,7 +23,7 @@ namespace minamo {
 /// gradient.
 template <int Dim>
 struct FindDivergenceAhead {
-  static constexpr std::string_view doc = "(E120) divergence of the middle near bodies";
+  static constexpr Doc doc = "(E120) divergence of the middle near bodies";
   void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement,
                   Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Read<GridCells<Dim>> cells,
                   Read<CellSites> sites, Read<particle::QuadraturePosition<Dim>> y_p, Read<particle::Mass> m_p,

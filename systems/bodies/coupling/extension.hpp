@@ -32,7 +32,7 @@ inline constexpr double beyond_open_faces = 0.1;
 /// (E87)
 template <int Dim>
 struct FindFaceExtension {
-  static constexpr std::string_view doc = "(E87) what velocities of closed faces are made of";
+  static constexpr Doc doc = "(E87) what velocities of closed faces are made of";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<StaggeredIndex<Dim>> rows,
                   Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry,
                   Optional<Read<HiddenSites>> hidden, Read<GridCells<Dim>> cells, Read<CellSites> cell_sites,
@@ -46,7 +46,7 @@ struct FindFaceExtension {
 /// (E87) of the velocity at the start of the step.
 template <int Dim>
 struct ExtendOldVelocity {
-  static constexpr std::string_view doc = "(E87) v_f^n of closed faces";
+  static constexpr Doc doc = "(E87) v_f^n of closed faces";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b,
                   Update<FaceExtension<Dim>> extension, Update<face::Velocity<Dim>> v_f) const {
     extension->before.clear();
@@ -59,7 +59,7 @@ struct ExtendOldVelocity {
 /// (E87) of the velocities that the balances give.
 template <int Dim>
 struct ExtendBalanceVelocity {
-  static constexpr std::string_view doc = "(E87) v_f, w_f and d_f of closed faces";
+  static constexpr Doc doc = "(E87) v_f, w_f and d_f of closed faces";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<FaceExtension<Dim>> extension,
                   Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b,
                   Update<face::BalanceVelocity<Dim>> v_f, Update<face::Damping<Dim>> w_f,

@@ -20,7 +20,7 @@ namespace minamo {
 /// work, too.
 template <int Dim>
 struct PushBodies {
-  static constexpr std::string_view doc = "(E90) force, torque and work of the pressure on bodies";
+  static constexpr Doc doc = "(E90) force, torque and work of the pressure on bodies";
   void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<BodySet<Dim>> set, Read<multiplier::Force> lambda,
                   Read<Rates> rates, Read<face::BodyForce<Dim>> b_f, Read<face::AttachedMass<Dim>> attached,
                   Read<face::AttachedTo<Dim>> attached_to, Read<multiplier::Row> row, Read<unknown::Solution> solution,
@@ -36,7 +36,7 @@ struct PushBodies {
 /// the work is known.
 template <int Dim>
 struct CountStops {
-  static constexpr std::string_view doc = "(E90) force, torque and work of particles that bodies stop";
+  static constexpr Doc doc = "(E90) force, torque and work of particles that bodies stop";
   void operator()(Read<Clock> clock, Read<body::StopImpulse<Dim>> J_b, Read<body::PlateImpulse<Dim>> J_plates,
                   Read<body::Velocity<Dim>> V_b, Read<body::Spin<Dim>> omega_b, Update<body::Force<Dim>> F_b,
                   Update<body::Torque<Dim>> T_b, Update<body::Work> W_b) const;
@@ -46,7 +46,7 @@ struct CountStops {
 /// NAME_rotation, NAME_work; where bodies rub also NAME_friction_x, ..., NAME_friction_torque.
 template <int Dim>
 struct MeasureBodies {
-  static constexpr std::string_view doc = "forces, places and velocities of bodies";
+  static constexpr Doc doc = "forces, places and velocities of bodies";
   void operator()(Read<BodySet<Dim>> set, Read<body::Force<Dim>> F_b, Read<body::Torque<Dim>> T_b,
                   Read<body::Position<Dim>> c_b, Read<body::Velocity<Dim>> V_b, Read<body::Angle<Dim>> alpha_b,
                   Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b, Optional<Read<FrictionOnWalls<Dim>>> friction,
@@ -56,7 +56,7 @@ struct MeasureBodies {
 /// The same of the start, where there is no force yet.
 template <int Dim>
 struct MeasureBodiesAtStart {
-  static constexpr std::string_view doc = "places and velocities of bodies at the start";
+  static constexpr Doc doc = "places and velocities of bodies at the start";
   void operator()(Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b, Read<body::Velocity<Dim>> V_b,
                   Read<body::Angle<Dim>> alpha_b, Read<body::Spin<Dim>> omega_b, Read<body::Work> W_b,
                   Update<measure::Columns> columns) const;

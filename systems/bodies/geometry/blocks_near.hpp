@@ -17,7 +17,7 @@ inline constexpr int sites_of_continuation = 18;
 /// Blocks from whose cells a site near a body is within what ranks know everywhere.
 template <int Dim>
 struct FindBlocksNearBodies {
-  static constexpr std::string_view doc = "blocks of cells that have a body near";
+  static constexpr Doc doc = "blocks of cells that have a body near";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Read<ReachOnRanks> reach,
                   Uses<BodyPlacement<Dim>> placement, Write<BlocksNearBodies> blocks) const;
 };

@@ -15,7 +15,7 @@ namespace minamo {
 /// moved to hold what the particles in the open part tell. Faces that reach where nothing is known have no share w_f.
 template <int Dim>
 struct ContinueLiquid {
-  static constexpr std::string_view doc = "(E135) the liquid continued into bodies";
+  static constexpr Doc doc = "(E135) the liquid continued into bodies";
   void operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
                   Optional<Read<DrySides<Dim>>> dry, Read<StaggeredIndex<Dim>> rows, Read<multiplier::OpenShare> open,
                   Read<face::Open<Dim>> open_face, Read<multiplier::Volume> v_l, Read<multiplier::Capacity> capacity,

@@ -17,7 +17,7 @@ std::optional<DrySides<Dim>> dry_sides_of(const BodySet<Dim>& set, const Grid<Di
 /// (E136) of the particles and bodies in the middle of the step.
 template <int Dim>
 struct FindDrySides {
-  static constexpr std::string_view doc = "(E136) dry sides of thin walls";
+  static constexpr Doc doc = "(E136) dry sides of thin walls";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Uses<BodyPlacement<Dim>> placement,
                   Read<StaticCut<Dim>> at_rest, Read<particle::QuadraturePosition<Dim>> y_p,
                   Optional<Read<Ranks>> ranks, Update<DrySides<Dim>> dry) const;

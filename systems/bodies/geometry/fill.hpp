@@ -17,7 +17,7 @@ namespace minamo {
 /// volume tell little; inside a body nothing is missing, phi_l = 1.
 template <int Dim>
 struct FillNearBodies {
-  static constexpr std::string_view doc = "(E86) fill fraction near bodies";
+  static constexpr Doc doc = "(E86) fill fraction near bodies";
   void operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> splines, Uses<BodyPlacement<Dim>> placement,
                   Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
                   Read<staggered::Site<Dim>> site, Read<staggered::Neighbour<Dim>> neighbour,
@@ -30,7 +30,7 @@ struct FillNearBodies {
 /// next to it. No less than m_f over what they leave open of the volume. (E123) near the free surface.
 template <int Dim>
 struct FindUncutMass {
-  static constexpr std::string_view doc = "(E86) mass of faces, were nothing cut away";
+  static constexpr Doc doc = "(E86) mass of faces, were nothing cut away";
   void operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, Uses<BodyPlacement<Dim>> placement,
                   Read<StaticCut<Dim>> at_rest, Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
                   Read<StaggeredIndex<Dim>> rows, Read<face::Open<Dim>> open, Read<face::OpenVolume<Dim>> open_volume,

@@ -28,7 +28,7 @@ std::optional<std::size_t> axis_where_it_ends(const Shape<Dim>& shape, const Pla
 /// \throws std::runtime_error naming the body that has come to the end of a periodic axis
 template <int Dim>
 struct RequireRepeats {
-  static constexpr std::string_view doc = "stop the run if a body comes to the end of a periodic axis";
+  static constexpr Doc doc = "stop the run if a body comes to the end of a periodic axis";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<Splines<Dim>> splines,
                   Uses<BodyPlacement<Dim>> placement) const;
 };

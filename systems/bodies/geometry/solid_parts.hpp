@@ -28,7 +28,7 @@ struct RestingParts {
 /// is the integral of a quadratic B-spline of spacing d up to the distance.
 template <int Dim>
 struct FindSolidParts {
-  static constexpr std::string_view doc = "(E74) C_s, what bodies fill of the parts of cells";
+  static constexpr Doc doc = "(E74) C_s, what bodies fill of the parts of cells";
   void operator()(Read<Grid<Dim>> grid, Read<GridCells<Dim>> cells, Read<StirGrid> stir,
                   Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest, Update<RestingParts> resting,
                   Write<SolidParts> solid) const;

@@ -24,7 +24,7 @@ double largest_speed_of_bodies(World& world, double ahead);
 /// gets past it
 template <int Dim>
 struct PlaceBodies {
-  static constexpr std::string_view doc = "(E88) bodies in the middle of the step; their work so far";
+  static constexpr Doc doc = "(E88) bodies in the middle of the step; their work so far";
   void operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::Position<Dim>> c_b,
                   Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,
                   Read<body::Work> W_b, Write<body::MiddlePosition<Dim>> c_middle,
@@ -35,7 +35,7 @@ struct PlaceBodies {
 /// (E88)  c_b, R_b, V_b and omega_b at the end of the step.
 template <int Dim>
 struct MoveBodies {
-  static constexpr std::string_view doc = "(E88) bodies at the end of the step";
+  static constexpr Doc doc = "(E88) bodies at the end of the step";
   void operator()(Read<Clock> clock, Read<BodySet<Dim>> set, Read<body::MeanVelocity<Dim>> V_mean,
                   Read<body::MeanSpin<Dim>> omega_mean, Optional<Read<body::EndVelocity<Dim>>> V_end,
                   Optional<Read<body::EndSpin<Dim>>> omega_end, Update<body::Position<Dim>> c_b,

@@ -19,8 +19,7 @@ namespace minamo {
 /// the work of that; a free one does not: a light one would be thrown to and fro.
 template <int Dim>
 struct StopAtPlates {
-  static constexpr std::string_view doc =
-      "(E89) no particle takes the first half of a step through a plate, or deep into a body";
+  static constexpr Doc doc = "(E89) no particle takes the first half of a step through a plate, or deep into a body";
   void operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
                   Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<body::Velocity<Dim>> V_b,
                   Read<body::Spin<Dim>> omega_b, Read<body::MiddlePosition<Dim>> c_middle,
@@ -36,7 +35,7 @@ struct StopAtPlates {
 /// particles lose the body gets, and a free one takes no more than it can without being thrown back.
 template <int Dim>
 struct KeepOutOfBodies {
-  static constexpr std::string_view doc = "(E89) particles stay outside of bodies";
+  static constexpr Doc doc = "(E89) particles stay outside of bodies";
   void operator()(Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
                   Read<GridCells<Dim>> cells, Read<body::MiddlePosition<Dim>> c_middle,
                   Read<body::MiddleRotation<Dim>> R_middle, Read<body::Position<Dim>> c_b,

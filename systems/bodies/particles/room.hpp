@@ -30,7 +30,7 @@ std::vector<bool> full_components(const ClosedComponents& closed, std::span<cons
 /// naming the rate
 template <int Dim>
 struct RequireRoom {
-  static constexpr std::string_view doc = "(E88) reject the step if bodies squeeze liquid that is enclosed";
+  static constexpr Doc doc = "(E88) reject the step if bodies squeeze liquid that is enclosed";
   void operator()(Read<Clock> clock, Uses<MacGrid<Dim>> mac, Read<body::MiddlePosition<Dim>> c_b,
                   Read<body::MeanVelocity<Dim>> V_b, Read<body::MeanSpin<Dim>> omega_b, Read<face::Closed<Dim>> closed,
                   Read<face::Closer<Dim>> closer, Read<face::Open<Dim>> open, Optional<Read<face::Prescribed<Dim>>> w_f,

@@ -16,7 +16,7 @@ namespace minamo {
 /// (E127)  Warns where particles lie in bodies, deeper than a hundredth of a cell: (E89) finds no way out for them.
 template <int Dim>
 struct WatchBodies {
-  static constexpr std::string_view doc = "(E127) warnings of particles in bodies";
+  static constexpr Doc doc = "(E127) warnings of particles in bodies";
   void operator()(Read<Clock> clock, Read<Grid<Dim>> grid, Read<BodySet<Dim>> set, Read<StaticCut<Dim>> at_rest,
                   Read<body::Position<Dim>> c_b, Read<body::Rotation<Dim>> R_b, Read<particle::Position<Dim>> x_p,
                   Optional<Read<Ranks>> ranks, Update<Warnings> warnings) const;

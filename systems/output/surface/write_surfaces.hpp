@@ -25,7 +25,7 @@ struct SurfaceOutput {
 /// cannot be written
 template <int Dim>
 struct WriteSurfaces {
-  static constexpr std::string_view doc = "(E111) the surface of a frame, to a file";
+  static constexpr Doc doc = "(E111) the surface of a frame, to a file";
   void operator()(Read<Grid<Dim>> grid, Read<SurfaceOutput> output, Read<particle::Position<Dim>> x_p,
                   Read<particle::Velocity<Dim>> v_p, Read<particle::Volume> V_p, Optional<Read<BodySet<Dim>>> set,
                   Optional<Read<body::Position<Dim>>> c_b, Optional<Read<body::Rotation<Dim>>> R_b,
