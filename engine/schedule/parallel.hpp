@@ -5,6 +5,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -42,6 +43,14 @@ void for_each_row(std::size_t rows, const Body& body, std::size_t rows_per_task 
         for (std::size_t row = begin; row != end; ++row) body(row);
       },
       rows_per_task);
+}
+
+/// The same where a row takes a microsecond and more, so that few of them are worth a task.
+template <class Body>
+void for_each_costly_row(std::size_t rows, const Body& body) {
+  constexpr std::size_t tasks = 64;
+  constexpr std::size_t least = 16;
+  for_each_row(rows, body, std::clamp(rows / tasks, least, grain));
 }
 
 namespace detail {

@@ -16,6 +16,30 @@ std::optional<Index<Dim>> adjacent_site(const Splines<Dim>& splines, const Index
   return splines.site_at(site, steps);
 }
 
+/// use(other) for the sites of a window that begins some steps from one, x fastest.
+/// \param extent  of the window along every axis, up to twice the largest degree
+template <int Dim, class Use>
+void for_each_site_in_window(const Splines<Dim>& splines, const Index<Dim>& site, const Index<Dim>& begin,
+                             const Index<Dim>& extent, const Use& use) {
+  std::array<std::array<int, 2 * static_cast<std::size_t>(largest_degree)>, static_cast<std::size_t>(Dim)> along;
+  Index<Dim> count{};
+  for (std::size_t d = 0; d < Dim; ++d) {
+    for (int k = 0; k < extent[d]; ++k) {
+      Index<Dim> steps{};
+      steps[d] = begin[d] + k;
+      if (const auto other = splines.site_at(site, steps)) along[d][static_cast<std::size_t>(count[d]++)] = (*other)[d];
+    }
+    if (count[d] == 0) return;
+  }
+  Index<Dim> at{};
+  while (at[Dim - 1] < count[Dim - 1]) {
+    Index<Dim> other;
+    for (std::size_t d = 0; d < Dim; ++d) other[d] = along[d][static_cast<std::size_t>(at[d])];
+    use(other);
+    for (std::size_t d = 0; d < Dim && ++at[d] == count[d] && d + 1 < Dim; ++d) at[d] = 0;
+  }
+}
+
 /// use(other, steps) for the sites up to `Reach` steps away along every axis, x fastest, itself among them.
 template <int Dim, int Reach, class Use>
 void for_each_site_around(const Splines<Dim>& splines, const Index<Dim>& site, const Use& use) {

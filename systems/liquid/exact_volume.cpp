@@ -141,8 +141,8 @@ void find_surface_cells(const Liquid<Dim>& of) {
   of.cells.rows.for_each([&](const Index<Dim>& at, std::uint32_t c) { of.cells.cell[c] = at; });
   of.cells.is_parted.assign(of.cells.cell.size(), 0);
   if (!of.has_sides()) return;
-  for_each_row(of.cells.cell.size(),
-               [&](std::size_t c) { of.cells.is_parted[c] = is_parted<Dim, K>(of, of.cells.cell[c]); });
+  for_each_costly_row(of.cells.cell.size(),
+                      [&](std::size_t c) { of.cells.is_parted[c] = is_parted<Dim, K>(of, of.cells.cell[c]); });
 }
 
 /// psi of the multipliers of a cell, x fastest, on the side of a wall where `from` is. Those that are full or empty are
@@ -216,7 +216,7 @@ void hold_measured_volume(const Liquid<Dim>& of) {
   integrate<Dim, K>(of, of.cells.multipliers, per_cell, add);
   // A cell that a wall parts is integrated from every multiplier: psi stays until all have been.
   std::vector<double> move(of.psi.size(), 0);
-  for_each_row(of.psi.size(), [&](std::size_t i) {
+  for_each_costly_row(of.psi.size(), [&](std::size_t i) {
     if (!(of.near[i] > 0) || !liquid::is_cut(of.phi[i])) return;
     if (of.continued != nullptr && of.continued->rows.find(of.site[i]))
       return;  // what continues the liquid was not measured
@@ -342,7 +342,7 @@ void FindExactVolume<Dim>::operator()(
     if (shared) shared->copy_from_owner(psi.span());
     integrate<Dim, K>(of, cells->faces, Integrals::faces, add_faces);
     find_submerged<Dim, K>(of, submerged.span());
-    for_each_row(volume.size(), [&](std::size_t i) {
+    for_each_costly_row(volume.size(), [&](std::size_t i) {
       for (std::size_t d = 0; d < Dim; ++d) {
         const auto axis = static_cast<Eigen::Index>(d);
         // What no particle touches has a row on the high side of the liquid alone.

@@ -169,19 +169,19 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
     }
   });
   std::vector<std::uint8_t> wanted(phi.size());
-  for_each_row(phi.size(), [&](std::size_t i) {
+  for_each_costly_row(phi.size(), [&](std::size_t i) {
     wanted[i] = near[i] > 0 && is_cut(phi[i]) && is_whole(i) &&
                 !is_in_depth<Dim>(*splines, *rows, site[i], phi.span(), is_whole);
   });
   const auto is_wanted = [&](std::size_t i) { return wanted[i] != 0; };
   const auto find_distances = [&] {
-    for_each_row(phi.size(), [&](std::size_t i) {
+    for_each_costly_row(phi.size(), [&](std::size_t i) {
       if (!is_wanted(i)) return;
       psi[i] = SplineFraction<Dim>(*splines, site[i], n_l[i]).inverse(phi[i], psi[i]);
     });
     if (shared) shared->copy_from_owner(psi.span());
   };
-  for_each_row(phi.size(), [&](std::size_t i) {
+  for_each_costly_row(phi.size(), [&](std::size_t i) {
     psi[i] = liquid::is_full(phi[i]) ? farthest : is_cut(phi[i]) ? distance_along_axis(phi[i]) : -farthest;
     n_l[i] =
         is_wanted(i) ? unit<Dim>(slope_of_fill<Dim>(*splines, *rows, site[i], phi.span(), is_whole)) : Vec<Dim>::Zero();
@@ -190,7 +190,7 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
   find_distances();
   const int fits = open ? 2 : 1;
   for (int k = 0; k < fits; ++k) {
-    for_each_row(phi.size(), [&](std::size_t i) {
+    for_each_costly_row(phi.size(), [&](std::size_t i) {
       if (!is_wanted(i)) return;
       n_l[i] = unit<Dim>(slope_of_plane<Dim>(*splines, *rows, site[i], phi.span(), psi.span(), n_l[i], is_whole));
     });

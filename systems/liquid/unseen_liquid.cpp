@@ -77,7 +77,7 @@ class Around {
   Around(const Tellers<Dim>& of, UnseenLiquid<Dim>& unseen)
       : teller_(most * unseen.site.size()), plane_(unseen.site.size()) {
     unseen.has_plane.resize(plane_.size());
-    for_each_row(plane_.size(), [&](std::size_t u) { unseen.has_plane[u] = find(of, unseen.site[u], u); });
+    for_each_costly_row(plane_.size(), [&](std::size_t u) { unseen.has_plane[u] = find(of, unseen.site[u], u); });
   }
 
   std::span<const Teller> tellers(std::size_t u) const { return {&teller_[most * u], plane_[u].tellers}; }
@@ -133,7 +133,7 @@ Excess<Dim> find_distances(const Tellers<Dim>& of, const Around<Dim, K>& around,
   const std::size_t count = unseen.site.size();
   unseen.psi.assign(count, 0);
   Excess<Dim> excess{std::vector<double>(count, 0.0), std::vector<Vec<Dim>>(count)};
-  for_each_row(count, [&](std::size_t u) {
+  for_each_costly_row(count, [&](std::size_t u) {
     if (unseen.has_plane[u] == 0) return;
     const Index<Dim>& at = unseen.site[u];
     const Vec<Dim>& normal = around.normal(u);
@@ -162,7 +162,7 @@ template <int Dim, int K>
 void find_depths(const Tellers<Dim>& of, const Around<Dim, K>& around, UnseenLiquid<Dim>& unseen,
                  std::span<const double> phi) {
   unseen.depth.assign(unseen.site.size(), 0);
-  for_each_row(unseen.site.size(), [&](std::size_t u) {
+  for_each_costly_row(unseen.site.size(), [&](std::size_t u) {
     if (unseen.has_plane[u] == 0) return;
     const auto row = of.rows.find(unseen.site[u]);
     if (row && (liquid::is_cut(of.phi[*row]) || phi[*row] > 0.5)) return;
@@ -211,7 +211,7 @@ void take_from_tellers(const Tellers<Dim>& of, const Around<Dim, K>& around, con
 template <int Dim>
 void keep_distances(const Tellers<Dim>& of, const UnseenLiquid<Dim>& unseen, const Excess<Dim>& excess,
                     std::span<double> phi, std::span<double> psi) {
-  for_each_row(unseen.site.size(), [&](std::size_t u) {
+  for_each_costly_row(unseen.site.size(), [&](std::size_t u) {
     const auto row = of.rows.find(unseen.site[u]);
     if (unseen.has_plane[u] == 0 || !row || !liquid::is_cut(of.phi[*row])) return;
     psi[*row] = unseen.psi[u];

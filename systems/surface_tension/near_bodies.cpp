@@ -69,7 +69,7 @@ SolidAtRest solid_at_rest(const BodySet<Dim>& set, const Grid<Dim>& grid, const 
   const StaggeredIndex<Dim> nobody{};
   const SurfaceLattice<Dim> lattice(grid, nobody);
   SolidAtRest at_rest{std::vector<double>(rows_in<Dim>(splines.sites()))};
-  for_each_row(at_rest.distance.size(), [&](std::size_t k) {
+  for_each_costly_row(at_rest.distance.size(), [&](std::size_t k) {
     const Index<Dim> site = index_in<Dim>(splines.sites(), k);
     at_rest.distance[k] =
         lattice.has(site) ? bodies.distance(lattice.place_of_site(site), false) : far_away * grid.spacing;
@@ -100,7 +100,7 @@ void ExtendSurfaceDistance<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<D
     const auto b = static_cast<std::size_t>(moving.distance < resting.distance ? moving.body : resting.body);
     return bodies.placement(b).gradient(*placement.set->bodies[b].shape, x).stableNormalized();
   };
-  for_each_row(site.size(), [&](std::size_t i) {
+  for_each_costly_row(site.size(), [&](std::size_t i) {
     open[i] = lattice.has(site[i]) ? 1 : 0;
     centroid[i].setZero();
     open_psi[i] = psi[i];
@@ -117,7 +117,7 @@ void ExtendSurfaceDistance<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<D
     open_psi[i] = h * distance_of_fill(std::min(1.0, phi));
   });
   const DistanceAround<Dim> around{*grid, *splines, lattice, open.span(), centroid.span(), open_psi.span()};
-  for_each_row(site.size(), [&](std::size_t i) {
+  for_each_costly_row(site.size(), [&](std::size_t i) {
     if (open[i] < 1 && lattice.has(site[i])) psi[i] = around.at(site[i]);
   });
 }

@@ -30,7 +30,7 @@ void FindAttachedMass<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid
     if (std::abs(more_below) < rounding) return 0.5 * (own + of_below);
     return more_below > 0 ? of_below : own;
   };
-  for_each_row(mac.site.size(), [&](std::size_t i) {
+  for_each_costly_row(mac.site.size(), [&](std::size_t i) {
     mass[i].setZero();
     body[i].fill(-1);
     for (std::size_t d = 0; d < Dim; ++d) {

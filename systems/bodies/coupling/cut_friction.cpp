@@ -260,7 +260,7 @@ FrictionAtRest<Dim> friction_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
     cut.push_back(c);
   }
   friction.matrices.add(cut.size());
-  for_each_row(cut.size(), [&](std::size_t k) {
+  for_each_costly_row(cut.size(), [&](std::size_t k) {
     fill_cell_of_degree<Dim>({set, bodies, false, grid.spacing}, grid, splines, index_in<Dim>(grid.cells, cut[k]),
                              friction.matrices, k);
   });
@@ -292,7 +292,7 @@ void FindCutFriction<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
     }
   }
   cut->moving.add(moving.size());
-  for_each_row(moving.size(), [&](std::size_t k) {
+  for_each_costly_row(moving.size(), [&](std::size_t k) {
     fill_cell_of_degree<Dim>({*placement.set, bodies, true, grid->spacing}, *grid, *splines,
                              cells->cells[moving[k]].node, cut->moving, k);
   });

@@ -123,7 +123,7 @@ void FindDivergenceAhead<Dim>::operator()(
   divide_by_mass<Dim>(m_f.span(), turn);
 
   const Passage<Dim> passage{open.span(), {}};
-  for_each_row(mac.site.size(), [&](std::size_t i) {
+  for_each_costly_row(mac.site.size(), [&](std::size_t i) {
     if (cut.is_cut[i] == 0) return;
     ahead_l[i] = v_l[i] * liquid_indicator(phi[i]) * incidence.divergence(i, turn, passage);
   });

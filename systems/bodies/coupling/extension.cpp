@@ -7,6 +7,7 @@
 #include "systems/viscosity/friction_matrices.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace minamo {
 
@@ -264,7 +265,7 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
   if (dry && dry->hides_any()) on_side.emplace(*splines, *rows, *dry, *hidden);
   const OpenSites<Dim> open_sites{*splines, *rows, share.span(), open.span(), cuts};
   std::vector<std::uint8_t> is_open(site.size());
-  for_each_row(site.size(), [&](std::size_t i) {
+  for_each_costly_row(site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const double share = open[i][static_cast<Eigen::Index>(d)];
       if (share <= sliver) continue;
@@ -287,10 +288,12 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
     }
   }
   std::vector<std::uint8_t> is_near_target(site.size(), 0);
-  for (const auto& target : extension->targets) {
-    for_each_row_around<Dim, rings>(*splines, *rows, site[target.row],
-                                    [&](std::uint32_t row, const auto&, const auto&) { is_near_target[row] = 1; });
-  }
+  for_each_costly_row(extension->targets.size(), [&](std::size_t t) {
+    const Index<Dim>& of_target = site[extension->targets[t].row];
+    for_each_row_around<Dim, rings>(*splines, *rows, of_target, [&](std::uint32_t row, const auto&, const auto&) {
+      std::atomic_ref(is_near_target[row]).store(1, std::memory_order_relaxed);
+    });
+  });
   std::vector<Vec<Dim>> filled;
   if (tension) {
     filled = liquid_around_faces<Dim>(*grid, *splines, *cells, *cell_sites, V_p.span(), y_p.span(), site.span());
@@ -300,7 +303,7 @@ void FindFaceExtension<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>>
   add_up(shared, std::span(filled));
   extension->source.resize(extension->targets.size() * most);
   extension->weight.resize(extension->targets.size() * most);
-  for_each_row(extension->targets.size(), [&](std::size_t t) {
+  for_each_costly_row(extension->targets.size(), [&](std::size_t t) {
     typename FaceExtension<Dim>::Target& target = extension->targets[t];
     const auto direction = static_cast<std::size_t>(target.direction);
     const Index<Dim> own = site[target.row];

@@ -54,7 +54,8 @@ class SideView {
       if (around_->label[k] == 0 || (label_ != 0 && around_->label[k] != label_)) continue;
       const auto found = other.at(difference(Around::steps(k), to_it));
       if (found == 0) continue;
-      const std::size_t version = continued_.first[c] + (other.is_parted() ? found - 1U : 0U);
+      if (!other.is_parted()) return continued_.first[c];
+      const std::size_t version = continued_.first[c] + found - 1U;
       if (common && *common != version) return {};
       common = version;
     }
@@ -95,7 +96,7 @@ class Continuation {
       for (std::size_t side = 0; side < wanted.versions(c); ++side) of_version_.push_back({c, side});
     }
     tellers_.resize(of_version_.size());
-    for_each_row(of_version_.size(), [&](std::size_t v) {
+    for_each_costly_row(of_version_.size(), [&](std::size_t v) {
       const auto [c, side] = of_version_[v];
       const SideView<Dim> view(of.splines, wanted, c, side);
       Finder find(of.rows);
@@ -174,8 +175,8 @@ class Continuation {
     std::vector<Index<Dim>> sites(empty.number_rows());
     empty.for_each([&](const Index<Dim>& site, std::uint32_t k) { sites[k] = site; });
     std::vector<std::uint8_t> is_open_there(sites.size());
-    for_each_row(sites.size(), [&](std::size_t k) { is_open_there[k] = is_open(sites[k]) ? 1 : 0; });
-    for_each_row(tellers_.size(), [&](std::size_t v) {
+    for_each_costly_row(sites.size(), [&](std::size_t k) { is_open_there[k] = is_open(sites[k]) ? 1 : 0; });
+    for_each_costly_row(tellers_.size(), [&](std::size_t v) {
       Finder find(empty);
       for_each_empty(v, [&](Teller& one, const Index<Dim>& site) { one.is_empty = is_open_there[*find(site)] != 0; });
     });
@@ -193,7 +194,7 @@ class Continuation {
       }
     }
     tellers_of_row_.resize(rows_at_surface_.size());
-    for_each_row(rows_at_surface_.size(), [&](std::size_t r) {
+    for_each_costly_row(rows_at_surface_.size(), [&](std::size_t r) {
       const Index<Dim>& site = of_.site[rows_at_surface_[r]];
       const SideView<Dim> view(of_.splines, wanted_, site);
       Finder find(of_.rows);
@@ -224,7 +225,7 @@ class Continuation {
   bool tell_once(const Own& own, From from) {
     find_surface();
     std::vector<std::optional<KnownLiquid<Dim>>> news(told_.size());
-    for_each_row(news.size(), [&](std::size_t v) {
+    for_each_costly_row(news.size(), [&](std::size_t v) {
       if (is_told_[v] != 0) return;
       const auto [c, side] = of_version_[v];
       news[v] = continued(wanted_.site[c], tellers_[v], from != From::most_around);
@@ -247,13 +248,13 @@ class Continuation {
       return there && is_in_liquid(*there) != is_in_liquid(here);
     };
     is_row_at_surface_.resize(rows_at_surface_.size());
-    for_each_row(rows_at_surface_.size(), [&](std::size_t r) {
+    for_each_costly_row(rows_at_surface_.size(), [&](std::size_t r) {
       is_row_at_surface_[r] = std::any_of(tellers_of_row_[r].begin(), tellers_of_row_[r].end(), [&](const Teller& one) {
         return is_other(one, of_.fill[rows_at_surface_[r]]);
       });
     });
     is_version_at_surface_.resize(told_.size());
-    for_each_row(told_.size(), [&](std::size_t v) {
+    for_each_costly_row(told_.size(), [&](std::size_t v) {
       is_version_at_surface_[v] = 0;
       if (is_told_[v] == 0 || !liquid::is_cut(told_[v].fill) || told_[v].normal.squaredNorm() == 0) return;
       const auto& places = Around::adjacent_places;
@@ -268,27 +269,38 @@ class Continuation {
     return place != staggered::none && is_row_at_surface_[static_cast<std::size_t>(place)] != 0;
   }
 
+  /// Where it is known that no particle is nothing votes, unless that is continued.
+  bool votes(const Teller& teller) const {
+    const auto there = fill(teller);
+    return there && (teller.version != staggered::none || *there != 0);
+  }
+  /// Full or empty, as most of the liquid around.
+  std::optional<KnownLiquid<Dim>> most_around(const Index<Dim>& site,
+                                              const std::array<Teller, Around::sites>& tellers) const {
+    double all = 0;
+    double full = 0;
+    for (std::size_t place = 0; place < tellers.size(); ++place) {
+      if (!votes(tellers[place])) continue;
+      const double near = 1 / of_.splines.offset(site, Around::steps(place)).squaredNorm();
+      all += near;
+      full += near * (is_in_liquid(*fill(tellers[place])) ? 1 : -1);
+    }
+    if (std::abs(full) <= decisive * all) return {};
+    const double psi = full > 0 ? liquid::farthest : -liquid::farthest;
+    return KnownLiquid<Dim>{site, psi, full > 0 ? 1.0 : 0.0, Vec<Dim>::Zero()};
+  }
+
   std::optional<KnownLiquid<Dim>> continued(const Index<Dim>& site, const std::array<Teller, Around::sites>& tellers,
                                             bool by_planes) const {
     MeanPlane<Dim> mean;
-    double votes = 0;
-    double full = 0;
     for (std::size_t place = 0; place < tellers.size(); ++place) {
-      const auto there = fill(tellers[place]);
-      if (!there || (tellers[place].version == staggered::none && *there == 0))
-        continue;  // no particle has a vote there
-      const Vec<Dim> x = -of_.splines.offset(site, Around::steps(place));
-      const double near = 1 / x.squaredNorm();
-      votes += near;
-      full += near * (is_in_liquid(*there) ? 1 : -1);
-      if (!is_at_surface(tellers[place])) continue;
+      if (!votes(tellers[place]) || !is_at_surface(tellers[place])) continue;
       const KnownLiquid<Dim> k = known(tellers[place]);
-      mean.add(4 * k.fill * (1 - k.fill) * near, k.psi + k.normal.dot(x), k.normal);
+      const Vec<Dim> x = -of_.splines.offset(site, Around::steps(place));
+      mean.add(4 * k.fill * (1 - k.fill) * (1 / x.squaredNorm()), k.psi + k.normal.dot(x), k.normal);
     }
     if (!mean.agrees()) {
-      if (by_planes || std::abs(full) <= decisive * votes) return {};
-      const double psi = full > 0 ? liquid::farthest : -liquid::farthest;
-      return KnownLiquid<Dim>{site, psi, full > 0 ? 1.0 : 0.0, Vec<Dim>::Zero()};
+      return by_planes ? std::nullopt : most_around(site, tellers);
     }
     const double psi = mean.distance();
     return KnownLiquid<Dim>{site, std::clamp(psi, -liquid::farthest, liquid::farthest),

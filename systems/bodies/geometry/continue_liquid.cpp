@@ -42,22 +42,15 @@ void hold_own_volume(const SiteCuts<Dim>& cuts, double measured, KnownLiquid<Dim
 template <int Dim, class Use>
 void for_each_multiplier_of_face(const Splines<Dim>& splines, const Index<Dim>& site, std::size_t d, const Use& use) {
   const int K = splines.degree;
+  Index<Dim> begin;
+  begin.fill(1 - K);
   Index<Dim> extent;
   extent.fill(2 * K - 1);
-  extent[d] = 2 * K;
-  std::size_t count = 1;
-  for (const int of_axis : extent) count *= static_cast<std::size_t>(of_axis);
-  for (std::size_t k = 0; k < count; ++k) {
-    Index<Dim> steps;
-    std::size_t rest = k;
-    for (std::size_t e = 0; e < Dim; ++e) {
-      const auto of_axis = static_cast<std::size_t>(extent[e]);
-      steps[e] = static_cast<int>(rest % of_axis) - (e == d ? K : K - 1);
-      rest /= of_axis;
-    }
-    const auto other = splines.site_at(site, steps);
-    if (other && splines.has_multiplier(*other)) use(*other);
-  }
+  --begin[d];
+  ++extent[d];
+  for_each_site_in_window<Dim>(splines, site, begin, extent, [&](const Index<Dim>& other) {
+    if (splines.has_multiplier(other)) use(other);
+  });
 }
 
 /// The multipliers that bodies cut, of the cells that faces with a share of exact integrals reach.
@@ -75,12 +68,16 @@ std::vector<double> list_cut_multipliers(const Splines<Dim>& splines, const Stag
   with_degree(splines.degree, [&](auto degree) { is_near = near_any<Dim, degree()>(all, may_lack); });
   continued.rows.start(splines.sites());
   typename SiteRows<Dim>::Finder find(rows);
+  const Index<Dim> sites = splines.sites();
+  std::vector<std::uint8_t> is_looked_at(rows_in<Dim>(sites), 0);
   for (std::size_t i = 0; i < site.size(); ++i) {
     if (is_near[i] == 0) continue;
     for (std::size_t d = 0; d < Dim; ++d) {
       if (share[i][static_cast<Eigen::Index>(d)] == 0) continue;
       for_each_multiplier_of_face<Dim>(splines, site[i], d, [&](const Index<Dim>& other) {
-        if (open_sites.share(other, find) < 1) continued.rows.add(other);
+        std::uint8_t& is_done = is_looked_at[row_in<Dim>(sites, other)];
+        if (is_done == 0 && open_sites.share(other, find) < 1) continued.rows.add(other);
+        is_done = 1;
       });
     }
   }
@@ -96,7 +93,7 @@ void find_versions(const OpenSites<Dim>& open, bool has_sides, ContinuedLiquid<D
   const std::size_t count = continued.site.size();
   continued.sides.assign(count, {});
   if (has_sides) {
-    for_each_row(count, [&](std::size_t c) { continued.sides[c] = find_sides<Dim>(open, continued.site[c]); });
+    for_each_costly_row(count, [&](std::size_t c) { continued.sides[c] = find_sides<Dim>(open, continued.site[c]); });
   }
   continued.first.resize(count);
   continued.any_parted = false;
@@ -150,7 +147,7 @@ void ContinueLiquid<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<
     continued->psi[v] = known->psi;
     continued->fill[v] = known->fill;
   }
-  for_each_row(continued->site.size(), [&](std::size_t c) {
+  for_each_costly_row(continued->site.size(), [&](std::size_t c) {
     const auto row = rows->find(continued->site[c]);
     if (row && v_l[*row] > 0) return;
     for (std::size_t v = continued->first[c]; v < continued->first[c] + continued->versions(c); ++v) {
@@ -170,7 +167,7 @@ void ContinueLiquid<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<
     n_l[*row] = known->normal;
     if (fill[*row] > 0) fill[*row] = known->fill;  // without particles not all of its faces have rows
   }
-  for_each_row(is_all_told && !continued->any_parted ? 0 : mac.site.size(), [&](std::size_t i) {
+  for_each_costly_row(is_all_told && !continued->any_parted ? 0 : mac.site.size(), [&](std::size_t i) {
     if (is_near[i] == 0) return;
     for (std::size_t d = 0; d < Dim; ++d) {
       double& of_face = share[i][static_cast<Eigen::Index>(d)];

@@ -31,7 +31,7 @@ void close_gaps(const SiteCuts<Dim>& cuts, std::span<const Index<Dim>> site,
     return true;
   };
   std::vector<std::array<bool, static_cast<std::size_t>(Dim)>> gaps(open.size());
-  for_each_row(open.size(), [&](std::size_t i) {
+  for_each_costly_row(open.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) gaps[i][d] = is_gap(i, d);
   });
   for_each_row(open.size(), [&](std::size_t i) {
@@ -76,11 +76,13 @@ template <int Dim>
 SiteCut<Dim> SiteCuts<Dim>::at(const Index<Dim>& site) const {
   const SiteCut<Dim> of_resting = by_resting(site);
   if (!bodies_.may_be_near(places_.middle(site), places_.reach())) return of_resting;
-  SiteCut<Dim> cut =
-      cut_from(site, [&](const Vec<Dim>& x, const Index<Dim>& from) { return bodies_.distance_from(&from, x); });
-  cut.open = cut.open.cwiseMin(of_resting.open);
-  cut.share = std::min(cut.share, of_resting.share);
-  return cut;
+  return found_(row_in<Dim>(sites_, site), [&] {
+    SiteCut<Dim> cut =
+        cut_from(site, [&](const Vec<Dim>& x, const Index<Dim>& from) { return bodies_.distance_from(&from, x); });
+    cut.open = cut.open.cwiseMin(of_resting.open);
+    cut.share = std::min(cut.share, of_resting.share);
+    return cut;
+  });
 }
 
 template <int Dim>
@@ -150,7 +152,7 @@ void CutFaces<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> 
         mac.splines->has_multiplier(mac.site[i]) ? cuts.share_from_row(of_hidden, mac.site.span(), i, mac.site[i]) : 1;
     return SiteCut<Dim>{Vec<Dim>::Zero(), of_side};
   };
-  for_each_row(mac.site.size(), [&](std::size_t i) {
+  for_each_costly_row(mac.site.size(), [&](std::size_t i) {
     const SiteCut<Dim> cut = is_hidden(i) ? cut_of_hidden(i) : cuts.at(mac.site[i]);
     open[i] = cut.open;
     share[i] = cut.share;
@@ -161,7 +163,7 @@ void CutFaces<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> 
   const auto open_by_resting = [&](const Vec<Dim>& x) {
     return std::abs(bodies.distance(x, false)) < std::abs(bodies.distance(x, true)) ? 0.0 : 1.0;
   };
-  for_each_row(mac.site.size(), [&](std::size_t i) {
+  for_each_costly_row(mac.site.size(), [&](std::size_t i) {
     flux[i].setZero();
     old_flux[i].setZero();
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -183,7 +185,7 @@ void CutFaces<Dim>::operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> 
       old_flux[i][axis] = closed[i][d][1] * rigid_velocity(V_old[b], omega_old[b], r)[axis];
     }
   });
-  for_each_row(mac.site.size(), [&](std::size_t i) {
+  for_each_costly_row(mac.site.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto share_of = [&](const Index<Dim>& at) {
         const std::int32_t below = mac.neighbour[i][2 * d];

@@ -8,6 +8,9 @@
 #include "systems/grid/mac_grid.hpp"
 #include "systems/grid/sites_around.hpp"
 
+#include <atomic>
+#include <memory>
+
 namespace minamo {
 
 /// Faces less open than this are slivers: what flows through them weighs little and may be fast. Particles do not see
@@ -35,13 +38,48 @@ struct MovingWalls {
   }
 };
 
+/// Cuts by moving bodies that were found before: several sites around ask for each. From any thread.
+template <int Dim>
+class FoundCuts {
+ public:
+  explicit FoundCuts(std::size_t sites) : state_(sites), cut_(std::make_unique_for_overwrite<Cut[]>(sites)) {}
+
+  /// \param find  find(): what is asked for, if nobody has before
+  template <class Find>
+  SiteCut<Dim> operator()(std::size_t site, const Find& find) {
+    std::atomic<State>& state = state_[site];
+    if (state.load(std::memory_order_acquire) == State::known) return {cut_[site].open, cut_[site].share};
+    const SiteCut<Dim> cut = find();
+    State expected = State::unknown;
+    if (state.compare_exchange_strong(expected, State::written, std::memory_order_relaxed)) {
+      cut_[site] = {cut.open, cut.share};
+      state.store(State::known, std::memory_order_release);
+    }
+    return cut;
+  }
+
+ private:
+  enum class State : std::uint8_t { unknown, written, known };
+  /// As SiteCut, but memory that nobody has written to costs nothing.
+  struct Cut {
+    Vec<Dim> open;
+    double share;
+  };
+  std::vector<std::atomic<State>> state_;
+  std::unique_ptr<Cut[]> cut_;
+};
+
 /// What all bodies leave open of sites, whether particles touch them or not.
 template <int Dim>
 class SiteCuts {
  public:
   SiteCuts(const Grid<Dim>& grid, const Splines<Dim>& splines, const StaticCut<Dim>& at_rest,
            const PlacedBodies<Dim>& bodies)
-      : places_(grid, splines), at_rest_(at_rest), bodies_(bodies) {}
+      : places_(grid, splines),
+        at_rest_(at_rest),
+        bodies_(bodies),
+        sites_(splines.sites()),
+        found_(bodies.any_moves() ? rows_in<Dim>(sites_) : 0) {}
   SiteCuts(const MacGrid<Dim>& mac, const StaticCut<Dim>& at_rest, const PlacedBodies<Dim>& bodies)
       : SiteCuts(*mac.grid, *mac.splines, at_rest, bodies) {}
 
@@ -80,6 +118,8 @@ class SiteCuts {
   SitePlaces<Dim> places_;
   const StaticCut<Dim>& at_rest_;
   const PlacedBodies<Dim>& bodies_;
+  Index<Dim> sites_;
+  mutable FoundCuts<Dim> found_;
 };
 
 template <int Dim>
@@ -94,7 +134,7 @@ double SiteCuts<Dim>::open_volume(const Index<Dim>& site, std::size_t d, const S
 /// (E85) of the sites of a step.
 template <int Dim>
 struct CutFaces {
-  static constexpr std::string_view doc = "(E85) what bodies leave open of faces and multipliers";
+  static constexpr Doc doc = "(E85) what bodies leave open of faces and multipliers";
   void operator()(Uses<MacGrid<Dim>> mac, Uses<BodyPlacement<Dim>> placement, Read<StaticCut<Dim>> at_rest,
                   Optional<Read<DrySides<Dim>>> dry, Optional<Read<HiddenSites>> hidden,
                   Read<body::MeanVelocity<Dim>> V_b, Read<body::Velocity<Dim>> V_old, Read<body::Spin<Dim>> omega_old,

@@ -57,7 +57,7 @@ void FillNearBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     }
     return false;
   };
-  for_each_row(phi.size(), [&](std::size_t i) {
+  for_each_costly_row(phi.size(), [&](std::size_t i) {
     if (!splines->has_multiplier(site[i]) || v_l[i] == 0) {  // not all of its faces have rows
       phi[i] = around[i] = 0;
       return;
@@ -82,7 +82,7 @@ void FillNearBodies<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> sp
     if (share[i] < 1) phi[i] = filled / open;
     around[i] = std::max(phi[i], filled / open);
   });
-  for_each_row(phi.size(), [&](std::size_t i) {
+  for_each_costly_row(phi.size(), [&](std::size_t i) {
     if (!splines->has_multiplier(site[i])) return;
     least[i] = 0;
     if (v_l[i] == 0) return;
@@ -138,7 +138,7 @@ void FindUncutMass<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, U
     if (below && below_at && dry->parts(*below, *below_at)) return staggered::none;
     return static_cast<std::int32_t>(*row);
   };
-  for_each_row(m_f.size(), [&](std::size_t i) {
+  for_each_costly_row(m_f.size(), [&](std::size_t i) {
     for (std::size_t d = 0; d < Dim; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       uncut[i][axis] = m_f[i][axis];

@@ -217,7 +217,7 @@ void find_seen(const DrySides<Dim>& dry, const Splines<Dim>& splines, const AllC
   const std::size_t count = cells.node.size();
   std::vector<std::uint8_t> is_near(count, 0);
   std::vector<std::uint8_t> is_torn(count, 0);
-  for_each_row(count, [&](std::size_t c) {
+  for_each_costly_row(count, [&](std::size_t c) {
     const Index<Dim>& cell = cells.node[c];
     if (views_of_cell<Dim, K>(dry, splines, cell).empty()) return;
     is_near[c] = 1;
@@ -236,7 +236,7 @@ void find_seen(const DrySides<Dim>& dry, const Splines<Dim>& splines, const AllC
     for (std::size_t k = 0; k < cells.sites.per_cell; ++k) is_wanted[cells.sites.of(c)[k]] = 1;
   }
   std::vector<std::vector<HiddenSites::Sight>> of_cell(count);
-  for_each_row(count, [&](std::size_t c) {
+  for_each_costly_row(count, [&](std::size_t c) {
     if (is_near[c] == 0) return;
     const auto seen = cells.template multipliers_seen_from<K>(c);
     const std::uint32_t* of = cells.sites.of(c);

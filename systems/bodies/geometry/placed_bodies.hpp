@@ -81,6 +81,7 @@ class PlacedBodies {
   double distance_from(const Index<Dim>* from, const Vec<Dim>& x) const {
     return std::min(distance(x, false, from), distance(x, true, from));
   }
+  bool any_moves() const { return !moving_.empty(); }
   /// Whether a moving body may be within a distance of a point.
   bool may_be_near(const Vec<Dim>& x, double reach) const;
   bool bounded() const { return bounded_; }

@@ -51,7 +51,7 @@ void find_resting(const Windows<Dim>& windows, const OccupiedCells<Dim>& cells, 
     found.push_back(c);
   }
   resting.fill.resize((before + found.size()) * windows.size);
-  for_each_row(found.size(), [&](std::size_t k) {
+  for_each_costly_row(found.size(), [&](std::size_t k) {
     for (std::size_t w = 0; w < windows.size; ++w)
       resting.fill[(before + k) * windows.size + w] = windows.fill(cells.cells[found[k]].node, w, false);
   });
@@ -83,7 +83,7 @@ void FindSolidParts<Dim>::operator()(Read<Grid<Dim>> grid, Read<GridCells<Dim>> 
     near.push_back({c, by_resting, by_moving});
   }
   solid->fill.resize(near.size() * windows.size);
-  for_each_row(near.size(), [&](std::size_t k) {
+  for_each_costly_row(near.size(), [&](std::size_t k) {
     const NearBodies& of = near[k];
     for (std::size_t w = 0; w < windows.size; ++w) {
       double fill = 0;

@@ -20,7 +20,7 @@ StaticCut<Dim> cut_by_bodies_at_rest(const BodySet<Dim>& set, const Grid<Dim>& g
   const std::size_t sites = rows_in<Dim>(cut.sites);
   const std::size_t cells = rows_in<Dim>(grid.cells);
   cut.of.resize(sites);
-  for_each_row(sites, [&](std::size_t i) {
+  for_each_costly_row(sites, [&](std::size_t i) {
     cut.of[i] = cut_site<Dim>(places, index_in<Dim>(cut.sites, i), bodies.bounded(), at_rest,
                               [&](const Vec<Dim>& x, std::size_t) { return at_rest(x); });
   });

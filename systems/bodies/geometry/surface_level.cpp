@@ -210,7 +210,7 @@ class UnknownFaces {
     bool has_found = true;
     for (int pass = 0; pass < most_passes && has_found; ++pass) {
       std::vector<std::optional<Estimate>> found(unknown_.size());
-      for_each_row(found.size(), [&](std::size_t t) {
+      for_each_costly_row(found.size(), [&](std::size_t t) {
         if (has_news(around_[t], pass)) found[t] = fill_on_level<Dim>(fill_around(around_[t]));
       });
       has_found = take(found, pass);
@@ -231,8 +231,8 @@ class UnknownFaces {
   std::vector<std::uint32_t> look_around() {
     const std::size_t first = around_.size();
     around_.resize(unknown_.size());
-    for_each_row(unknown_.size() - first,
-                 [&](std::size_t t) { around_[first + t] = rows_around<Dim>(faces_, unknown_[first + t]); });
+    for_each_costly_row(unknown_.size() - first,
+                        [&](std::size_t t) { around_[first + t] = rows_around<Dim>(faces_, unknown_[first + t]); });
     std::vector<std::uint32_t> found;
     for (std::size_t t = first; t < around_.size(); ++t) {
       for (const std::int32_t i : around_[t]) {
@@ -241,7 +241,7 @@ class UnknownFaces {
         found.push_back(static_cast<std::uint32_t>(i));
       }
     }
-    for_each_row(found.size(), [&](std::size_t k) {
+    for_each_costly_row(found.size(), [&](std::size_t k) {
       if (is_whole<Dim>(faces_, found[k])) is_[found[k]] = known;
     });
     return found;

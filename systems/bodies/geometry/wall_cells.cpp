@@ -91,7 +91,7 @@ void WallCells<Dim>::join(const Shape<Dim>& shape) {
   const double size = cells_.side();
   std::vector<double> distance(flags_.size());
   std::vector<std::uint8_t> is_in(flags_.size());  // the last blocks go on beyond the region
-  for_each_row(flags_.size(), [&](std::size_t s) {
+  for_each_costly_row(flags_.size(), [&](std::size_t s) {
     const Vec<Dim> x = cells_.middle(s);
     distance[s] = shape.distance(x);
     if (std::abs(distance[s]) <= on_body * cells_.spacing()) distance[s] = 0;
@@ -100,7 +100,7 @@ void WallCells<Dim>::join(const Shape<Dim>& shape) {
     if (distance[s] > 0 && distance[s] < 2 * size)
       thickness_[s] = static_cast<float>(thickness_at(shape, x, distance[s]));
   });
-  for_each_row(flags_.size(), [&](std::size_t s) {
+  for_each_costly_row(flags_.size(), [&](std::size_t s) {
     if (is_in[s] == 0) return;
     unsigned flags = distance[s] > 0 ? 1U << is_open_bit : 0;
     const Vec<Dim> x = cells_.middle(s);
