@@ -205,3 +205,44 @@ TEST_CASE("a box with thin walls around liquid has the distance of one with thic
   CHECK(along_sides.value() < 1e-8);
   CHECK(in_corners.value() < 0.08 * h);  // 0.071 measured: walls meet in a point, not in an arc
 }
+
+TEST_CASE("a former view is taken only where it is the same as a new one", "[unit]") {
+  const auto shape = wall<2>(0.02);
+  auto walls = ThinWalls<2>::find(shape, region<2>(), h, degree);
+  REQUIRE(walls);
+  for (double y = -0.9; y < -0.05; y += 0.01) {
+    walls->light(shape, {-0.015, y});
+    walls->light(shape, {0.015, y});
+  }
+  walls->find_dry();
+  const auto everywhere = [](const Vec<2>&) { return true; };
+  const auto below_end = [](const Vec<2>& x) { return x[1] < -0.05; };
+  walls->find_places(everywhere);
+  std::size_t taken = 0;
+  std::size_t changed = 0;
+  for (double y = -0.8; y < 0.2; y += 0.037) {
+    const Vec<2> x(-0.06, y);
+    const auto former = walls->view_from(shape, x);
+    for (const bool ends : {false, true}) {
+      if (ends) walls->find_places(below_end);
+      for (const double move : {0.0, 0.001, 0.004, 0.02}) {
+        CAPTURE(y, ends, move);
+        const Vec<2> there = x + Vec<2>(0.3 * move, move);
+        const auto anew = walls->view_from(shape, there);
+        auto given = former;
+        const auto view = walls->view_from(shape, there, given ? &*given : nullptr);
+        REQUIRE(view.has_value() == anew.has_value());
+        if (!view) continue;
+        CHECK(view->from == anew->from);
+        CHECK(view->low == anew->low);
+        CHECK(view->hides_all == anew->hides_all);
+        CHECK(view->hidden == anew->hidden);
+        taken += former && given->from.empty() ? 1 : 0;
+        changed += former && former->from == anew->from && former->hidden != anew->hidden ? 1 : 0;
+      }
+    }
+    walls->find_places(everywhere);
+  }
+  CHECK(taken > 20);
+  CHECK(changed > 5);  // no way leads around the end of the wall any more
+}

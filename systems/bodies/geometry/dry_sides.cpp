@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace minamo {
 
@@ -37,7 +36,7 @@ Bounds<Dim> region_of(const BodyScene<Dim>& body, const Grid<Dim>& grid, int deg
 /// What the thin walls of a body hide from the sites around.
 /// \param stays  the body: views that nothing has changed near stay, too
 template <int Dim>
-void find_views(const ThinWalls<Dim>& walls, const Shape<Dim>& shape, const Placement<Dim>& placement,
+void find_views(ThinWalls<Dim>& walls, const Shape<Dim>& shape, const Placement<Dim>& placement,
                 const SitePlaces<Dim>& places, bool stays, typename DrySides<Dim>::Views& views) {
   const Index<Dim> sites = places.splines().sites();
   typename DrySides<Dim>::Views before;
@@ -53,31 +52,27 @@ void find_views(const ThinWalls<Dim>& walls, const Shape<Dim>& shape, const Plac
   if (near.empty()) return;
   // A body that moves has small cells beyond the sides of the grid, too, where no way leads around it.
   const Grid<Dim>& grid = places.grid();
-  const auto is_within = [&](const Vec<Dim>& at, double margin) {
+  const auto is_in_grid = [&](const Vec<Dim>& in_body) {
+    const Vec<Dim> at = placement.to_world(in_body);
+    const double rounding = 1e-9 * grid.spacing;
     for (int d = 0; d < Dim; ++d) {
       if (grid.periodic[static_cast<std::size_t>(d)]) continue;
-      if (at[d] < grid.low[d] + margin || at[d] > grid.high[d] - margin) return false;
+      if (at[d] < grid.low[d] - rounding || at[d] > grid.high[d] + rounding) return false;
     }
     return true;
   };
-  const std::function<bool(const Vec<Dim>&)> everywhere;
-  const std::function<bool(const Vec<Dim>&)> has_place = [&](const Vec<Dim>& in_body) {
-    return is_within(placement.to_world(in_body), -1e-9 * grid.spacing);
-  };
-  const auto is_deep = [&](std::size_t i) {
-    const Bounds<Dim> box = places.box(index_in<Dim>(sites, i));
-    return is_within(0.5 * (box.low + box.high), 4 * std::sqrt(static_cast<double>(Dim)) * grid.spacing);
-  };
+  if (!stays) walls.find_places(is_in_grid);
   std::vector<std::optional<typename DrySides<Dim>::View>> found(near.size());
   for_each_row(
       near.size(),
       [&](std::size_t k) {
         const Vec<Dim> x = middle_of(near[k]);
-        const std::int32_t at = stays && !before.of_site.empty() ? before.of_site[near[k]] : -1;
-        if (at >= 0 && !walls.has_new_view_at(x)) {
-          found[k] = std::move(before.list[static_cast<std::size_t>(at)]);
+        const std::int32_t at = before.of_site.empty() ? -1 : before.of_site[near[k]];
+        auto* const former = at >= 0 ? &before.list[static_cast<std::size_t>(at)] : nullptr;
+        if (stays && former != nullptr && !walls.has_new_view_at(x)) {
+          found[k] = std::move(*former);
         } else {
-          found[k] = walls.view_from(shape, x, stays || is_deep(near[k]) ? everywhere : has_place);
+          found[k] = walls.view_from(shape, x, former);
         }
       },
       4);
@@ -147,7 +142,7 @@ void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
     if (!dry->of_body[b]) continue;
     ThinWalls<Dim>& walls = *dry->of_body[b];
     const Shape<Dim>& shape = *placement.set->bodies[b].shape;
-    for_each_row(y_p.size(), [&](std::size_t p) {
+    for_each_costly_row(y_p.size(), [&](std::size_t p) {
       for_each_image<Dim>(*grid, y_p[p],
                           [&](const Vec<Dim>& y) { walls.light(shape, bodies.placement(b).to_body(y)); });
     });
@@ -161,7 +156,7 @@ void FindDrySides<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> spli
   }
   if (any_changed) {
     dry->is_at_end.assign(rows_in<Dim>(dry->sites), 0);
-    for_each_row(dry->is_at_end.size(), [&](std::size_t i) {
+    for_each_costly_row(dry->is_at_end.size(), [&](std::size_t i) {
       const Index<Dim> site = index_in<Dim>(dry->sites, i);
       if (dry->has_view(site)) dry->is_at_end[i] = ends_near<Dim>(*dry, *splines, site) ? 1 : 0;
     });

@@ -17,6 +17,7 @@ ThinWalls<Dim>::ThinWalls(WallCells<Dim> walls) : walls_(std::move(walls)) {
   has_changed_.assign(walls_.cells().kept(), 0);
   may_hide_.assign(walls_.cells().kept(), 0);
   has_new_view_.assign(walls_.cells().kept(), 0);
+  has_new_places_.assign(walls_.cells().kept(), 0);
 }
 
 template <int Dim>

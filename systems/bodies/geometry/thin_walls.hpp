@@ -4,6 +4,7 @@
 /// hide of a wet one.
 
 #include "engine/run/communicator.hpp"
+#include "engine/schedule/parallel.hpp"
 #include "systems/bodies/geometry/wall_view.hpp"
 
 #include <algorithm>
@@ -37,11 +38,16 @@ class ThinWalls {
   bool may_hide_any() const { return !two_sided_.empty(); }
   /// Whether the last find_dry() has changed anything that a view from there depends on.
   bool has_new_view_at(const Vec<Dim>& x) const;
-  /// \param has_place  has_place(x): whether there is a grid at a point; may be empty: everywhere
+  /// Tells where there is a grid; before the first call it is everywhere.
+  /// \param is_in_grid  is_in_grid(x), of the middles of small cells, from any thread
+  template <class IsInGrid>
+  void find_places(const IsInGrid& is_in_grid);
+  /// \param former  from about there, before the last find_places(); it is taken if it is the same; may be null
   /// \return none where liquid may be nowhere near
-  std::optional<View> view_from(const Shape<Dim>& shape, const Vec<Dim>& x,
-                                const std::function<bool(const Vec<Dim>&)>& has_place = {}) const {
-    return minamo::view_from<Dim>(walls_, is_dry_, shape, x, has_place);
+  std::optional<View> view_from(const Shape<Dim>& shape, const Vec<Dim>& x, View* former = nullptr) const {
+    const std::int32_t small = walls_.cells().at(x);
+    const bool may_stay = small != none && has_new_places_[static_cast<std::size_t>(small) / per_block] == 0;
+    return minamo::view_from<Dim>(walls_, {is_dry_, has_place_}, shape, x, may_stay ? former : nullptr);
   }
   /// Whether a view hides a small cell.
   bool hides(const View& view, std::int32_t small) const { return view.hides(walls_.cells(), small); }
@@ -91,11 +97,29 @@ class ThinWalls {
   std::vector<std::uint8_t> is_lit_;   ///< since the last find_dry()
   std::vector<std::uint8_t> was_lit_;  ///< at the last one
   std::vector<std::uint8_t> is_dry_;
-  std::vector<std::uint8_t> has_changed_;  ///< of kept blocks, by the last find_dry()
+  std::vector<std::uint8_t> has_place_;       ///< whether there is a grid; empty: everywhere
+  std::vector<std::uint8_t> has_new_places_;  ///< kept blocks near what the last find_places() has changed
+  std::vector<std::uint8_t> has_changed_;     ///< of kept blocks, by the last find_dry()
   std::vector<std::int16_t> around_, through_;
   std::vector<std::int32_t> two_sided_;     ///< small cells next to walls that are wet on both sides, rising
   std::vector<std::uint8_t> has_new_view_;  ///< kept blocks near what the last find_dry() has changed
   std::vector<std::uint8_t> may_hide_;  ///< kept blocks near walls that are wet on both sides, by the last find_dry()
 };
+
+template <int Dim>
+template <class IsInGrid>
+void ThinWalls<Dim>::find_places(const IsInGrid& is_in_grid) {
+  const SmallCells<Dim>& cells = walls_.cells();
+  has_place_.resize(cells.size(), 1);
+  std::vector<std::uint8_t> changed(cells.kept(), 0);
+  for_each_row(cells.kept(), [&](std::size_t k) {
+    for (std::size_t s = k * per_block; s < (k + 1) * per_block; ++s) {
+      const std::uint8_t has_place = is_in_grid(cells.middle(s)) ? 1 : 0;
+      if (has_place != has_place_[s]) changed[k] = 1;
+      has_place_[s] = has_place;
+    }
+  });
+  has_new_places_ = cells.blocks_near(changed, View::half);
+}
 
 }  // namespace minamo

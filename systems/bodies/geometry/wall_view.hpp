@@ -4,7 +4,6 @@
 
 #include "systems/bodies/geometry/wall_cells.hpp"
 
-#include <functional>
 #include <span>
 
 namespace minamo {
@@ -25,12 +24,17 @@ struct WallView {
   bool hides(const SmallCells<Dim>& cells, std::int32_t small) const;
 };
 
-/// \param is_dry     by small cell
-/// \param has_place  has_place(x): whether there is a grid at a point; may be empty: everywhere
+/// What views depend on besides the walls, by small cell.
+struct WallLight {
+  std::span<const std::uint8_t> is_dry;
+  std::span<const std::uint8_t> has_place;  ///< whether there is a grid at its middle; empty: everywhere
+};
+
+/// \param former  a view near which there was grid where there is now, taken if it is from the same small cells; may be
+///                null
 /// \return none where liquid may be nowhere near
 template <int Dim>
-std::optional<WallView<Dim>> view_from(const WallCells<Dim>& walls, std::span<const std::uint8_t> is_dry,
-                                       const Shape<Dim>& shape, const Vec<Dim>& x,
-                                       const std::function<bool(const Vec<Dim>&)>& has_place);
+std::optional<WallView<Dim>> view_from(const WallCells<Dim>& walls, const WallLight& light, const Shape<Dim>& shape,
+                                       const Vec<Dim>& x, WallView<Dim>* former);
 
 }  // namespace minamo
