@@ -1,5 +1,6 @@
 #include "systems/pressure/pressure.hpp"
 
+#include "systems/grid/cell_blocks.hpp"
 #include "systems/grid/site_support.hpp"
 #include "systems/grid/sites_around.hpp"
 #include "systems/linear/conjugate_gradients.hpp"
@@ -7,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -34,7 +36,7 @@ class PressureMass {
     find_volume(site.size());
     find_products(rows, site);
     is_free_.resize(lambda.size());
-    for (std::size_t i = 0; i < lambda.size(); ++i) is_free_[i] = lambda[i] != 0;
+    for (std::size_t i = 0; i < lambda.size(); ++i) is_free_[i] = lambda[i] != 0 ? 1 : 0;
   }
 
   /// v_l, by particles. [m^d]
@@ -42,7 +44,7 @@ class PressureMass {
   /// Where the middle of the liquid around multipliers lies from their own, by particles. [h]
   std::vector<Vec<Dim>> middles() const {
     std::vector<Vec<Dim>> middle(volume_.size(), Vec<Dim>::Zero());
-    for (const Run& run : runs_) {
+    for_each_run([&](const Run& run) {
       for_each_particle(run, [&](std::size_t p, const Vec<Dim>& xi, const Column& weight) {
         std::size_t m = 0;
         for_each_multiplier<Dim, K>([&](std::size_t, const Index<Dim>& offset) {
@@ -52,7 +54,7 @@ class PressureMass {
           ++m;
         });
       });
-    }
+    });
     if (shared_ != nullptr) shared_->add_up(std::span(middle));
     for (std::size_t i = 0; i < middle.size(); ++i) {
       if (volume_[i] > 0) middle[i] /= volume_[i];
@@ -60,46 +62,46 @@ class PressureMass {
     return middle;
   }
   /// The pressure of a multiplier comes from elsewhere.
-  void know(std::size_t i) { is_free_[i] = false; }
+  void know(std::size_t i) { is_free_[i] = 0; }
   /// Takes what known pressures give from the force of the others.
   void take_known(const std::vector<double>& known, std::vector<double>& force) const {
     std::vector<double> of_known(known.size());
     times(known, of_known);
-    for (std::size_t i = 0; i < force.size(); ++i) force[i] = is_free_[i] ? force[i] - of_known[i] : 0;
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] = is_free_[i] != 0 ? force[i] - of_known[i] : 0;
   }
 
   std::vector<double> diagonal() const {
     std::vector<double> sum = lumped_;
-    for (const Run& run : runs_) {
+    for_each_run([&](const Run& run) {
       for (std::size_t k = 0; k < local; ++k) sum[run.rows[k]] += products_[run.products].data()[k * (local + 1)];
-    }
+    });
     add_up(sum);
     return sum;
   }
   /// out = M x, zero where the pressure is known.
   void times(const std::vector<double>& x, std::vector<double>& out) const {
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = lumped_[i] * x[i];
-    for (const Run& run : runs_) {
+    for_each_row(out.size(), [&](std::size_t i) { out[i] = lumped_[i] * x[i]; });
+    for_each_run([&](const Run& run) {
       Column x_of_run;
       for (std::size_t k = 0; k < local; ++k) x_of_run.data()[k] = x[run.rows[k]];
-      const Column of_run = products_[run.products] * x_of_run;
+      const Column of_run = products_[run.products].lazyProduct(x_of_run);
       for (std::size_t k = 0; k < local; ++k) out[run.rows[k]] += of_run.data()[k];
-    }
+    });
     add_up(out);
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      if (!is_free_[i]) out[i] = 0;
-    }
+    for_each_row(out.size(), [&](std::size_t i) {
+      if (is_free_[i] == 0) out[i] = 0;
+    });
   }
   /// use(p, sum_l N_l x_l) for every particle.
   template <class Use>
   void for_each_value(const std::vector<double>& x, const Use& use) const {
-    for (const Run& run : runs_) {
+    for_each_run([&](const Run& run) {
       for_each_particle(run, [&](std::size_t p, const Vec<Dim>&, const Column& weight) {
         double value = 0;
         for (std::size_t k = 0; k < local; ++k) value += weight.data()[k] * x[run.rows[k]];
         use(p, value);
       });
-    }
+    });
   }
 
  private:
@@ -110,6 +112,7 @@ class PressureMass {
     std::size_t end;
     std::array<std::uint32_t, local> rows;
     std::size_t products;  ///< which are its integrals of products of weights
+    double exact;          ///< share of the exact ones in these
   };
 
   /// With what particles of other ranks bring.
@@ -118,18 +121,40 @@ class PressureMass {
   }
 
   void list_runs(const SiteRows<Dim>& rows) {
-    typename SiteRows<Dim>::Finder find(rows);
-    for (std::size_t p = 0; p < y_p_.size(); ++p) {
-      const Index<Dim> cell = cell_around<Dim>(grid_, splines_, y_p_[p]);
-      if (!runs_.empty() && runs_.back().cell == cell) {
-        runs_.back().end = p + 1;
-        continue;
-      }
-      Run run{cell, p, p + 1, {}, 0};
+    std::vector<Index<Dim>> cell(y_p_.size());
+    for_each_row(cell.size(), [&](std::size_t p) { cell[p] = cell_around<Dim>(grid_, splines_, y_p_[p]); });
+    for (std::size_t p = 0; p < cell.size(); ++p) {
+      if (runs_.empty() || runs_.back().cell != cell[p]) runs_.push_back({cell[p], p, p, {}, 0, 0});
+      runs_.back().end = p + 1;
+    }
+    const CellBlocks<Dim> blocks(grid_, grid_.cells);
+    const auto is_before = [&](const Run& a, const Run& b) {
+      return blocks.block_of(a.cell) < blocks.block_of(b.cell);
+    };
+    if (!std::is_sorted(runs_.begin(), runs_.end(), is_before)) std::stable_sort(runs_.begin(), runs_.end(), is_before);
+    for (std::size_t begin = 0, end = 0; begin < runs_.size(); begin = end) {
+      const std::uint32_t block = blocks.block_of(runs_[begin].cell);
+      while (end < runs_.size() && blocks.block_of(runs_[end].cell) == block) ++end;
+      blocks_[blocks.colour(block)].push_back({begin, end});
+    }
+    for_each_row(runs_.size(), [&](std::size_t r) {
+      Run& run = runs_[r];
+      typename SiteRows<Dim>::Finder find(rows);
       std::size_t m = 0;
       for_each_multiplier<Dim, K>(
-          [&](std::size_t, const Index<Dim>& offset) { run.rows[m++] = *find(splines_.site(cell, offset)); });
-      runs_.push_back(run);
+          [&](std::size_t, const Index<Dim>& offset) { run.rows[m++] = *find(splines_.site(run.cell, offset)); });
+    });
+  }
+  /// Blocks of one colour have no multiplier in common: the same sums on any number of threads.
+  template <class Use>
+  void for_each_run(const Use& use) const {
+    for (const auto& of_colour : blocks_) {
+      for_each_row(
+          of_colour.size(),
+          [&](std::size_t b) {
+            for (std::size_t r = of_colour[b].begin; r < of_colour[b].end; ++r) use(runs_[r]);
+          },
+          blocks_per_task);
     }
   }
   /// use(p, place in the cell, weights of the multipliers around). Weights are found anew each time: stored, they would
@@ -149,11 +174,11 @@ class PressureMass {
   }
   void find_volume(std::size_t rows) {
     volume_.assign(rows, 0);
-    for (const Run& run : runs_) {
+    for_each_run([&](const Run& run) {
       for_each_particle(run, [&](std::size_t p, const Vec<Dim>&, const Column& weight) {
         for (std::size_t k = 0; k < local; ++k) volume_[run.rows[k]] += V_p_[p] * weight.data()[k];
       });
-    }
+    });
     add_up(volume_);
   }
   /// phi' of (E125), by these particles, with neighbours as full as crowded ones at most: a hole next to a corner that
@@ -161,11 +186,11 @@ class PressureMass {
   std::vector<double> fill_around(double cell_volume, const SiteRows<Dim>& rows,
                                   std::span<const Index<Dim>> site) const {
     std::vector<double> fill(site.size(), 0);
-    for (std::size_t i = 0; i < site.size(); ++i) {
-      if (volume_[i] == 0) continue;
+    for_each_row(site.size(), [&](std::size_t i) {
+      if (volume_[i] == 0) return;
       const double room = cell_volume * splines_.widths(site[i]);
       fill[i] = volume_[i] / room;
-      if (fill[i] >= 1) continue;
+      if (fill[i] >= 1) return;
       double filled = 2 * volume_[i];
       double rooms = 2 * room;
       for (std::size_t side = 0; side < 2 * Dim; ++side) {
@@ -176,7 +201,7 @@ class PressureMass {
         rooms += adjacent;
       }
       fill[i] = std::max(fill[i], filled / rooms);
-    }
+    });
     return fill;
   }
   void find_products(const SiteRows<Dim>& rows, std::span<const Index<Dim>> site) {
@@ -190,18 +215,17 @@ class PressureMass {
     for (Run& run : runs_) {
       double least = 1;
       for (const std::uint32_t row : run.rows) least = std::min(least, fill[row]);
-      const double exact = filled_indicator(least);
-      const double share = exact / runs_at[run.rows[0]];
-      Square of_run = Square::Zero();
-      if (share > 0) {
-        run.products = whole.products(run.cell);
-        if (share == 1) continue;
-        of_run = share * products_[run.products];
-      }
+      run.exact = filled_indicator(least);
+      const double share = run.exact / runs_at[run.rows[0]];
+      if (share > 0) run.products = whole.products(run.cell);
+      if (share == 1) continue;
+      const Square of_run = share > 0 ? Square(share * products_[run.products]) : Square::Zero();
       run.products = products_.size();
       products_.push_back(of_run);
-      if (exact < 1) add_particles(run, 1 - exact);
     }
+    for_each_run([&](const Run& run) {
+      if (run.exact < 1) add_particles(run, 1 - run.exact);
+    });
   }
   /// Of the particles of a run, a part of their volume.
   void add_particles(const Run& run, double part) {
@@ -264,11 +288,17 @@ class PressureMass {
   std::span<const Vec<Dim>> y_p_;
   std::span<const double> V_p_;
   const SiteExchange* shared_;
+  struct Block {
+    std::size_t begin;  ///< of its runs
+    std::size_t end;
+  };
+  static constexpr std::size_t blocks_per_task = 4;
   std::vector<Run> runs_;
-  std::vector<Square> products_;  ///< of runs and of whole cells
-  std::vector<double> lumped_;    ///< of every multiplier, on the diagonal, by the particles of this rank
-  std::vector<double> volume_;    ///< v_l of every multiplier
-  std::vector<bool> is_free_;
+  std::array<std::vector<Block>, power(3, Dim)> blocks_;  ///< by colour
+  std::vector<Square> products_;                          ///< of runs and of whole cells
+  std::vector<double> lumped_;  ///< of every multiplier, on the diagonal, by the particles of this rank
+  std::vector<double> volume_;  ///< v_l of every multiplier
+  std::vector<std::uint8_t> is_free_;
 };
 
 /// Every row counts on the rank that owns it.
@@ -322,11 +352,11 @@ void RecoverPressure<Dim>::operator()(Read<Grid<Dim>> grid, Read<Splines<Dim>> s
     const PressureOfFewParticles<Dim> of_few(*grid, *splines, *rows, site.span(), lambda.span(), open_share.span(),
                                              mass.volume(), open_share ? mass.middles() : std::vector<Vec<Dim>>());
     std::vector<double> is_known(lambda.size(), 0);
-    for (std::size_t i = 0; i < known.size(); ++i) {
-      if (!of_few.is_known(i)) continue;
+    for_each_costly_row(known.size(), [&](std::size_t i) {
+      if (!of_few.is_known(i)) return;
       known[i] = of_few(i);
       is_known[i] = 1;
-    }
+    });
     if (shared) {
       shared->copy_from_owner(std::span(known));
       shared->copy_from_owner(std::span(is_known));

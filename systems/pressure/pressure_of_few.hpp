@@ -39,29 +39,32 @@ class PressureOfFewParticles {
         middle_(std::move(middle)) {
     cell_volume_ = std::pow(grid.spacing, Dim);
     lumped_.assign(lambda.size(), 0);
-    has_few_.assign(lambda.size(), false);
-    tells_.assign(lambda.size(), false);
-    std::vector<std::size_t> at_surface;
-    for (std::size_t i = 0; i < lambda.size(); ++i) {
-      if (lambda[i] == 0) continue;
-      has_few_[i] = has_few(i);
-      tells_[i] = is_whole(i) || (open_share(i) < 1 && full_share(i) == 1);
-      if (open_share(i) < 1 && !tells_[i]) at_surface.push_back(i);
+    has_few_.assign(lambda.size(), 0);
+    tells_.assign(lambda.size(), 0);
+    for_each_row(lambda.size(), [&](std::size_t i) {
+      if (lambda[i] == 0) return;
+      has_few_[i] = has_few(i) ? 1 : 0;
+      tells_[i] = is_whole(i) || (open_share(i) < 1 && full_share(i) == 1) ? 1 : 0;
       const double filled = filled_around(i);
       if (is_whole(i) && filled == 1) middle_[i].setZero();
       lumped_[i] = lambda[i] / (filled * whole_volume(i));
+    });
+    std::vector<std::size_t> at_surface;
+    for (std::size_t i = 0; i < lambda.size(); ++i) {
+      if (lambda[i] != 0 && open_share(i) < 1 && tells_[i] == 0) at_surface.push_back(i);
     }
     // All before any changes: no value is made of another of its kind.
-    std::vector<double> levelled;
-    for (const std::size_t i : at_surface) {
+    std::vector<double> levelled(at_surface.size());
+    for_each_costly_row(at_surface.size(), [&](std::size_t k) {
+      const std::size_t i = at_surface[k];
       const double full = full_share(i);
-      const double of_level = continued(i, [&](std::size_t j) { return tells_[j]; }).value_or(lumped_[i]);
-      levelled.push_back(full * lambda[i] / whole_volume(i) + (1 - full) * of_level);
-    }
+      const double of_level = continued(i, [&](std::size_t j) { return tells_[j] != 0; }).value_or(lumped_[i]);
+      levelled[k] = full * lambda[i] / whole_volume(i) + (1 - full) * of_level;
+    });
     for (std::size_t k = 0; k < at_surface.size(); ++k) lumped_[at_surface[k]] = levelled[k];
   }
 
-  bool is_known(std::size_t i) const { return open_share(i) < 1 || has_few_[i] || is_crowded(i); }
+  bool is_known(std::size_t i) const { return open_share(i) < 1 || has_few_[i] != 0 || is_crowded(i); }
   double operator()(std::size_t i) const {
     return is_inside(i) ? continued(i, [](std::size_t) { return true; }).value_or(0) : lumped_[i];
   }
@@ -87,10 +90,10 @@ class PressureOfFewParticles {
   /// Particles that a corner holds back are more than it has room for.
   bool is_crowded(std::size_t i) const { return open_share(i) == 1 && volume_[i] > crowded_from * whole_volume(i); }
   /// Whether particles tell where the middle of its liquid is.
-  bool is_whole(std::size_t i) const { return !middle_.empty() && open_share(i) == 1 && !has_few_[i]; }
+  bool is_whole(std::size_t i) const { return !middle_.empty() && open_share(i) == 1 && has_few_[i] == 0; }
   /// What of the whole volume of a multiplier the liquid that its force rests on takes.
   double filled_around(std::size_t i) const {
-    if (!tells_[i]) return filled_share(i, has_few_[i] ? 0 : 2);
+    if (tells_[i] == 0) return filled_share(i, has_few_[i] != 0 ? 0 : 2);
     if (!is_whole(i)) return 1;
     const double filled = volume_[i] / whole_volume(i);
     return filled > full_from ? 1 : filled;
@@ -168,8 +171,8 @@ class PressureOfFewParticles {
   std::vector<Vec<Dim>> middle_;
   double cell_volume_;
   std::vector<double> lumped_;
-  std::vector<bool> has_few_;  ///< of those that carry a force
-  std::vector<bool> tells_;    ///< of multipliers: their pressure is what lumped_ says, near a body, too
+  std::vector<std::uint8_t> has_few_;  ///< of those that carry a force
+  std::vector<std::uint8_t> tells_;    ///< of multipliers: their pressure is what lumped_ says, near a body, too
 };
 
 }  // namespace minamo
