@@ -77,37 +77,57 @@ void for_each_fine_point(const typename FreeSurface<Dim>::Element& element, cons
   }
 }
 
-/// Mean velocity of the surface around a site: the quadratic splines once more, for sites that are not at walls.
-template <int Dim, class Velocity>
-Vec<Dim> mean_around(const std::vector<typename FreeSurface<Dim>::Element>& elements, const Grid<Dim>& grid,
-                     const Index<Dim>& node, const Velocity& velocity) {
-  Vec<Dim> sum = Vec<Dim>::Zero();
-  double around = 0;
-  Vec<Dim> place;
-  for (int d = 0; d < Dim; ++d) place[d] = grid.low[d] + (node[static_cast<std::size_t>(d)] - 1.5) * grid.spacing;
-  for (const auto& element : elements) {
-    // A spline reaches 1.5 h, an element is within a cell.
-    if ((element[0].x - place).cwiseAbs().maxCoeff() > 2.5 * grid.spacing) continue;
-    for_each_fine_point<Dim>(element, [&](const Vec<Dim>& x, double area) {
-      double weight = area;
-      for (int d = 0; d < Dim; ++d) weight *= quadratic_spline((x[d] - place[d]) / grid.spacing);
-      sum += weight * velocity(x);
-      around += weight;
-    });
+/// Mean velocity of the surface around sites: the quadratic splines once more, for sites that are not at walls.
+template <int Dim>
+class MeansAround {
+ public:
+  template <class Velocity>
+  MeansAround(const std::vector<typename FreeSurface<Dim>::Element>& elements, const Grid<Dim>& grid,
+              const Velocity& velocity)
+      : sites_(grid.cells) {
+    std::size_t count = 1;
+    for (int& along : sites_) count *= static_cast<std::size_t>(along += 4);
+    sum_.assign(count, Vec<Dim>::Zero());
+    around_.assign(count, 0);
+    for (const auto& element : elements) {
+      for_each_fine_point<Dim>(element, [&](const Vec<Dim>& x, double area) {
+        const Vec<Dim> v = velocity(x);
+        const Vec<Dim> from_low = (x - grid.low) / grid.spacing;
+        Index<Dim> first;
+        double weight[3][3];
+        for (std::size_t d = 0; d < Dim; ++d) {
+          const double along = from_low[static_cast<Eigen::Index>(d)];
+          first[d] = static_cast<int>(std::floor(along)) + 1;
+          for (int k = 0; k < 3; ++k) weight[d][k] = quadratic_spline(along - (first[d] + k - 1.5));
+        }
+        for (std::size_t k = 0; k < power(3, Dim); ++k) {
+          Index<Dim> site = first;
+          double of_site = area;
+          std::size_t rest = k;
+          for (std::size_t d = 0; d < Dim; ++d, rest /= 3) {
+            site[d] += static_cast<int>(rest % 3);
+            of_site *= weight[d][rest % 3];
+          }
+          sum_[row_of(site)] += of_site * v;
+          around_[row_of(site)] += of_site;
+        }
+      });
+    }
   }
-  return sum / around;
-}
+  Vec<Dim> operator()(const Index<Dim>& site) const { return sum_[row_of(site)] / around_[row_of(site)]; }
 
-/// The same as a function of the site that works each out once. \pre what it is made of outlives it
-template <int Dim, class Velocity>
-auto means_around(const std::vector<typename FreeSurface<Dim>::Element>& elements, const Grid<Dim>& grid,
-                  const Velocity& velocity) {
-  return [&, known = std::map<Index<Dim>, Vec<Dim>>()](const Index<Dim>& node) mutable -> const Vec<Dim>& {
-    const auto [found, is_new] = known.try_emplace(node, Vec<Dim>::Zero());
-    if (is_new) found->second = mean_around<Dim>(elements, grid, node, velocity);
-    return found->second;
-  };
-}
+ private:
+  std::size_t row_of(const Index<Dim>& site) const {
+    std::size_t row = 0;
+    for (std::size_t d = Dim; d-- > 0;)
+      row = row * static_cast<std::size_t>(sites_[d]) + static_cast<std::size_t>(site[d]);
+    return row;
+  }
+
+  Index<Dim> sites_;
+  std::vector<Vec<Dim>> sum_;
+  std::vector<double> around_;
+};
 
 /// sum_f F_f v_f, for a velocity that splines hold exactly: a linear one, by its values at Greville points.
 /// \pre degree 2
@@ -210,7 +230,7 @@ TEMPLATE_TEST_CASE_SIG("the force of surface tension is what the energy of the s
   REQUIRE(splines.degree == 2);
   // The corners move by the means of the velocity around the nodes that they lie between.
   const auto elements = elements_of<Dim>(world);
-  auto mean_at = means_around<Dim>(elements, grid, velocity);
+  const MeansAround<Dim> mean_at(elements, grid, velocity);
   const auto area_after = [&](double time) {
     double area = 0;
     for (auto element : elements) {
@@ -391,7 +411,7 @@ TEMPLATE_TEST_CASE_SIG("on a body the force of surface tension is what the energ
   const double power = power_of_forces<Dim>(world, velocity);
   const auto& surface = world.resource<FreeSurface<Dim>>();
   const auto elements = elements_of<Dim>(world);
-  auto mean_at = means_around<Dim>(elements, grid, velocity);
+  const MeansAround<Dim> mean_at(elements, grid, velocity);
   const auto velocity_of = [&](const auto& piece, const auto& corner) {
     Vec<Dim> v = (1 - corner.share) * mean_at(corner.in) + corner.share * mean_at(corner.out);
     if (corner.on_body == staggered::none) return v;

@@ -195,9 +195,10 @@ TEST_CASE("water rests on both sides of a wall, whatever the levels", "[verifica
 }
 
 TEST_CASE("water rests on both sides of a wall, whatever the levels, for long", "[verification][long]") {
-  const int seed = GENERATE(1, 2, 3);
+  using Wall = std::pair<int, double>;  // seed, thickness [h]
+  const auto [seed, thickness] =
+      GENERATE(Wall{1, 0.2}, Wall{1, 2}, Wall{2, 0.5}, Wall{2, 4}, Wall{3, 0.8}, Wall{3, 1.2});
   std::mt19937 random(static_cast<unsigned>(seed));
-  const double thickness = GENERATE(0.2, 0.5, 0.8, 1.2, 2, 4);  // [h]
   const TwoPools pools = any_two_pools(random, thickness * 0.05);
   CAPTURE(seed, thickness, pools.frame.angle, pools.frame.middle);
   check_rest(pools.scene(3), 100, 300, 0.02);
