@@ -35,6 +35,7 @@ struct TableLine {
   std::string calls;
   std::string seconds;
   std::string us_per_call;
+  std::string rate;
   std::string share;
 };
 
@@ -50,7 +51,13 @@ std::string share_of(double seconds, double wall_seconds) {
 
 TableLine line_of(const Profiler::Row& row, double wall_seconds) {
   const std::string us_per_call = row.calls > 0 ? fixed(1e6 * row.seconds / static_cast<double>(row.calls), 1) : "-";
-  return {row.name, std::to_string(row.calls), fixed(row.seconds, 4), us_per_call, share_of(row.seconds, wall_seconds)};
+  const bool has_rate = row.bytes > 0 && row.seconds > 0;
+  return {row.name,
+          std::to_string(row.calls),
+          fixed(row.seconds, 4),
+          us_per_call,
+          has_rate ? fixed(1e-9 * row.bytes / row.seconds, 2) : "-",
+          share_of(row.seconds, wall_seconds)};
 }
 
 std::runtime_error unwritable(const std::string& path) {
@@ -64,14 +71,15 @@ std::runtime_error unwritable(const std::string& path) {
 Profiler::Profiler(bool keep_events) : keep_events_(keep_events), origin_(std::chrono::steady_clock::now()) {}
 
 std::size_t Profiler::add_row(std::string name) {
-  lines_.push_back({{std::move(name), 0, 0, {}}, {}});
+  lines_.push_back({{.name = std::move(name), .effort = {}}, {}});
   return lines_.size() - 1;
 }
 
-void Profiler::record(std::size_t row, Time begin, Time end, const Effort& effort) {
+void Profiler::record(std::size_t row, Time begin, Time end, double bytes, const Effort& effort) {
   Line& line = lines_[row];
   ++line.row.calls;
   line.row.seconds += seconds_between(begin, end);
+  line.row.bytes += bytes;
   line.row.effort += effort;
   if (keep_events_) line.events.push_back({begin, end, thread_number()});
 }
@@ -86,6 +94,7 @@ std::vector<Profiler::Row> Profiler::rows() const {
     } else {
       rows[place->second].calls += line.row.calls;
       rows[place->second].seconds += line.row.seconds;
+      rows[place->second].bytes += line.row.bytes;
       rows[place->second].effort += line.row.effort;
     }
   }
@@ -95,20 +104,21 @@ std::vector<Profiler::Row> Profiler::rows() const {
 std::string Profiler::table(double wall_seconds) const {
   std::vector<Row> sorted = rows();
   std::stable_sort(sorted.begin(), sorted.end(), [](const Row& a, const Row& b) { return a.seconds > b.seconds; });
-  std::vector<TableLine> lines = {{"system", "calls", "seconds", "us/call", "share"}};
+  std::vector<TableLine> lines = {{"system", "calls", "seconds", "us/call", "GB/s", "share"}};
   double sum = 0;
   for (const Row& row : sorted) {
     lines.push_back(line_of(row, wall_seconds));
     sum += row.seconds;
   }
-  lines.push_back({"sum", "", fixed(sum, 4), "", share_of(sum, wall_seconds)});
+  lines.push_back({"sum", "", fixed(sum, 4), "", "", share_of(sum, wall_seconds)});
 
   std::size_t width = 0;
   for (const TableLine& line : lines) width = std::max(width, line.name.size());
   std::ostringstream text;
   for (const TableLine& line : lines) {
     text << std::left << std::setw(static_cast<int>(width)) << line.name << std::right << std::setw(11) << line.calls
-         << std::setw(13) << line.seconds << std::setw(13) << line.us_per_call << std::setw(10) << line.share << '\n';
+         << std::setw(13) << line.seconds << std::setw(13) << line.us_per_call << std::setw(8) << line.rate
+         << std::setw(10) << line.share << '\n';
   }
   return text.str();
 }

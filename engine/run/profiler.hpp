@@ -24,6 +24,7 @@ class Profiler {
     std::string name;
     std::int64_t calls = 0;
     double seconds = 0;  ///< sum over calls [s]
+    double bytes = 0;    ///< of the columns that its system declares, once each way, sum over calls
     Effort effort;       ///< of this rank, where there are several
   };
 
@@ -35,12 +36,13 @@ class Profiler {
   std::size_t add_row(std::string name);
 
   /// One call. Calls of one row do not overlap; different rows may be recorded at the same time.
-  void record(std::size_t row, Time begin, Time end, const Effort& effort = {});
+  void record(std::size_t row, Time begin, Time end, double bytes = 0, const Effort& effort = {});
 
   /// Rows of the same name added up, in the order in which the names came.
   std::vector<Row> rows() const;
 
-  /// Name, calls, seconds, us per call and share of `wall_seconds` per row, largest first, then the sum.
+  /// Name, calls, seconds, us per call, GB of declared columns per second and share of `wall_seconds` per row, largest
+  /// first, then the sum.
   /// Shares may add up to more than 100 % where systems ran side by side.
   std::string table(double wall_seconds) const;
 
@@ -71,9 +73,11 @@ class Lap {
  public:
   Lap(Profiler& profiler, std::size_t row, Profiler::Time& begin)
       : profiler_(&profiler), row_(row), begin_(&begin), effort_(effort_so_far()) {}
+  /// What the call has had to do with.
+  void note_bytes(double bytes) { bytes_ = bytes; }
   ~Lap() {
     const Profiler::Time end = std::chrono::steady_clock::now();
-    profiler_->record(row_, *begin_, end, effort_so_far() - effort_);
+    profiler_->record(row_, *begin_, end, bytes_, effort_so_far() - effort_);
     *begin_ = end;
   }
   Lap(const Lap&) = delete;
@@ -83,6 +87,7 @@ class Lap {
   Profiler* profiler_;
   std::size_t row_;
   Profiler::Time* begin_;
+  double bytes_ = 0;
   Effort effort_;
 };
 

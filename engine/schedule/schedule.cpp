@@ -163,6 +163,40 @@ std::vector<std::string> unset_constants(std::span<const System> systems, const 
   return lines;
 }
 
+/// What of a world a system declares, for its profile.
+class DeclaredData {
+ public:
+  DeclaredData(const System& system, const World& world) : world_(&world) {
+    for (const Access& access : system.access) {
+      if (is_of_table(access.mode)) {
+        tables_.push_back(access.table);
+        continue;
+      }
+      const auto found = world.components().find(access.component);
+      if (found == world.components().end() || found->second->table().empty()) continue;
+      columns_.push_back({found->second, access.mode == Mode::update ? 2.0 : 1.0});
+    }
+  }
+  /// Of columns that are read or written, twice where they are both, as if each passed through memory once.
+  double bytes() const {
+    double sum = 0;
+    for (const auto& [column, times] : columns_)
+      sum += times * static_cast<double>(column->rows() * column->value_bytes());
+    for (const std::string_view table : tables_)
+      sum += 2 * static_cast<double>(world_->rows(table) * world_->packed_bytes(table));
+    return sum;
+  }
+
+ private:
+  struct Column {
+    const Storage* storage;
+    double times;
+  };
+  const World* world_;
+  std::vector<Column> columns_;
+  std::vector<std::string_view> tables_;
+};
+
 }  // namespace
 
 struct Schedule::Impl {
@@ -203,6 +237,7 @@ struct Schedule::Impl {
   World* world_;
   Profiler* profiler_;
   std::vector<std::size_t> rows_;     // of the profiler, by place; those of a loop's body come after its own
+  std::vector<DeclaredData> data_;    // by row, from the first of these on
   std::unique_ptr<Graph> graph_;      // null but for Execution::graph
   Communicator* ranks_ = nullptr;     // null but for Execution::ranks
   std::atomic<std::size_t> end_ = 0;  // systems from this place on do not begin: a failed one's, or the list's end
@@ -221,7 +256,11 @@ Schedule::Impl::Impl(std::vector<System> list, World& world_of_run, Profiler* pr
   if (profiler_) {
     for (const System& system : systems) {
       rows_.push_back(profiler_->add_row(system.name));
-      for (const System& inner : system.body) profiler_->add_row(system.name + " / " + inner.name);
+      data_.emplace_back(system, *world_);
+      for (const System& inner : system.body) {
+        profiler_->add_row(system.name + " / " + inner.name);
+        data_.emplace_back(inner, *world_);
+      }
     }
   }
   if (execution == Execution::graph) build_graph();
@@ -293,8 +332,9 @@ void Schedule::Impl::run_system(std::size_t place, Time& begin) {
 
 void Schedule::Impl::run_timed(const System& system, std::size_t row, Time& begin) {
   if (!profiler_) return system.run(*world_);
-  const Lap lap(*profiler_, row, begin);
+  Lap lap(*profiler_, row, begin);
   system.run(*world_);
+  lap.note_bytes(data_[row - rows_.front()].bytes());
 }
 
 /// Only the rows of the body take its time, so that shares add up.

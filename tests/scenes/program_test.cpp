@@ -110,7 +110,7 @@ TEST_CASE("a summary has the keys of the interface", "[scene]") {
                  "active_nodes_max", "unknowns_max", "peak_memory_bytes", "systems", "conservation", "errors"})
             .empty());
   CHECK(missing(summary["conservation"], {"mass", "momentum", "angular_momentum", "energy", "overlap_max"}).empty());
-  CHECK(missing(summary["systems"][0], {"name", "calls", "seconds", "share"}).empty());
+  CHECK(missing(summary["systems"][0], {"name", "calls", "seconds", "declared_bytes", "share"}).empty());
   CHECK(summary["status"] == "done");
   CHECK(summary["steps"] == 3);
   CHECK(summary["particles"] == 200);

@@ -87,13 +87,13 @@ TEST_CASE("a lap records one call and ends where the next begins", "[unit]") {
 TEST_CASE("the table shows the largest row first and the sum last", "[unit]") {
   Profiler profiler;
   profiler.record(profiler.add_row("assemble"), noon, noon + 1ms);
-  profiler.record(profiler.add_row("solve"), noon, noon + 3ms);
+  profiler.record(profiler.add_row("solve"), noon, noon + 3ms, 6e6);
   profiler.add_row("never");
-  CHECK(profiler.table(8e-3) == "system        calls      seconds      us/call     share\n"
-                                "solve             1       0.0030       3000.0    37.5 %\n"
-                                "assemble          1       0.0010       1000.0    12.5 %\n"
-                                "never             0       0.0000            -     0.0 %\n"
-                                "sum                       0.0040                 50.0 %\n");
+  CHECK(profiler.table(8e-3) == "system        calls      seconds      us/call    GB/s     share\n"
+                                "solve             1       0.0030       3000.0    2.00    37.5 %\n"
+                                "assemble          1       0.0010       1000.0       -    12.5 %\n"
+                                "never             0       0.0000            -       -     0.0 %\n"
+                                "sum                       0.0040                         50.0 %\n");
 }
 
 TEST_CASE("without a wall time the table has no shares", "[unit]") {

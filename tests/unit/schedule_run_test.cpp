@@ -1,3 +1,4 @@
+#include "components/types.hpp"
 #include "engine/schedule/schedule.hpp"
 
 #include <catch2/catch.hpp>
@@ -54,6 +55,25 @@ struct ResizeBoth {
 };
 struct ResizeOther {
   void operator()(Resize<OtherLongName> rows) const { rows.resize(rows.rows() + 1); }
+};
+
+struct TestPoints {
+  static constexpr std::string_view name = "points";
+};
+struct PointPlace : Column<TestPoints, Vec<2>> {
+  static constexpr ComponentInfo info{"point.place", "x", "m", Lifetime::state};
+};
+struct PointWeight : Column<TestPoints, double> {
+  static constexpr ComponentInfo info{"point.weight", "w", "kg", Lifetime::state};
+};
+struct PointForce : Column<TestPoints, double> {
+  static constexpr ComponentInfo info{"point.force", "f", "N", Lifetime::scratch};
+};
+struct WeighPoints {
+  void operator()(Read<Left>, Read<PointPlace>, Update<PointWeight>, Write<PointForce>) const {}
+};
+struct SortPoints {
+  void operator()(Resize<TestPoints>) const {}
 };
 
 const auto fails = [] { throw std::runtime_error("no"); };
@@ -256,4 +276,19 @@ TEST_CASE("a profiler has a row per system in the order of the list", "[unit]") 
   CHECK(rows[0].calls == 2);
   CHECK(rows[1].name == "add");
   CHECK(rows[1].calls == 2);
+}
+
+TEST_CASE("the profile knows how many bytes the columns have that systems declare", "[unit]") {
+  World world;
+  world.resize<TestPoints>(7);
+  Profiler profiler;
+  Schedule schedule({make_system<WeighPoints>("weigh"), make_system<SortPoints>("sort")}, world, &profiler,
+                    Execution::list);
+  world.resize<TestPoints>(10);
+  schedule.run();
+  schedule.run();
+  REQUIRE(profiler.rows().size() == 2);
+  // Read 16, read and written 8 each, written 8; resources count nothing. All that outlives a step, read and written.
+  CHECK(profiler.rows()[0].bytes == 2 * 10 * (16 + 8 + 8 + 8));
+  CHECK(profiler.rows()[1].bytes == 2 * 10 * 2 * (16 + 8));
 }

@@ -53,6 +53,7 @@ Json system_rows(const Profiler& profiler, double wall_seconds) {
     rows.push_back({{"name", row.name},
                     {"calls", row.calls},
                     {"seconds", row.seconds},
+                    {"declared_bytes", row.bytes},
                     {"share", wall_seconds > 0 ? row.seconds / wall_seconds : 0}});
     if (Communicator* ranks = all_ranks()) rows.back().update(of_all(*ranks, row.effort));
   }
