@@ -54,8 +54,9 @@ def run_once(program: Path, run: Run, folder: Path) -> Measured:
                                         summary["steps"])
     measured["iterations_mean"] = mean(iterations)
     measured["iterations_max"] = max(iterations)
-    measured["systems"] = {row["name"]: row["seconds"] for row in summary["systems"]
-                           if row["name"] not in OUTPUT_SYSTEMS}
+    of_steps = [row for row in summary["systems"] if row["name"] not in OUTPUT_SYSTEMS]
+    measured["systems"] = {row["name"]: row["seconds"] for row in of_steps}
+    measured["declared_bytes"] = {row["name"]: row["declared_bytes"] for row in of_steps}
     return measured
 
 

@@ -33,6 +33,12 @@ DISTANCE_TEXT = """\
 Distance from interFoam on 160 x 160 cells (`tools/compare_interfoam.py`: the area that is water in only one of the two,
 over the area of the water), at output times within 2 ms of the reference's:
 """
+SYSTEMS_TEXT = """
+Where a step of {run} goes: time of a system per particle and step, while others may run on other threads; bytes of the
+columns that it declares, twice of those that it updates; and these over its time. What memory can do is *triad* among
+the kernels below: a system near it wants fewer bytes, one far from it less arithmetic.
+
+"""
 # Of these the systems that a run has.
 ASSEMBLY = ("find_full_nodes", "find_filled_nodes", "moments", "moments_mixed", "divergence_matrix", "laplacian_matrix",
             "viscosity_matrix", "right_hand_side", "add_inertia_correction")
@@ -144,12 +150,24 @@ def below_assembly(rows: list[Row]) -> str:
             + table(["system", "2 x 2", "6 x 6", "ratio"], lines))
 
 
+def systems_of(row: Row) -> str:
+    """What every system of a step takes, and how fast the columns come that it declares; empty for older results."""
+    if "declared_bytes" not in row:
+        return ""
+    calls = row["particles"] * row["steps"]
+    lines = [[name, digits(1e9 * seconds / calls), digits(row["declared_bytes"][name] / calls),
+              digits(1e-9 * row["declared_bytes"][name] / seconds)]
+             for name, seconds in sorted(row["systems"].items(), key=lambda one: -one[1]) if seconds > 0.005 * row["wall_s"]]
+    return SYSTEMS_TEXT.format(run=row["label"]) + table(["system", "ns", "bytes", "GB/s"], lines)
+
+
 def below_space(rows: list[Row]) -> str:
     lines = [[row["label"], str(row["particles"]), digits(row["step_s"]), digits(1e6 * row["step_s"] / row["particles"])]
              for row in rows]
     grids = dict.fromkeys(row["label"].split(",")[0] for row in rows)
     return (table(["run", "particles", "seconds per step", "us per particle and step"], lines)
-            + "".join(thread_lines(rows, grid, grid) for grid in grids))
+            + "".join(thread_lines(rows, grid, grid) for grid in grids)
+            + systems_of(max((row for row in rows if row["label"].endswith("conforming")), key=lambda row: row["particles"])))
 
 
 BELOW = {"both": below_both, "size": below_size, "space": below_space, "solvers": below_solvers,
