@@ -11,7 +11,7 @@
 namespace minamo {
 
 /// How far from a face the liquid may lie from which what a body cuts at it is continued (E135), or its mass levelled
-/// (E98): a few passes of two sites each, in most scenes all of them.
+/// (E123): a few passes of two sites each, in most scenes all of them.
 inline constexpr int sites_of_continuation = 18;
 
 /// Blocks from whose cells a site near a body is within what ranks know everywhere.
