@@ -163,13 +163,16 @@ std::vector<std::string> unset_constants(std::span<const System> systems, const 
   return lines;
 }
 
-/// What of a world a system declares, for its profile.
-class DeclaredData {
+/// The columns of a world that a system declares, for its profile.
+class DeclaredColumns {
  public:
-  DeclaredData(const System& system, const World& world) : world_(&world) {
+  DeclaredColumns(const System& system, const World& world) {
     for (const Access& access : system.access) {
       if (is_of_table(access.mode)) {
-        tables_.push_back(access.table);
+        for (const auto& [name, storage] : world.components()) {
+          if (storage->table() == access.table && storage->info().lifetime != Lifetime::scratch)
+            columns_.push_back({storage, 2});
+        }
         continue;
       }
       const auto found = world.components().find(access.component);
@@ -182,8 +185,6 @@ class DeclaredData {
     double sum = 0;
     for (const auto& [column, times] : columns_)
       sum += times * static_cast<double>(column->rows() * column->value_bytes());
-    for (const std::string_view table : tables_)
-      sum += 2 * static_cast<double>(world_->rows(table) * world_->packed_bytes(table));
     return sum;
   }
 
@@ -192,9 +193,7 @@ class DeclaredData {
     const Storage* storage;
     double times;
   };
-  const World* world_;
   std::vector<Column> columns_;
-  std::vector<std::string_view> tables_;
 };
 
 }  // namespace
@@ -236,11 +235,11 @@ struct Schedule::Impl {
  private:
   World* world_;
   Profiler* profiler_;
-  std::vector<std::size_t> rows_;     // of the profiler, by place; those of a loop's body come after its own
-  std::vector<DeclaredData> data_;    // by row, from the first of these on
-  std::unique_ptr<Graph> graph_;      // null but for Execution::graph
-  Communicator* ranks_ = nullptr;     // null but for Execution::ranks
-  std::atomic<std::size_t> end_ = 0;  // systems from this place on do not begin: a failed one's, or the list's end
+  std::vector<std::size_t> rows_;      // of the profiler, by place; those of a loop's body come after its own
+  std::vector<DeclaredColumns> data_;  // by row, from the first of these on
+  std::unique_ptr<Graph> graph_;       // null but for Execution::graph
+  Communicator* ranks_ = nullptr;      // null but for Execution::ranks
+  std::atomic<std::size_t> end_ = 0;   // systems from this place on do not begin: a failed one's, or the list's end
   std::mutex failure_mutex_;
   std::exception_ptr failure_;
 };

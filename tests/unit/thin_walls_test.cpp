@@ -41,6 +41,15 @@ Vec<Dim> at(double x, double y) {
   return place;
 }
 
+/// Of a wall 0.02 m thick, up to a height.
+void wet_both_sides(ThinWalls<2>& walls, const Shape<2>& shape, double height) {
+  for (double y = -0.9; y < height; y += 0.01) {
+    walls.light(shape, {-0.015, y});
+    walls.light(shape, {0.015, y});
+  }
+  walls.find_dry();
+}
+
 template <int Dim>
 void check_dry_side() {
   const double thickness = GENERATE(0.005, 0.02, 0.15);
@@ -105,11 +114,7 @@ TEST_CASE("a thin wall with liquid on both sides has no dry one, and tells where
   const auto shape = wall<2>(0.02);
   auto walls = ThinWalls<2>::find(shape, region<2>(), h, degree);
   REQUIRE(walls);
-  for (double y = -0.9; y < -0.2; y += 0.01) {
-    walls->light(shape, {-0.015, y});
-    walls->light(shape, {0.015, y});
-  }
-  walls->find_dry();
+  wet_both_sides(*walls, shape, -0.2);
   for (const double x : {-0.1, -0.015, 0.015, 0.1}) {
     const Vec<2> place(x, -0.5);
     CHECK(walls->shaded(shape, place, shape.distance(place)) == shape.distance(place));
@@ -126,11 +131,7 @@ TEST_CASE("a thin wall that is wet on both sides hides one from the other, not w
   auto walls = ThinWalls<2>::find(shape, region<2>(), h, degree);
   REQUIRE(walls);
   CHECK_FALSE(walls->may_hide_at({-0.05, -0.5}));
-  for (double y = -0.9; y < -0.2; y += 0.01) {
-    walls->light(shape, {-0.015, y});
-    walls->light(shape, {0.015, y});
-  }
-  walls->find_dry();
+  wet_both_sides(*walls, shape, -0.2);
   CHECK(walls->may_hide_at({-0.05, -0.5}));
   const auto hides = [&](const Vec<2>& from, const Vec<2>& x) {
     const auto view = walls->view_from(shape, from);
@@ -210,11 +211,7 @@ TEST_CASE("a former view is taken only where it is the same as a new one", "[uni
   const auto shape = wall<2>(0.02);
   auto walls = ThinWalls<2>::find(shape, region<2>(), h, degree);
   REQUIRE(walls);
-  for (double y = -0.9; y < -0.05; y += 0.01) {
-    walls->light(shape, {-0.015, y});
-    walls->light(shape, {0.015, y});
-  }
-  walls->find_dry();
+  wet_both_sides(*walls, shape, -0.05);
   const auto everywhere = [](const Vec<2>&) { return true; };
   const auto below_end = [](const Vec<2>& x) { return x[1] < -0.05; };
   walls->find_places(everywhere);
