@@ -27,6 +27,16 @@ std::set<int> numbers_in(const std::string& text, const std::regex& pattern) {
 
 const std::regex mention(R"(\(E(\d+)\))");
 
+/// Those of the lines that `list systems` prints.
+std::set<int> numbers_of_systems_in(const std::string& text) {
+  static const std::regex line(R"re(doc =\s*((?:"[^"]*"\s*)+);)re");
+  std::set<int> numbers;
+  for (std::sregex_iterator at(text.begin(), text.end(), line), end; at != end; ++at) {
+    numbers.merge(numbers_in((*at)[1], mention));
+  }
+  return numbers;
+}
+
 std::set<int> numbers_in_code() {
   std::set<int> numbers;
   for (const char* folder : {"systems", "components"}) {
@@ -82,6 +92,21 @@ TEST_CASE("the files that an entry names have its number", "[unit]") {
     CAPTURE(number);
     CHECK(files > 0);
   }
+}
+
+TEST_CASE("an entry names the files of all systems that say they compute it", "[unit]") {
+  const auto all = entries();
+  std::size_t mentions = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(sources / "systems")) {
+    if (entry.path().extension() != ".hpp") continue;
+    const std::string file = fs::relative(entry.path(), sources).generic_string();
+    for (const int number : numbers_of_systems_in(text_of(entry.path()))) {
+      CAPTURE(number, file);
+      CHECK(all.at(number).find("`" + file + "`") != std::string::npos);
+      ++mentions;
+    }
+  }
+  CHECK(mentions > 150);
 }
 
 TEST_CASE("an equation mentioned in the document has an entry", "[unit]") {
