@@ -32,7 +32,7 @@ struct NearLiquid : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.near_liquid", "", "1", Lifetime::scratch};
 };
 
-/// The largest share w_f of exact integrals at the faces around: where there is none, nobody asks for the surface. [1]
+/// 1 where a face around has a share w_f of exact integrals, else 0: there nobody asks for the surface. [1]
 struct NearExact : Column<Staggered, double> {
   static constexpr ComponentInfo info{"multiplier.near_exact", "", "1", Lifetime::scratch};
 };

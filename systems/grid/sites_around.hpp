@@ -6,6 +6,10 @@
 #include "systems/grid/node_support.hpp"
 #include "systems/grid/splines.hpp"
 
+#include <optional>
+#include <type_traits>
+#include <utility>
+
 namespace minamo {
 
 /// The site next to one towards a side, 2 d below and 2 d + 1 above along axis d, if there is one.
@@ -25,9 +29,8 @@ void for_each_site_in_window(const Splines<Dim>& splines, const Index<Dim>& site
   Index<Dim> count{};
   for (std::size_t d = 0; d < Dim; ++d) {
     for (int k = 0; k < extent[d]; ++k) {
-      Index<Dim> steps{};
-      steps[d] = begin[d] + k;
-      if (const auto other = splines.site_at(site, steps)) along[d][static_cast<std::size_t>(count[d]++)] = (*other)[d];
+      const auto other = splines.axis[d].site_at(site[d], begin[d] + k);
+      if (other) along[d][static_cast<std::size_t>(count[d]++)] = *other;
     }
     if (count[d] == 0) return;
   }
@@ -40,55 +43,71 @@ void for_each_site_in_window(const Splines<Dim>& splines, const Index<Dim>& site
   }
 }
 
+/// The sites up to `Reach` steps away from one along every axis, itself among them.
+template <int Dim, int Reach>
+class SitesAround {
+ public:
+  static constexpr int side = 2 * Reach + 1;
+
+  SitesAround(const Splines<Dim>& splines, const Index<Dim>& site) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      for (int k = 0; k < side; ++k)
+        along_[d][static_cast<std::size_t>(k)] = splines.axis[d].site_at(site[d], k - Reach);
+    }
+  }
+  /// Calls use(other, steps), x fastest, until it returns false.
+  template <class Use>
+  void for_each(const Use& use) const {
+    Index<Dim> other;
+    Index<Dim> steps;
+    for_each_along<Dim - 1>(other, steps, use);
+  }
+
+ private:
+  template <std::size_t D, class Use>
+  bool for_each_along(Index<Dim>& other, Index<Dim>& steps, const Use& use) const {
+    for (int k = 0; k < side; ++k) {
+      const std::optional<int>& at = along_[D][static_cast<std::size_t>(k)];
+      if (!at) continue;
+      other[D] = *at;
+      steps[D] = k - Reach;
+      bool goes_on = true;
+      if constexpr (D > 0) {
+        goes_on = for_each_along<D - 1>(other, steps, use);
+      } else {
+        goes_on = use(std::as_const(other), std::as_const(steps));
+      }
+      if (!goes_on) return false;
+    }
+    return true;
+  }
+
+  std::array<std::array<std::optional<int>, static_cast<std::size_t>(side)>, static_cast<std::size_t>(Dim)> along_;
+};
+
 /// use(other, steps) for the sites up to `Reach` steps away along every axis, x fastest, itself among them.
 template <int Dim, int Reach, class Use>
 void for_each_site_around(const Splines<Dim>& splines, const Index<Dim>& site, const Use& use) {
-  constexpr std::size_t side = 2 * Reach + 1;
-  for (std::size_t k = 0; k < power(side, Dim); ++k) {
-    Index<Dim> steps;
-    std::size_t rest = k;
-    for (std::size_t d = 0; d < Dim; ++d, rest /= side) steps[d] = static_cast<int>(rest % side) - Reach;
-    if (const auto other = splines.site_at(site, steps)) use(*other, steps);
-  }
+  SitesAround<Dim, Reach>(splines, site).for_each([&](const Index<Dim>& other, const Index<Dim>& steps) {
+    use(other, steps);
+    return true;
+  });
 }
 
-/// use(row, other, steps) for those of them that have rows.
+/// use(row, other, steps) for those of them that have rows, until it returns false, if it returns anything.
 template <int Dim, int Reach, class Use>
 void for_each_row_around(const Splines<Dim>& splines, const SiteRows<Dim>& rows, const Index<Dim>& site,
                          const Use& use) {
-  constexpr std::size_t side = 2 * Reach + 1;
-  struct Along {
-    int site;
-    typename SiteRows<Dim>::Address part;
-    bool is_there;
-  };
-  std::array<std::array<Along, side>, static_cast<std::size_t>(Dim)> along;
-  for (std::size_t d = 0; d < Dim; ++d) {
-    for (std::size_t k = 0; k < side; ++k) {
-      Index<Dim> steps{};
-      steps[d] = static_cast<int>(k) - Reach;
-      const auto other = splines.site_at(site, steps);
-      const int at = other ? (*other)[d] : 0;
-      along[d][k] = {at, rows.part(static_cast<int>(d), at), other.has_value()};
-    }
-  }
   typename SiteRows<Dim>::Finder find(rows);
-  for (std::size_t k = 0; k < power(side, Dim); ++k) {
-    Index<Dim> other;
-    Index<Dim> steps;
-    typename SiteRows<Dim>::Address address;
-    bool is_there = true;
-    std::size_t rest = k;
-    for (std::size_t d = 0; d < Dim; ++d, rest /= side) {
-      const Along& of = along[d][rest % side];
-      other[d] = of.site;
-      steps[d] = static_cast<int>(rest % side) - Reach;
-      address = address + of.part;
-      is_there = is_there && of.is_there;
+  SitesAround<Dim, Reach>(splines, site).for_each([&](const Index<Dim>& other, const Index<Dim>& steps) {
+    const auto row = find(other);
+    if constexpr (std::is_same_v<decltype(use(*row, other, steps)), bool>) {
+      return !row || use(*row, other, steps);
+    } else {
+      if (row) use(*row, other, steps);
+      return true;
     }
-    if (!is_there) continue;
-    if (const auto row = find(address)) use(*row, other, steps);
-  }
+  });
 }
 
 }  // namespace minamo

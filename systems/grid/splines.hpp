@@ -68,6 +68,13 @@ class SplineAxis {
   int sites() const { return periodic_ ? cells_ : cells_ + degree_; }
   /// Splines of degree K - 1: multipliers.
   int multipliers() const { return periodic_ ? cells_ : cells_ + degree_ - 1; }
+  /// The site some steps away from one, if there is one. \pre fewer steps than there are sites
+  std::optional<int> site_at(int site, int steps) const {
+    const int count = sites();
+    int at = site + steps;
+    if (periodic_) at += at < 0 ? count : at >= count ? -count : 0;
+    return at < 0 || at >= count ? std::nullopt : std::optional(at);
+  }
   int wrapped(int site) const { return periodic_ && site >= cells_ ? site - cells_ : site; }
 
   const CellSplines& of_cell(int cell) const { return kinds_[kind_of(cell)]; }
@@ -140,10 +147,9 @@ struct Splines {
   /// The site some steps away from one, if there is one. \pre fewer steps than an axis has sites
   std::optional<Index<Dim>> site_at(Index<Dim> site, const Index<Dim>& steps) const {
     for (std::size_t d = 0; d < Dim; ++d) {
-      const int count = axis[d].sites();
-      site[d] += steps[d];
-      if (axis[d].periodic()) site[d] = (site[d] + count) % count;
-      if (site[d] < 0 || site[d] >= count) return {};
+      const auto at = axis[d].site_at(site[d], steps[d]);
+      if (!at) return {};
+      site[d] = *at;
     }
     return site;
   }

@@ -120,23 +120,17 @@ void FindPressureAcceleration<Dim>::operator()(
   using Sums = typename face::PressureSums<Dim>::value_type;
   const std::vector<Sums> of_face(sums.begin(), sums.end());
   // Axis by axis over the faces next to a face, ...
+  std::vector<Sums> before(sums.size());
   for (std::size_t e = 0; e < Dim; ++e) {
-    const auto with_neighbours = [&](std::size_t i, std::size_t k) {
-      double sum = sums[i][k];
+    std::copy(sums.begin(), sums.end(), before.begin());
+    for_each_row(sums.size(), [&](std::size_t i) {
+      constexpr Sums none{};
       const std::int32_t below = mac.neighbour[i][2 * e];
       const std::int32_t above = mac.neighbour[i][2 * e + 1];
-      const double low = below == staggered::none ? 0 : sums[static_cast<std::size_t>(below)][k];
-      const double high = above == staggered::none ? 0 : sums[static_cast<std::size_t>(above)][k];
-      return sum + (low + high);
-    };
-    for (std::size_t half = 0; half < 2; ++half) {
-      for_each_row(q_f.size(), [&](std::size_t i) {
-        for (std::size_t d = 0; d < Dim; ++d) q_f[i][static_cast<Eigen::Index>(d)] = with_neighbours(i, half * Dim + d);
-      });
-      for_each_row(q_f.size(), [&](std::size_t i) {
-        for (std::size_t d = 0; d < Dim; ++d) sums[i][half * Dim + d] = q_f[i][static_cast<Eigen::Index>(d)];
-      });
-    }
+      const Sums& low = below == staggered::none ? none : before[static_cast<std::size_t>(below)];
+      const Sums& high = above == staggered::none ? none : before[static_cast<std::size_t>(above)];
+      for (std::size_t k = 0; k < 2 * Dim; ++k) sums[i][k] += low[k] + high[k];
+    });
   }
   // ... and one by one where the liquid ends.
   for_each_row(sums.size(), [&](std::size_t i) {
@@ -170,8 +164,7 @@ void FindExactShare<Dim>::operator()(Uses<MacGrid<Dim>> mac, Read<Fluid> fluid, 
     near[i] = capacity[i] == 0 || (open && open[i] < least_open_share) ? 0 : v_l[i] / capacity[i];
   });
   const RowsOfSites<Dim> of{*mac.splines, *rows, mac.site.span(), mac.neighbour.span(), hiding(dry)};
-  spread_largest<Dim, liquid_reach>(of, near.span(), buffer.span(),
-                                    [&](std::size_t i) { return v_l[i] > 0 && near[i] < near_to; });
+  spread_largest<Dim, liquid_reach>(of, near.span(), buffer.span(), near_to, [&](std::size_t i) { return v_l[i] > 0; });
   if (shared) shared->copy_from_owner(near.span());
   if (open) {
     spread_along_walls<Dim>(of, open.span(), v_l.span(), near.span(), buffer.span());

@@ -142,18 +142,18 @@ void FindLiquidSurface<Dim>::operator()(Read<Splines<Dim>> splines, Read<Stagger
                                         Write<multiplier::ContinuedFill> continued) const {
   const Whole is_whole{open.span()};
   for_each_row(phi.size(), [&](std::size_t i) {
-    near[i] = share[i].maxCoeff();
+    bool any = share[i].maxCoeff() > 0;
     for (std::size_t d = 0; d < Dim; ++d) {
       const std::int32_t above = neighbour[i][2 * d + 1];
-      if (above != staggered::none)
-        near[i] = std::max(near[i], share[static_cast<std::size_t>(above)][static_cast<Eigen::Index>(d)]);
+      any =
+          any || (above != staggered::none && share[static_cast<std::size_t>(above)][static_cast<Eigen::Index>(d)] > 0);
     }
+    near[i] = any ? 1 : 0;
   });
   const auto spread = [&](auto reach) {
     spread_largest<Dim, reach()>(
-        {*splines, *rows, site.span(), neighbour.span(), hiding(dry)}, near.span(), psi.span(), [&](std::size_t i) {
-          return near[i] == 0 && liquid::may_be_at_surface(*splines, site[i], neighbour[i], phi.span(), i);
-        });
+        {*splines, *rows, site.span(), neighbour.span(), hiding(dry)}, near.span(), psi.span(), 1,
+        [&](std::size_t i) { return liquid::may_be_at_surface(*splines, site[i], neighbour[i], phi.span(), i); });
     if (shared) shared->copy_from_owner(near.span());
   };
   // The integrals of a face reach K - 1 multipliers beyond the two next to it, planes are fitted to those around, and

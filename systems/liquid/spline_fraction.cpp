@@ -15,11 +15,12 @@ constexpr double along_plane = 1e-9;
 constexpr double tolerance = 1e-9;
 constexpr int most_iterations = 60;
 
-double power_of(double base, int exponent) {
-  double product = 1;
-  for (int k = 0; k < exponent; ++k) product *= base;
-  return product;
-}
+/// 1/k, up to the largest power, of the mean depth in 3-D.
+constexpr auto inverse_of = [] {
+  std::array<double, static_cast<std::size_t>(3 * largest_degree + 2)> inverse{};
+  for (std::size_t k = 1; k < inverse.size(); ++k) inverse[k] = 1.0 / static_cast<double>(k);
+  return inverse;
+}();
 
 }  // namespace
 
@@ -34,66 +35,91 @@ SplineFraction<Dim>::SplineFraction(const Splines<Dim>& splines, const Index<Dim
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto part = [&](std::size_t d) { return std::abs(n[static_cast<Eigen::Index>(d)]); };
   std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) { return part(one) > part(other); });
+  std::size_t a = 0;
   for (const std::size_t d : order) {
     const TruncatedPowers& along = splines.axis[d].powers_of_multiplier(site[d]);
     const double m = -n[static_cast<Eigen::Index>(d)];
     if (std::abs(m) < along_plane) {
       shift_ -= m * along.moments[1];
-      continue;
+    } else {
+      axes_[a++] = axis_of(along, m);
     }
-    Axis& axis = axes_[count_++];
-    axis.count = along.count;
-    axis.low = std::numeric_limits<double>::infinity();
-    axis.high = -axis.low;
-    for (std::size_t t = 0; t < along.count; ++t) {
-      const TruncatedPowers::Term& term = along.terms[t];
-      const double sign = m > 0 || term.power % 2 != 0 ? 1 : -1;
-      axis.terms[t] = {m * term.at, sign * term.jump / power_of(std::abs(m), term.power + 1), term.power + 1};
-      axis.low = std::min(axis.low, m * term.at);
-      axis.high = std::max(axis.high, m * term.at);
-    }
-    for (std::size_t k = 0; k < along.moments.size(); ++k)
-      axis.moments[k] = along.moments[k] * power_of(-m, static_cast<int>(k));
   }
-  for (std::size_t a = count_; a-- > 1;) {
-    Axis& axis = axes_[a - 1];
-    const Axis& others = axes_[a];
-    axis.low += others.low;
-    axis.high += others.high;
-    for (std::size_t k = axis.moments.size(); k-- > 0;) {
-      double sum = 0;
-      for (std::size_t j = 0; j <= k; ++j) sum += axis.moments[j] * others.moments[k - j];
-      axis.moments[k] = sum;
-    }
+  for (a = axes_.size() - 1; a-- > 0;) join(axes_[a], axes_[a + 1], largest_power(a));
+}
+
+template <int Dim>
+typename SplineFraction<Dim>::Axis SplineFraction<Dim>::axis_of(const TruncatedPowers& spline, double m) {
+  Axis axis;
+  axis.count = spline.count;
+  axis.low = std::numeric_limits<double>::infinity();
+  axis.high = -axis.low;
+  const double inverse = 1 / std::abs(m);
+  for (std::size_t t = 0; t < spline.count; ++t) {
+    const TruncatedPowers::Term& term = spline.terms[t];
+    double jump = m > 0 || term.power % 2 != 0 ? term.jump : -term.jump;
+    for (int k = 0; k <= term.power; ++k) jump *= inverse;
+    axis.terms[t] = {m * term.at, jump, term.power + 1};
+    axis.low = std::min(axis.low, m * term.at);
+    axis.high = std::max(axis.high, m * term.at);
+  }
+  double power = 1;
+  for (std::size_t k = 0; k < spline.moments.size(); ++k, power *= -m) axis.moments[k] = power * spline.moments[k];
+  return axis;
+}
+
+template <int Dim>
+void SplineFraction<Dim>::join(Axis& axis, const Axis& others, std::size_t largest_power) {
+  axis.low += others.low;
+  axis.high += others.high;
+  for (std::size_t k = largest_power + 1; k-- > 0;) {
+    double sum = 0;
+    for (std::size_t j = 0; j <= k; ++j) sum += axis.moments[j] * others.moments[k - j];
+    axis.moments[k] = sum;
   }
 }
 
 template <int Dim>
-typename SplineFraction<Dim>::Value SplineFraction<Dim>::mean_power(std::size_t a, double z, int p) const {
-  const bool is_last = a == count_;
-  if (z <= (is_last ? 0 : axes_[a].low)) return {0, 0};
-  if (is_last || z >= axes_[a].high) {
-    Value sum{0, 0};
+template <std::size_t A>
+typename SplineFraction<Dim>::Value SplineFraction<Dim>::mean_power(double z, int p) const {
+  const Axis& axis = axes_[A];
+  if (z <= axis.low) return {0, 0};
+  Value sum{0, 0};
+  if (z >= axis.high) {
     double power = 1;  // z^k/k!
-    for (int k = 0; k <= p; ++k) {
-      const auto moment = [&](int order) {
-        return is_last ? (order == 0 ? 1.0 : 0.0) : axes_[a].moments[static_cast<std::size_t>(order)];
-      };
-      sum.share += power * moment(p - k);
-      if (k < p) sum.slope += power * moment(p - 1 - k);
-      power *= z / (k + 1);
+    for (int k = 0; k < p; ++k) {
+      sum.share += power * axis.moments[static_cast<std::size_t>(p - k)];
+      sum.slope += power * axis.moments[static_cast<std::size_t>(p - 1 - k)];
+      power *= z * inverse_of[static_cast<std::size_t>(k + 1)];
     }
+    sum.share += power * axis.moments[0];
     return sum;
   }
-  Value sum{0, 0};
-  const Axis& axis = axes_[a];
   for (std::size_t t = 0; t < axis.count; ++t) {
     const TruncatedPowers::Term& term = axis.terms[t];
-    const Value of_others = mean_power(a + 1, z - term.at, p + term.power);
+    const double rest = z - term.at;
+    Value of_others{0, 0};
+    if constexpr (A + 1 < Dim) {
+      of_others = mean_power<A + 1>(rest, p + term.power);
+    } else if (rest > 0) {
+      of_others.slope = 1;
+      for (int k = 1; k < p + term.power; ++k) of_others.slope *= rest * inverse_of[static_cast<std::size_t>(k)];
+      of_others.share = of_others.slope * rest * inverse_of[static_cast<std::size_t>(p + term.power)];
+    }
     sum.share += term.jump * of_others.share;
     sum.slope += term.jump * of_others.slope;
   }
   return sum;
+}
+
+template <int Dim>
+typename SplineFraction<Dim>::Value SplineFraction<Dim>::operator()(double psi) const {
+  return mean_power<0>(psi + shift_, 0);
+}
+
+template <int Dim>
+double SplineFraction<Dim>::mean_depth(double psi) const {
+  return mean_power<0>(psi + shift_, 1).share;
 }
 
 // Newton's method, kept within what is known of the root.

@@ -66,19 +66,21 @@ void spread_over_neighbours(const RowsOfSites<Dim>& of, std::span<double> value,
 
 /// The same over all rows: where rows between are missing those for which may_miss(row) holds look at every site
 /// around that no thin wall parts from theirs. On several ranks it is that of the rows that a rank owns.
+/// \param enough  from which on nobody asks how much more it is
 template <int Dim, int Reach, class MayMiss>
-void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer,
+void spread_largest(const RowsOfSites<Dim>& of, std::span<double> value, std::span<double> buffer, double enough,
                     const MayMiss& may_miss) {
   const std::vector<double> of_row(value.begin(), value.end());
   spread_over_neighbours<Dim, Reach>(of, value, buffer);
   for_each_row(value.size(), [&](std::size_t i) {
     if (of.is_near_thin_wall(i)) {
       value[i] = of_row[i];
-    } else if (!may_miss(i)) {
+    } else if (value[i] >= enough || !may_miss(i)) {
       return;
     }
     for_each_row_around<Dim, Reach>(of.splines, of.rows, of.site[i], [&](std::uint32_t j, const auto&, const auto&) {
       if (!of.parts(i, j)) value[i] = std::max(value[i], of_row[j]);
+      return value[i] < enough;
     });
   });
 }
