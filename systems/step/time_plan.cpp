@@ -85,30 +85,36 @@ double least_viscosity(const Scene& scene) {
 }
 
 /// (E34)  Longest step over sqrt(h/|b|); 0: any.
-double share_of_fall(const Scene& scene, double largest_force) {
+double share_of_fall(const Scene& scene, double largest_speed, double largest_force) {
   constexpr double newmark = 0.125;
   constexpr double midpoint = 1.0 / 3;
   if (scene.schemes.at("integrator") == "newmark") return newmark;
   if (!is_conforming(scene)) return midpoint;
   if (scene.schemes.at("quadrature") != "exact") return 0;
-  constexpr double exact = 1.0 / 6;
+  constexpr double at_rest = 1.0 / 6;
   // Waves of two cells, k = pi/h, that viscosity damps within sqrt(1/(|b| k)): nu k^2 >= sqrt(|b| k).
   const double h = scene.grid.spacing;
   const double overdamped = h * std::sqrt(largest_force * h) / std::pow(std::numbers::pi, 1.5);
-  return least_viscosity(scene) >= overdamped ? 0 : exact;
+  if (least_viscosity(scene) >= overdamped) return 0;
+  if (scene.facts.find<BodiesOfScene>() != nullptr) return at_rest;
+  // Froude number of the fastest from which on the liquid is no longer near rest; twice that, and it moves.
+  constexpr double near_rest = 0.5;
+  const double froude = largest_speed / std::sqrt(largest_force * h);
+  return at_rest * std::clamp(froude / near_rest, 1.0, 2.0);
 }
 
 }  // namespace
 
-std::optional<double> gravity_step(const Scene& scene, double largest_force) {
-  const double share = share_of_fall(scene, largest_force);
-  if (share == 0 || !(largest_force > 0)) return {};
+std::optional<double> gravity_step(const Scene& scene, double largest_speed, double largest_force) {
+  if (!(largest_force > 0)) return {};
+  const double share = share_of_fall(scene, largest_speed, largest_force);
+  if (share == 0) return {};
   return share * std::sqrt(scene.grid.spacing / largest_force);
 }
 
 std::vector<std::string> warnings_of_gravity(const Scene& scene) {
   constexpr double much_longer = 2;  // what grows within some thousand steps
-  const auto longest = gravity_step(scene, size_of_constant_force(scene.facts.get<BodyForce>()));
+  const auto longest = gravity_step(scene, 0, size_of_constant_force(scene.facts.get<BodyForce>()));
   if (!longest || !scene.time.step || *scene.time.step <= much_longer * *longest) return {};
   return {
       fmt::format("a step of {:.3g} s is more than twice as long as the body force allows, {:.3g} s: waves grow in a "
@@ -119,7 +125,7 @@ std::vector<std::string> warnings_of_gravity(const Scene& scene) {
 double step_of_cfl(const Scene& scene, double largest_speed, double largest_force) {
   const double dt = crossing_time(largest_speed, largest_force, scene.time.cfl * scene.grid.spacing);
   return std::min({dt, scene.time.max_step.value_or(dt), scene.output.every, capillary_step(scene).value_or(dt),
-                   gravity_step(scene, largest_force).value_or(dt)});
+                   gravity_step(scene, largest_speed, largest_force).value_or(dt)});
 }
 
 double longest_step(const Scene& scene) {

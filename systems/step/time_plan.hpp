@@ -12,9 +12,9 @@
 namespace minamo {
 
 /// (E34)  How long steps may be in a liquid that a body force presses down: sqrt(h/|b|)/8 with Newmark's method,
-/// sqrt(h/|b|)/3 with equal order, sqrt(h/|b|)/6 with exact integrals unless viscosity damps the shortest waves, else
-/// any. None without a body force. [s]
-std::optional<double> gravity_step(const Scene& scene, double largest_force);
+/// sqrt(h/|b|)/3 with equal order; with exact integrals any where viscosity damps the shortest waves, else as with
+/// equal order, half of it near rest and with bodies. None otherwise, nor without a body force. [s]
+std::optional<double> gravity_step(const Scene& scene, double largest_speed, double largest_force);
 
 /// A sentence where a fixed step is more than twice as long.
 std::vector<std::string> warnings_of_gravity(const Scene& scene);
@@ -24,7 +24,7 @@ std::vector<std::string> warnings_of_gravity(const Scene& scene);
 /// tension (E116). [s]
 double step_of_cfl(const Scene& scene, double largest_speed, double largest_force);
 
-/// The longest step that a run can take: where the CFL number chooses it, one from rest. [s]
+/// The step; where the CFL number chooses it, the first one from rest. [s]
 double longest_step(const Scene& scene);
 
 /// Moving bodies cross `cfl` cells in a step at most, too, (E34).

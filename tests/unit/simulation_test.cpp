@@ -418,6 +418,29 @@ TEST_CASE("the step from a CFL number is at most max_step and the time between f
   CHECK(make_time_plan(unbounded).choose_step(world) == 0.1);
 }
 
+TEST_CASE("what moves may take twice the step of what rests, without bodies", "[unit]") {
+  const bool with_bodies = GENERATE(false, true);
+  Json json = read_json(std::string(MINAMO_SOURCE_DIR) + "/scenes/dam_break.json");
+  json["time"] = {{"end", 5}, {"cfl", 100}};
+  json["output"] = {{"every", 5}};
+  if (with_bodies)
+    json["bodies"] = Json::parse(R"([{"name": "post", "shape": {"ball": {"center": [0.4, 0], "radius": 0.1}}}])");
+  const Scene scene = scene_run::read(json);
+  World world;
+  world.resize<Particles>(1);
+  const double h = scene.grid.spacing;
+  const double fall = std::sqrt(h / 9.81);
+  const auto step_at = [&](double froude) {
+    world.column<particle::Velocity<2>>()[0] = {froude * std::sqrt(9.81 * h), 0};
+    return make_time_plan(scene).choose_step(world);
+  };
+  CHECK(step_at(0) == Approx(fall / 6));
+  CHECK(step_at(0.5) == Approx(fall / 6));
+  CHECK(step_at(0.75) == Approx(with_bodies ? fall / 6 : fall / 4));
+  CHECK(step_at(1) == Approx(with_bodies ? fall / 6 : fall / 3));
+  CHECK(step_at(10) == Approx(with_bodies ? fall / 6 : fall / 3));
+}
+
 TEST_CASE("a step that is rejected after a continuation between two ticks still goes on in time", "[unit]") {
   Run run;
   run(fixed(0.0047, 0.001, 1));
