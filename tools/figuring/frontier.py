@@ -44,7 +44,7 @@ def _discretization(label: str, name: str, **look) -> Line:
 
 
 PANELS = (
-    Panel("Dam break", "dam_break", "water misplaced, compared with interFoam 160 x 160",
+    Panel("Dam break", "dam_break", "water misplaced, next to interFoam 160 x 160",
           {"MLS-MPM": "MLS-MPM, explicit", "apic2d": "apic2d, projection", "interFoam": "interFoam, volume of fluid"}, (
               _per_cell(3, 1, color=COLOURS[0], linewidth=2.6),
               _per_cell(4, 1, color=COLOURS[1]),
@@ -102,4 +102,4 @@ def _dress(axes, panel: Panel) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(color="0.92", linewidth=0.6)
     axes.tick_params(labelsize=8)
-    axes.legend(loc="upper right", frameon=False, fontsize=7.5)
+    axes.legend(loc="best", frameon=False, fontsize=7.5)
