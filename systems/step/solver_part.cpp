@@ -22,7 +22,7 @@ namespace {
 /// Whether friction couples the velocities of a step so much that the block solver may factorize them (E60).
 bool is_stiff(const Scene& scene) {
   const double h = scene.grid.spacing;
-  return scene.facts.get<Fluid>().viscosity * longest_step(scene) > 0.1 * scene.facts.get<Fluid>().density * h * h;
+  return scene.facts.get<Fluid>().viscosity * step_from_rest(scene) > 0.1 * scene.facts.get<Fluid>().density * h * h;
 }
 
 /// The block solver's: whole factors, of the velocities in stiff liquids, of the pressure where few particles have many

@@ -128,7 +128,7 @@ double step_of_cfl(const Scene& scene, double largest_speed, double largest_forc
                    gravity_step(scene, largest_speed, largest_force).value_or(dt)});
 }
 
-double longest_step(const Scene& scene) {
+double step_from_rest(const Scene& scene) {
   if (scene.time.step) return *scene.time.step;
   return step_of_cfl(scene, 0, size_of_constant_force(scene.facts.get<BodyForce>()));
 }

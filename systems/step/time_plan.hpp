@@ -24,8 +24,8 @@ std::vector<std::string> warnings_of_gravity(const Scene& scene);
 /// tension (E116). [s]
 double step_of_cfl(const Scene& scene, double largest_speed, double largest_force);
 
-/// The step; where the CFL number chooses it, the first one from rest. [s]
-double longest_step(const Scene& scene);
+/// The step; where the CFL number chooses it, one from rest: with exact integrals later ones may be twice as long. [s]
+double step_from_rest(const Scene& scene);
 
 /// Moving bodies cross `cfl` cells in a step at most, too, (E34).
 TimePlan make_time_plan(const Scene& scene);

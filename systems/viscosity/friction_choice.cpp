@@ -17,7 +17,7 @@ std::string rounded_down(double number) {
 }  // namespace
 
 std::string least_friction_text(const Scene& scene) {
-  const double step = longest_step(scene);
+  const double step = step_from_rest(scene);
   const double largest = largest_friction_at_start * friction_area(scene) / step;
   const Fluid& fluid = scene.facts.get<Fluid>();
   const double density = fluid.viscosity / largest_diffusivity(scene);

@@ -41,7 +41,7 @@ inline Friction friction_of(const Scene& scene) {
   if (!is_conforming(scene)) return Friction::none;
   if (scene.facts.find<Rheology>() != nullptr) return Friction::in_balances;
   if (scene.facts.get<Fluid>().viscosity == 0) return Friction::none;
-  const double number = largest_diffusivity(scene) * longest_step(scene) / friction_area(scene);
+  const double number = largest_diffusivity(scene) * step_from_rest(scene) / friction_area(scene);
   constexpr double rounding = 1e-9;  // says nothing of one that is as large
   return number <= (1 + rounding) * largest_friction_at_start ? Friction::at_start : Friction::in_balances;
 }

@@ -453,7 +453,7 @@ TEST_CASE("steps are short enough for waves of surface tension, or one is told",
   CHECK(warnings_of_surface_tension(read(scene)).size() == 1);
   scene["time"] = {{"end", 1}, {"cfl", 0.5}};
   CHECK(warnings_of_surface_tension(read(scene)).empty());
-  CHECK(longest_step(read(scene)) == Approx(longest));
+  CHECK(step_from_rest(read(scene)) == Approx(longest));
   scene.erase("surface_tension");
   CHECK(!capillary_step(read(scene)));
 }

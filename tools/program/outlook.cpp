@@ -42,17 +42,20 @@ Drive drive_of(const Scene& scene, World& world) {
   return drive;
 }
 
-constexpr const char* of_rest = "waves of a liquid at rest";  // (E34)
-
 bool is_near(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); }
+
+/// Whether a step is no longer because waves would grow in a liquid at rest, (E34).
+bool is_for_rest(const Scene& scene, const Drive& drive, double step) {
+  const auto gravity = gravity_step(scene, drive.speed, drive.force);
+  return gravity && is_near(step, *gravity);
+}
 
 /// Why a step that the CFL number has chosen is no longer.
 std::string limit_of(const Scene& scene, const Drive& drive, double step) {
   if (scene.time.max_step && is_near(step, *scene.time.max_step)) return "max_step";
   if (const auto capillary = capillary_step(scene); capillary && is_near(step, *capillary))
     return "waves of surface tension, (E116)";
-  if (const auto gravity = gravity_step(scene, drive.speed, drive.force); gravity && is_near(step, *gravity))
-    return of_rest;
+  if (is_for_rest(scene, drive, step)) return "waves of a liquid at rest";
   if (is_near(step, scene.output.every)) return "the time from one frame to the next";
   const double distance = scene.time.cfl * scene.grid.spacing;
   const std::string cells = fmt::format("CFL number {}", scene.time.cfl);
@@ -82,8 +85,8 @@ void foresee_step(const Scene& scene, World& world, const Drive& drive, Outlook&
     return;
   }
   outlook.limit = limit_of(scene, drive, outlook.step);
-  // Waves of a liquid at rest limit less once it falls.
-  const double limit = outlook.limit == of_rest
+  // That limits less once the liquid falls.
+  const double limit = is_for_rest(scene, drive, outlook.step)
                            ? gravity_step(scene, outlook.speed_of_fall, drive.force).value_or(outlook.step)
                            : outlook.step;
   const double later = std::min(limit, step_of_cfl(scene, outlook.speed_of_fall, 0));
